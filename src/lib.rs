@@ -54,23 +54,23 @@
 //! second time without the IR, and all else is held against them. ARCHITECTURE.md says more.
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
-// The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// foreign < num, cite, names, records, digest < ir, optics < spectra < materials, methods, targets < effects, reference, command_line < fit < emit < exchange, lut < flavours < gpu, process, raster < verify, cost < overdraw, stability < audit, budget, bake, reproduce < chart < scene < gallery, plan < report < app
-
-pub mod app;
-pub mod generator;
-pub mod lab;
-pub mod language;
+// The wings, in the order of imports.
 pub mod physics;
+pub mod language;
+pub mod generator;
+#[cfg(feature = "lab")]
+pub mod lab;
+#[cfg(feature = "pictures")]
 pub mod pictures;
-pub mod report;
+#[cfg(feature = "cli")]
+pub mod cli;
 
 // What build scripts use. The test `snapshots::api` lists it.
-pub use app::artifact::Artifact;
-pub use app::error::Error;
-pub use app::generate::{Generated, generate, generate_single};
-pub use app::request::{Materials, Request, Source};
-pub use app::write::write_file;
+pub use generator::error::Error;
+pub use generator::generate::{Generated, generate, generate_single};
+pub use generator::output::artifact::Artifact;
+pub use generator::output::write::write_file;
+pub use generator::request::{Materials, Request, Source};
 pub use physics::num::Precision;
 
 /// The documents' Rust is compiled as a test.

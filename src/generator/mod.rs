@@ -1,11 +1,18 @@
 //! From a material to files: fits, functions, tables, adapters for engines, formats of tools.
-
-#[cfg(feature = "cli")]
 pub mod bake;
 pub mod command_line;
 pub mod emit;
+pub mod envelope;
+pub mod error;
 pub mod exchange;
+pub mod fault;
 pub mod fit;
 pub mod flavours;
+pub mod generate;
 pub mod lut;
+pub mod output;
 pub mod reference;
+pub mod request;
+
+pub use error::Error;
+pub use generate::{Generated, generate};

@@ -1,8 +1,18 @@
 //! Scenes that show what functions do, and plans for a scene's materials.
-
-#[cfg(feature = "cli")]
+pub mod cost_markdown;
+pub mod cost_page;
+pub mod figure_chart;
+pub mod frontier;
 pub mod gallery;
-#[cfg(feature = "cli")]
+pub mod headline;
+mod html;
+pub mod markdown;
+pub mod material_sheet;
+pub mod pixels;
 pub mod plan;
-#[cfg(feature = "cli")]
+pub mod plot;
+pub mod png;
 pub mod scene;
+pub mod stability_map;
+pub mod stability_markdown;
+pub mod table;

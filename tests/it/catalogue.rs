@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
-use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
-use fresnel_gen::app::{Artifact, Request, generate};
+use fresnel_gen::generator::generate::catalogue::{add_catalogue, derived_rows};
+use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::generator::request::Request;
+use fresnel_gen::generator::generate;
 use fresnel_gen::generator::emit::{catalogue_record, recorded_catalogue};
 use fresnel_gen::language::ir::{Column, Value as Evaluated, evaluate};
-use fresnel_gen::language::methods;
-use fresnel_gen::language::targets;
+use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::spectra::Gamut;
 use serde_json::Value;
 
@@ -151,7 +152,6 @@ fn the_buffer_holds_the_array() {
 }
 
 /// The texels of a file, as numbers of 32 bits.
-#[cfg(feature = "cli")]
 fn texels(path: &str, format: ktx2::Format) -> Vec<f32> {
     let bytes = shared(path);
     let reader = ktx2::Reader::new(&bytes).unwrap();
@@ -179,7 +179,6 @@ fn texels(path: &str, format: ktx2::Format) -> Vec<f32> {
     texels
 }
 
-#[cfg(feature = "cli")]
 #[test]
 fn the_textures_hold_the_array() {
     let (array, _) = array_of_wgsl();
@@ -231,7 +230,6 @@ pub fn evaluated(method: &str, coefficients: &[f32], cosines: &[f64]) -> Vec<[f6
 }
 
 /// The coefficients of these materials of the catalogue, with their methods and rows.
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub fn rows_named(names: &[&str]) -> Vec<(usize, String, Vec<f32>)> {
     let (json, _) = files();
     let materials = json["materials"].as_array().unwrap();

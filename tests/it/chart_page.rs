@@ -2,7 +2,6 @@
 
 use serde_json::Value;
 
-#[cfg(feature = "gpu")]
 use crate::audit;
 use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
@@ -133,7 +132,6 @@ fn a_browser_shows_every_point_and_asks_nobody() {
     );
 }
 
-#[cfg(feature = "gpu")]
 #[test]
 fn a_users_function_is_one_more_point() {
     let place = audit::thesis::place();

@@ -3,8 +3,7 @@
 
 use std::path::Path;
 
-use fresnel_gen::app::request::DEFAULT_MATERIALS;
-use fresnel_gen::app::{Materials, Request};
+use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request};
 use fresnel_gen::generator::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::verify::{code_error, digits_lost};

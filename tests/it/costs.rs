@@ -5,15 +5,13 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::lab::cost::{
-    CostBasis, CostFigures, CostRow, CostSource, CostedFunction, FAMILIES, KnownCost, cost_rows,
-    find, functions, functions_of_effect, known_cost, records,
-};
+use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::lab::cost::{CostBasis, CostFigures, CostRow, CostSource, CostedFunction, FAMILIES, KnownCost, cost_rows, find, functions, functions_of_effect, known_cost, records};
 use fresnel_gen::language::effects::{self, USUAL_METHOD};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::Precision;
-use fresnel_gen::report::cost::{cost_document, cost_page};
+use fresnel_gen::pictures::cost_markdown::cost_document;
+use fresnel_gen::pictures::cost_page::cost_page;
 
 /// The materials whose functions are recorded: those that `tests/costs` names.
 const MATERIALS: [&str; 6] = ["bk7", "diamond", "gold", "platinum", "silver", "water"];

@@ -9,7 +9,6 @@ static RECORD: LazyLock<Vec<Line>> =
     LazyLock::new(|| records::rows(include_str!("../../data/records/exhaustive.csv")));
 
 /// A line of the record. The test that runs functions needs the graphics stack; it reads the fields that others do not.
-#[cfg_attr(not(all(feature = "cli", feature = "gpu")), allow(dead_code))]
 #[derive(Deserialize)]
 pub struct Line {
     pub method: String,

@@ -5,7 +5,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use fresnel_gen::app::{Error, Materials, Request, Source, generate};
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::generate;
 use fresnel_gen::generator::emit::{Bounds, Emitted, Naming, specialised_function};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::verify::{HalfTrial, halves, library_half_error};
@@ -255,7 +257,7 @@ fn a_method_that_cannot_be_saved_is_refused_by_name_unless_forced() {
             panic!("{} is written", method.name);
         };
         let words = error.to_string();
-        assert_eq!(error.exit_code(), 2);
+        assert_eq!(fresnel_gen::cli::Error::from(error).exit_code(), 2);
         for part in [method.name, why, "--force"] {
             assert!(words.contains(part), "{words}");
         }
@@ -325,7 +327,7 @@ fn half_precision_stands_beside_single_precision() {
     }
     for artifact in &single.artifacts {
         assert!(!artifact.path.contains("_f16"));
-        let entry = fresnel_gen::app::manifest::Entry::of(artifact);
+        let entry = fresnel_gen::generator::output::manifest::Entry::of(artifact);
         assert!(single.scope.owns(&entry) && !half.scope.owns(&entry));
     }
 }

@@ -15,7 +15,6 @@ pub fn families() -> impl Iterator<Item = &'static str> {
 }
 
 /// What a published function costs on a family. The test that measures needs compilers; it reads the field that others do not.
-#[cfg_attr(not(all(feature = "cli", feature = "gpu")), allow(dead_code))]
 #[derive(Clone, Debug, Deserialize)]
 pub struct PublishedCost {
     /// The family.

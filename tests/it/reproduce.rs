@@ -6,10 +6,8 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::lab::reproduce::{
-    ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis,
-};
-use fresnel_gen::report::reproduce::figure_chart;
+use fresnel_gen::lab::reproduce::{ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis};
+use fresnel_gen::pictures::figure_chart::figure_chart;
 
 /// The thesis's million angles: the figures must come out to its printed digit.
 static TABLES: LazyLock<Reproduction> =
@@ -432,12 +430,12 @@ fn a_missing_figure_is_null_with_a_reason() {
 }
 
 /// The command `reproduce`.
-#[cfg(feature = "cli")]
 mod program {
     use clap::Parser;
-    use fresnel_gen::app::Error;
-    use fresnel_gen::app::args::Cli;
-    use fresnel_gen::app::command::{self, Output};
+    use fresnel_gen::cli::Error;
+    use fresnel_gen::cli::args::Cli;
+    use fresnel_gen::cli::command;
+use fresnel_gen::cli::command::Output;
 
     fn command(arguments: &[&str]) -> Result<Output, Error> {
         let start = ["fresnel-gen", "reproduce"];

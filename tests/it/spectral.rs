@@ -3,14 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::generator::fit;
-use fresnel_gen::generator::reference;
+use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::{fit, reference};
 use fresnel_gen::language::ir::{Value, evaluate};
 use fresnel_gen::language::methods;
-use fresnel_gen::physics::materials::{
-    self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions,
-};
+use fresnel_gen::physics::materials::{self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions};
 use fresnel_gen::physics::optics::cosine;
 use fresnel_gen::physics::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
 

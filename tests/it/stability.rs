@@ -8,7 +8,7 @@ use fresnel_gen::lab::stability::{Failure, StabilityRow, scan};
 use fresnel_gen::language::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::records;
-use fresnel_gen::report::stability::stability_document;
+use fresnel_gen::pictures::stability_markdown::stability_document;
 use serde::Deserialize;
 
 /// All methods scanned, once for all tests.
@@ -46,12 +46,11 @@ fn the_document_is_what_the_scan_says() {
     );
 }
 
-#[cfg(feature = "pictures")]
 #[test]
 fn the_maps_of_the_document_are_what_is_drawn() {
     use fresnel_gen::lab::stability::maps;
-    use fresnel_gen::report::png::png;
-    use fresnel_gen::report::stability::heat_map;
+    use fresnel_gen::pictures::png::png;
+    use fresnel_gen::pictures::stability_map::heat_map;
 
     for (method, over) in [("schlick", "eta"), ("dielectric_textbook", "eta")] {
         let maps = maps(methods::find(method).unwrap(), Precision::F32);

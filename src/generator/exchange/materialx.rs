@@ -11,9 +11,8 @@ use crate::generator::emit::{XmlDocument, comment_lines};
 use crate::physics::spectra::Space;
 
 use super::format::{Format, Notes};
-use super::head;
+use super::{head, openpbr};
 use super::model::Model;
-use super::openpbr;
 use super::sheet::{Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial};
 

@@ -96,20 +96,14 @@ impl Format {
     /// The file of a picture, whose depth is this format's.
     ///
     /// # Errors
-    /// The encoder refuses, or is not part of this build (EXR and PNG without the feature `cli`).
+    /// The encoder refuses.
     pub fn encode(self, picture: &Picture) -> Result<Vec<u8>, Error> {
         match self {
-            #[cfg(feature = "cli")]
             Format::ExrHalf | Format::ExrFloat => {
                 super::exr::exr(picture).map_err(|why| self.refused(why))
             }
-            #[cfg(feature = "cli")]
             Format::Png8 | Format::Png16 => {
                 super::png::png(picture).map_err(|why| self.refused(why))
-            }
-            #[cfg(not(feature = "cli"))]
-            Format::ExrHalf | Format::ExrFloat | Format::Png8 | Format::Png16 => {
-                Err(self.refused("it needs the feature `cli`".to_owned()))
             }
             Format::Ktx2 => Ok(super::ktx2::ktx2(picture)),
             Format::C => Ok(super::text::c(picture).into_bytes()),

@@ -141,7 +141,6 @@ impl Picture {
     }
 
     /// The integers of a depth that has them.
-    #[cfg(feature = "cli")]
     pub(super) fn integers(&self) -> impl Iterator<Item = u16> {
         let largest = self.depth.largest().unwrap_or(0.0);
         let channels = self.texels.iter().enumerate().flat_map(|(i, texel)| {

@@ -1,7 +1,5 @@
 //! Error against cost as data: every method a point, and a user's function where there is one, and the frontier of those that nothing
 //! beats in both. Pages and pictures of it stand in `report/frontier/`.
-
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod audited;
 mod costs;
 mod curves;
@@ -16,8 +14,6 @@ use serde::Serialize;
 use crate::generator::fit::MethodErrors;
 use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::language::methods::{Contract, Method};
-
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use audited::charted_function;
 pub use curves::{Reflectances, exact_and_approximated};
 pub use data::{chart_data, cost_names};

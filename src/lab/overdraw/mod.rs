@@ -17,37 +17,26 @@
 //!
 //! A software device shares the processor with all other programs. There the clock is the processor time of the process,
 //! which does not include other programs: with four busy programs on two cores, shares by timestamps are wrong by half.
-
-#[cfg(feature = "gpu")]
 mod clock;
-#[cfg(feature = "gpu")]
 mod drawing_device;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod drawing_worker;
 mod error;
 mod figure;
 mod functions;
 mod measure;
 mod plan;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod protocol;
-#[cfg(feature = "gpu")]
+pub mod request;
 mod row;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod serve;
 mod times;
-
-#[cfg(feature = "gpu")]
 pub use drawing_device::{DeviceFacts, DrawingDevice};
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use drawing_worker::DrawingWorker;
 pub use error::Error;
 pub use figure::{Noise, OverdrawFigure};
 pub use functions::{LibraryMaterials, TimedFunctions};
 pub use measure::{Clock, Draw, DrawingEffort, MeasuredDrawings, Reading, Round, Stop, measure};
 pub use plan::{Drawing, DrawingPlan, DrawnChain, TimedFunction, usual_operations};
-#[cfg(feature = "gpu")]
 pub use row::{TimeRow, time_rows};
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;
 pub use times::{Time, times};

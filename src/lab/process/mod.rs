@@ -5,23 +5,15 @@
 //! What requests and responses are, each room says in types of its own.
 
 mod error;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod inbox;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod pool;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod surroundings;
 mod tools;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod worker;
 
 pub use error::Error;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use inbox::Inbox;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use pool::{Pool, Task};
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use surroundings::Surroundings;
 pub use tools::{TEMPORARY, beside};
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub use worker::{Launch, Silence, Worker};

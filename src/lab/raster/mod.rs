@@ -14,11 +14,9 @@
 mod body;
 mod camera;
 mod draw;
-#[cfg(feature = "meshes")]
 mod ears;
 mod histogram;
 mod mesh;
-#[cfg(feature = "meshes")]
 mod obj;
 mod painted;
 mod rendered_error;
@@ -30,11 +28,8 @@ pub use camera::{Camera, Lens, Turntable, rotated};
 pub use draw::{Frame, SurfacePoint, draw, surface_points, surface_points_of};
 pub use histogram::{BINS, CosineHistogram};
 pub use mesh::{Mesh, Vertex};
-#[cfg(feature = "meshes")]
 pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
 pub use painted::{MAGNIFIED, Painted};
-pub use rendered_error::{
-    RelativeErrors, RenderedError, drawn_errors, mean_relative, rendered_error,
-};
+pub use rendered_error::{RelativeErrors, RenderedError, drawn_errors, mean_relative, rendered_error};
 pub use row::{ChannelErrors, SceneErrorRow};
 pub use shown::{Shown, shown};

@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+use super::merge::MergeFault;
+use crate::physics::materials::FileFault;
+
 /// Why nothing can be verified as it was asked for.
 #[derive(Debug, Error)]
 pub enum Error {
@@ -10,4 +13,10 @@ pub enum Error {
         "--exhaustive runs functions specialised to a material in WGSL: name both, and leave --target out or name wgsl"
     )]
     NothingExhaustive,
+    /// Reports of shards that are not those of one run.
+    #[error(transparent)]
+    Merge(#[from] Box<MergeFault>),
+    /// A report that is no report.
+    #[error(transparent)]
+    File(#[from] FileFault),
 }

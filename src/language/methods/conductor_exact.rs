@@ -237,7 +237,8 @@ fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::limits::{check, value};
+    use super::super::limits::check;
+use super::super::limits::value;
     use super::METHOD;
 
     #[test]

@@ -79,7 +79,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::limits::{check, value};
+    use super::super::limits::check;
+use super::super::limits::value;
     use super::{METHOD, conductor_exact};
 
     #[test]

@@ -22,8 +22,8 @@ mod metric;
 mod picture_error;
 mod pixels;
 mod planned;
-#[cfg(feature = "gpu")]
 mod proof;
+pub mod report;
 mod request;
 mod row;
 mod scene_file;
@@ -40,7 +40,6 @@ pub use metric::{Metric, Screen};
 pub use picture_error::SHARE;
 pub use pixels::{FramePixels, MappedMaterial, ScenePixel};
 pub use planned::{JudgedCandidate, JudgedMaterial, Judgement, PlanFault, PlannedMaterial, plan};
-#[cfg(feature = "gpu")]
 pub use proof::{ProofCase, prove};
 pub use request::{PlanRequest, PlanTruth};
 pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};

@@ -3,10 +3,8 @@
 
 mod body;
 mod camera;
-#[cfg(feature = "gpu")]
 mod caustics;
 mod compare;
-#[cfg(feature = "gpu")]
 mod draw;
 mod environment;
 mod frame;
@@ -14,7 +12,6 @@ mod gem;
 mod glass;
 mod icc;
 mod light_file;
-#[cfg(feature = "gpu")]
 mod picture;
 mod pool;
 mod relief;
@@ -30,20 +27,13 @@ mod window;
 
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
-#[cfg(feature = "gpu")]
-pub use caustics::{
-    FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
-};
+pub use caustics::{FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics};
 pub use compare::{Comparison, Difference, compare};
-#[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
-pub use frame::{
-    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
-};
+pub use frame::{ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame};
 pub use glass::{Glass, Ray};
 pub use light_file::is_deep;
-#[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
 pub use relief::Relief;
 pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};

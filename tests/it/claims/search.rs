@@ -5,7 +5,7 @@
 //!
 //! In place of `all` stand names of methods, with commas between them. It takes a quarter of an hour for all.
 
-use fresnel_gen::app::{Materials, Request};
+use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::verify::{Random, library_code_error_at, random_medium};
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
 use fresnel_gen::physics::materials::Channels;

@@ -4,7 +4,7 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
-use fresnel_gen::app::{folder, lock};
+use fresnel_gen::generator::output::{folder, lock};
 
 use crate::not_checked;
 
@@ -130,7 +130,7 @@ fn all_outputs_are_written_or_none() {
         "f.glsl",
         "vec3 f(float c, vec3 f0) { return f0 + (1.0 - f0) * pow(1.0 - c, 5.0); }\n",
     );
-    let mut lines = vec![
+    let lines = [
         ("chart --material gold,platinum --out-dir o", "--json"),
         (
             "scene-error sphere --frames 1 --size 64x64 --material gold --method schlick --out-dir o",
@@ -142,13 +142,8 @@ fn all_outputs_are_written_or_none() {
         ("--target gles --method schlick --out-dir o", "--depfile"),
         ("--target gles --method schlick -o s.glsl", "--depfile"),
         ("materials show gold --svg gold.svg", "--json"),
+        ("cost --method schlick --material none --gpu gcn4 --out-dir o", "--json"),
     ];
-    if cfg!(feature = "gpu") {
-        lines.push((
-            "cost --method schlick --material none --gpu gcn4 --out-dir o",
-            "--json",
-        ));
-    }
     for (line, flag) in lines {
         place.refused(
             &format!("{line} {flag} /dev/full"),

@@ -6,9 +6,9 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-use fresnel_gen::app::artifact::sha256;
-use fresnel_gen::app::folder;
-use fresnel_gen::app::lock::{self, Lock};
+use fresnel_gen::generator::output::artifact::sha256;
+use fresnel_gen::generator::output::folder;
+use fresnel_gen::generator::output::lock::{self, Lock};
 use fresnel_gen::language::methods;
 
 use super::{MY_METAL, OUT, Place, contents};
@@ -202,7 +202,7 @@ fn binary_files_bear_the_mark() {
     fs::remove_file(place.path("manifest.json")).unwrap();
     let files = contents(&place.path(""));
     for (path, bytes) in &files {
-        assert!(fresnel_gen::app::ours::bears_mark(bytes), "{path}");
+        assert!(fresnel_gen::generator::output::ours::bears_mark(bytes), "{path}");
     }
     // Without a manifest the mark is what lets a run replace them.
     place.done(

@@ -2,10 +2,8 @@
 
 use std::fs;
 
-use fresnel_gen::app::depfile::depfile;
-use fresnel_gen::language::effects;
-use fresnel_gen::language::methods;
-use fresnel_gen::language::targets;
+use fresnel_gen::generator::output::depfile::depfile;
+use fresnel_gen::language::{effects, methods, targets};
 
 use super::{MY_METAL, OUT, PROGRAM, Place, contents};
 

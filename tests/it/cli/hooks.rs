@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use clap::Parser;
-use fresnel_gen::app::args::Cli;
+use fresnel_gen::cli::args::Cli;
 use serde_json::Value;
 
 use super::pipelines::path_with_program;
@@ -75,7 +75,6 @@ fn hooks_of_pre_commit_run() {
 }
 
 /// The machine may lack a graphics stack, which ends with 3.
-#[cfg(feature = "gpu")]
 #[test]
 fn the_hook_that_verifies_runs() {
     let hooks = yaml(".pre-commit-hooks.yaml");

@@ -3,10 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use fresnel_gen::app::generate::generate;
-use fresnel_gen::app::request::{Materials, Request, Source};
-use fresnel_gen::generator::exchange;
-use fresnel_gen::generator::flavours;
+use fresnel_gen::generator::generate::generate;
+use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::{exchange, flavours};
 use fresnel_gen::language::targets;
 
 use super::{MY_METAL, OUT, Place, Ran};
@@ -47,7 +46,6 @@ fn a_formula_that_explodes_is_refused_by_every_command() {
             );
         }
     }
-    #[cfg(feature = "gpu")]
     place.refused("cost --material bomb.toml --gpu gcn4", &["bomb.toml:7:13"]);
 }
 

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use clap::Parser;
-use fresnel_gen::app::args::Cli;
-use fresnel_gen::app::command;
+use fresnel_gen::cli::args::Cli;
+use fresnel_gen::cli::command;
 use fresnel_gen::physics::foreign::is_hidden;
 use serde_json::{Value, json};
 
@@ -281,7 +281,6 @@ fn plans_manifests_and_shards() {
             entry["functions"] = json!([{ "name": hostile, "method": hostile }]);
         }
         is_plain(&seen);
-        #[cfg(feature = "gpu")]
         for key in [
             "tool", "command", "version", "shards", "schema", "machine", "rows",
         ] {
@@ -508,14 +507,12 @@ fn reports_name_files_on_one_line() {
         "--out-dir",
         "scene",
     ]];
-    if cfg!(feature = "gpu") {
-        let junit = ["--junit", "j.xml", "--out-dir", "charts"];
-        for file in [shader, broken] {
-            runs.push([&["audit", file, "--material", table], &junit[..]].concat());
-        }
-        let verify = ["verify", "--material", table, "--target", "gles"];
-        runs.push([&verify[..], &["--method", "schlick"], &junit[..2]].concat());
+    let junit = ["--junit", "j.xml", "--out-dir", "charts"];
+    for file in [shader, broken] {
+        runs.push([&["audit", file, "--material", table], &junit[..]].concat());
     }
+    let verify = ["verify", "--material", table, "--target", "gles"];
+    runs.push([&verify[..], &["--method", "schlick"], &junit[..2]].concat());
     for words in runs {
         let ran = place.run_with(&words);
         assert!(matches!(ran.code, Some(0 | 1 | 3)), "{ran:?}");

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use fresnel_gen::app::{folder, lock, manifest};
+use fresnel_gen::generator::output::{folder, lock, manifest};
 
 use super::{OUT, Place, contents};
 

@@ -7,7 +7,6 @@ mod brought;
 mod budget;
 mod catalogue;
 mod chart;
-#[cfg(feature = "gpu")]
 mod cost;
 mod determinism;
 #[cfg(unix)]
@@ -38,14 +37,13 @@ mod shared_folders;
 mod single;
 mod stability;
 mod streams;
-#[cfg(feature = "gpu")]
 mod time;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use fresnel_gen::app::artifact::sha256;
+use fresnel_gen::generator::output::artifact::sha256;
 use serde_json::Value;
 use tempfile::TempDir;
 

@@ -2,9 +2,8 @@
 //! touched takes its own output alone, and a table of light takes all. `tests/run` builds the one for Cargo.
 
 use std::collections::BTreeSet;
-use std::env;
+use std::{env, fs};
 use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -171,7 +171,6 @@ fn the_page_shows_each_material_and_replaces_nothing_of_others() {
     );
 }
 
-#[cfg(feature = "gpu")]
 #[test]
 fn the_chosen_text_is_run_and_holds() {
     let place = Place::new();

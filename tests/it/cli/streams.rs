@@ -3,8 +3,7 @@
 use std::io::Read;
 use std::process::Stdio;
 
-use fresnel_gen::language::methods;
-use fresnel_gen::language::targets;
+use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::materials;
 
 use super::{MY_METAL, Place, Ran};

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::app::generate::generate_single;
-use fresnel_gen::app::{Materials, Request, Source};
+use fresnel_gen::generator::generate::generate_single;
+use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
 use fresnel_gen::language::targets::{self, Finish, Target, Validator};
 use fresnel_gen::physics::num::Precision;

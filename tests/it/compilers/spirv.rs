@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use fresnel_gen::app::Artifact;
+use fresnel_gen::generator::output::artifact::Artifact;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 

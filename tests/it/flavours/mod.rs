@@ -1,18 +1,16 @@
 //! Flavours: what a run writes and leaves alone, and each adapter in its host, or compiled where no host runs (`compiled`).
 
-#[cfg(all(unix, feature = "cli", feature = "gpu"))]
+#[cfg(unix)]
 mod bevy;
-#[cfg(feature = "compilers")]
 mod compiled;
-#[cfg(all(unix, feature = "cli", feature = "gpu"))]
+#[cfg(unix)]
 mod engines;
-#[cfg(all(unix, feature = "cli", feature = "gpu"))]
+#[cfg(unix)]
 mod godot;
-#[cfg(all(unix, feature = "cli", feature = "gpu"))]
+#[cfg(unix)]
 mod host;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod materialx;
-#[cfg(all(unix, feature = "cli", feature = "gpu"))]
+#[cfg(unix)]
 mod three;
 
 use std::collections::BTreeSet;

@@ -9,7 +9,7 @@ mod texts;
 use std::sync::OnceLock;
 
 use fresnel_gen::Materials;
-use fresnel_gen::app::request::{Request, Source};
+use fresnel_gen::generator::request::{Request, Source};
 use fresnel_gen::generator::reference::MaterialInMedium;
 
 use crate::cli::Place;

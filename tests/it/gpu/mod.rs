@@ -3,12 +3,10 @@
 
 mod agree;
 mod bounds;
-#[cfg(feature = "cli")]
 mod catalogue;
 mod contract;
 mod faults;
 mod stream;
-#[cfg(feature = "cli")]
 mod table;
 mod texture;
 

@@ -328,7 +328,6 @@ fn every_function_stands_at_its_error_and_cost() {
     assert_eq!(check_all(&place.path("")).len(), 2);
 }
 
-#[cfg(feature = "gpu")]
 #[test]
 fn bars_are_as_long_as_what_they_stand_for() {
     let place = Place::new();
@@ -336,7 +335,6 @@ fn bars_are_as_long_as_what_they_stand_for() {
     assert_eq!(check_all(&place.path("")), ["cost.html"]);
 }
 
-#[cfg(feature = "gpu")]
 #[test]
 fn a_users_function_stands_at_its_own_error_and_cost() {
     use crate::audit::{audit, thesis};

@@ -9,8 +9,8 @@ use fresnel_gen::language::ir::{Value, evaluate};
 use fresnel_gen::language::methods::{self, Class, Contract, Light, Method};
 use fresnel_gen::physics::materials::Channels;
 use fresnel_gen::physics::num::Precision;
-use fresnel_gen::report::png::png;
-use fresnel_gen::report::stability::heat_map;
+use fresnel_gen::pictures::png::png;
+use fresnel_gen::pictures::stability_map::heat_map;
 use roxmltree::Document;
 use tempfile::TempDir;
 

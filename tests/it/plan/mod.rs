@@ -4,7 +4,6 @@ mod gbuffer;
 mod gltf;
 mod gltf_seen;
 mod light_files;
-#[cfg(any(feature = "pictures", feature = "gpu"))]
 mod other_renderers;
 mod planned;
 mod scene_file;

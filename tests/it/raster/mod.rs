@@ -1,7 +1,6 @@
 //! Pictures drawn on the CPU: what geometry knows of their angles, and what follows for errors.
 
 mod errors;
-#[cfg(feature = "meshes")]
 pub mod obj;
 mod surface_points;
 

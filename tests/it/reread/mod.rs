@@ -4,14 +4,11 @@
 
 pub mod language;
 
-use fresnel_gen::app::{Materials, Request, generate};
-use fresnel_gen::generator::emit;
-use fresnel_gen::generator::fit;
-use fresnel_gen::generator::lut;
+use fresnel_gen::generator::request::{Materials, Request};
+use fresnel_gen::generator::{generate, emit, fit, lut};
 use fresnel_gen::lab::verify::nearest_half;
 use fresnel_gen::language::ir::{Checked, Texels, Ty, Value, evaluate};
-use fresnel_gen::language::methods;
-use fresnel_gen::language::targets;
+use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::num::{Half, Num, Precision};
 use language::{Program, Term};
 

@@ -7,8 +7,7 @@ use fresnel_gen::physics::records::rows;
 use fresnel_gen::pictures::scene::{self, Glass, RenderRow, sky};
 
 use super::{device, pictured};
-use crate::bless;
-use crate::records;
+use crate::{bless, records};
 
 const SIZE: u32 = 128;
 const HEAD: [&str; 12] = [

@@ -3,7 +3,6 @@
 //! nobody changes an interface without an entry there.
 
 mod api;
-#[cfg(feature = "cli")]
 mod json;
 mod signatures;
 

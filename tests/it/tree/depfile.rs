@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use fresnel_gen::app::depfile::depfile;
+use fresnel_gen::generator::output::depfile::depfile;
 use tempfile::TempDir;
 
 use crate::compilers::Tool;

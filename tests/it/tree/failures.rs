@@ -3,10 +3,10 @@
 use std::fs;
 use std::process::{Command, Stdio};
 
-use fresnel_gen::app::Error;
-use fresnel_gen::app::manifest::FILE;
-use fresnel_gen::app::scope::Scope;
-use fresnel_gen::app::tree::plan;
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::manifest::FILE;
+use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::tree::plan;
 use tempfile::TempDir;
 
 use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
@@ -38,7 +38,7 @@ fn a_manifest_that_is_not_ours_stops_the_run() {
         let (artifacts, scope) = run(&["gles"], &[], None);
         let fault = plan(dir.path(), &artifacts, &scope, &provenance()).unwrap_err();
         assert!(fault.to_string().contains(expected), "{fault}");
-        assert_eq!(fault.exit_code(), 2);
+        assert_eq!(fresnel_gen::cli::Error::from(fault).exit_code(), 2);
         assert_eq!(snapshot(dir.path()).len(), 1);
     }
 }

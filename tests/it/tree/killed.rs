@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use fresnel_gen::app::manifest::Manifest;
-use fresnel_gen::app::tree::plan;
-use fresnel_gen::app::{folder, lock, manifest, ours};
+use fresnel_gen::generator::output::manifest::Manifest;
+use fresnel_gen::generator::output::tree::plan;
+use fresnel_gen::generator::output::{folder, lock, manifest, ours};
 use tempfile::TempDir;
 
 use super::{Snapshot, big_tree, provenance, snapshot, write};

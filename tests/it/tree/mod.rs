@@ -1,6 +1,5 @@
 //! The output folder: what a run compares, writes, keeps and removes, and what is left when it fails or is killed.
 
-#[cfg(feature = "compilers")]
 mod depfile;
 mod failures;
 mod killed;
@@ -12,13 +11,13 @@ use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
-use fresnel_gen::app::Error;
-use fresnel_gen::app::artifact::Artifact;
-use fresnel_gen::app::lock::Lock;
-use fresnel_gen::app::manifest::{Input, Provenance};
-use fresnel_gen::app::scope::Scope;
-use fresnel_gen::app::tree::{TreePlan, plan};
-use fresnel_gen::app::write::{self, Written};
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::generator::output::lock::Lock;
+use fresnel_gen::generator::output::manifest::{Input, Provenance};
+use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::tree::{TreePlan, plan};
+use fresnel_gen::generator::output::write::{self, Written};
 use fresnel_gen::generator::emit::{Detail, FunctionsDetail, SeenDetail};
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,

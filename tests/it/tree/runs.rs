@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use fresnel_gen::app::Error;
-use fresnel_gen::app::artifact::sha256;
-use fresnel_gen::app::check::report;
-use fresnel_gen::app::lock::Lock;
-use fresnel_gen::app::manifest::FILE;
-use fresnel_gen::app::scope::Scope;
-use fresnel_gen::app::tree::{State, TreePlan, plan};
-use fresnel_gen::app::write as writer;
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::artifact::sha256;
+use fresnel_gen::generator::output::check::report;
+use fresnel_gen::generator::output::lock::Lock;
+use fresnel_gen::generator::output::manifest::FILE;
+use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::tree::{State, TreePlan, plan};
+use fresnel_gen::generator::output::write as writer;
 use tempfile::TempDir;
 
 use super::{artifact, provenance, put, run, silver, snapshot, whole, write};

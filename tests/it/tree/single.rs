@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use fresnel_gen::app::Error;
-use fresnel_gen::app::depfile::depfile;
-use fresnel_gen::app::write::write_file;
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::depfile::depfile;
+use fresnel_gen::generator::output::write::write_file;
 use tempfile::TempDir;
 
 use super::{put, snapshot};

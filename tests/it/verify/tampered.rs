@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use fresnel_gen::app::artifact::sha256;
+use fresnel_gen::generator::output::artifact::sha256;
 use serde_json::Value;
 
 use super::command::verify;

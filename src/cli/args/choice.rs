@@ -1,0 +1,212 @@
+//! Names on the command line, parsed to what they name.
+
+use core::fmt;
+
+use crate::generator::fault::RequestFault;
+use crate::generator::flavours::{self, Flavour};
+use crate::lab::cost::{FAMILIES, Family};
+use crate::language::effects::{self, Effect};
+use crate::language::methods::{self, Method};
+use crate::language::targets::{self, Target};
+use crate::physics::names::UnknownName;
+use crate::physics::num::Precision;
+
+/// A word of a list of names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Choice<T> {
+    /// `all` that there are.
+    All,
+    /// `none`, where nothing can be chosen too.
+    None,
+    /// A name, and what it names.
+    One(String, T),
+}
+
+impl<T> Choice<T> {
+    /// Whether these words mean all that there are: `all`, or nothing was said.
+    pub fn is_all(words: &[Choice<T>]) -> bool {
+        words.is_empty() || words.iter().any(|word| matches!(word, Choice::All))
+    }
+
+    /// Whether these words mean none of what they choose.
+    ///
+    /// # Errors
+    /// `none` stands beside another word.
+    pub fn is_none(words: &[Choice<T>], what: &str) -> Result<bool, RequestFault> {
+        let is_none = words.iter().any(|word| matches!(word, Choice::None));
+        if is_none && words.len() > 1 {
+            return Err(RequestFault::conflict(format!(
+                "`none` leaves all {what} out, so that no other can be named beside it"
+            )));
+        }
+        Ok(is_none)
+    }
+
+    /// What it names, where it is a name.
+    pub fn named(&self) -> Option<&T> {
+        match self {
+            Choice::One(_, named) => Some(named),
+            Choice::All | Choice::None => None,
+        }
+    }
+
+    /// Those of a list that these words mean, in the list's order.
+    pub fn chosen(
+        words: &[Choice<T>],
+        list: impl IntoIterator<Item = T>,
+        name: fn(&T) -> &'static str,
+    ) -> Vec<T> {
+        let is_named = |one: &T| {
+            let mut words = words.iter();
+            words.any(|word| matches!(word, Choice::One(word, _) if word == name(one)))
+        };
+        let is_all = Choice::is_all(words);
+        let list = list.into_iter();
+        list.filter(|one| is_all || is_named(one)).collect()
+    }
+}
+
+impl Choice<&'static Method> {
+    /// The methods that these words mean, sorted by name.
+    pub fn methods(words: &[Choice<&'static Method>]) -> Vec<&'static Method> {
+        Choice::chosen(words, methods::ALL.iter().copied(), |method| method.name)
+    }
+}
+
+impl<T> fmt::Display for Choice<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Choice::All => "all",
+            Choice::None => "none",
+            Choice::One(name, _) => name,
+        })
+    }
+}
+
+/// The parser of a flag whose values are names of a list.
+pub fn one_of<T: Copy>(
+    kind: &'static str,
+    list: impl IntoIterator<Item = T>,
+    name: fn(T) -> &'static str,
+) -> impl Fn(&str) -> Result<T, UnknownName> + Clone {
+    let list: Vec<(&str, T)> = list.into_iter().map(|one| (name(one), one)).collect();
+    move |word: &str| {
+        // Of a list in quotes, a blank after a comma.
+        let word = word.trim();
+        let found = list.iter().find(|(name, _)| *name == word);
+        let names = || list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+        found
+            .map(|(_, one)| *one)
+            .ok_or_else(|| UnknownName::new(kind, word, &names()))
+    }
+}
+
+/// The parser of a flag whose values are names of a list, or `all`.
+pub fn one_or_all<T: Copy>(
+    kind: &'static str,
+    list: impl IntoIterator<Item = T>,
+    name: fn(T) -> &'static str,
+) -> impl Fn(&str) -> Result<Choice<T>, UnknownName> + Clone {
+    let named = list.into_iter().map(|one| (name(one), Some(one)));
+    let words: Vec<(&str, Option<T>)> = named.chain([("all", None)]).collect();
+    let parse = one_of(kind, words, |(name, _)| name);
+    move |word: &str| {
+        Ok(match parse(word)? {
+            (name, Some(one)) => Choice::One(name.to_owned(), one),
+            (_, None) => Choice::All,
+        })
+    }
+}
+
+/// A parser that takes capitals for small letters.
+pub fn in_any_case<T, E>(
+    parse: impl Fn(&str) -> Result<T, E> + Clone,
+) -> impl Fn(&str) -> Result<T, E> + Clone {
+    move |word: &str| parse(&word.to_lowercase())
+}
+
+/// The parser of a method's name, or `all`.
+pub fn method_or_all() -> impl Fn(&str) -> Result<Choice<&'static Method>, UnknownName> + Clone {
+    one_or_all("method", methods::ALL.iter().copied(), |method| method.name)
+}
+
+/// The parser of an effect's name, or `all`.
+pub fn effect_or_all() -> impl Fn(&str) -> Result<Choice<&'static Effect>, UnknownName> + Clone {
+    one_or_all("effect", effects::ALL.iter().copied(), |effect| effect.name)
+}
+
+/// The parser of a target's name, or `all`.
+pub fn target_or_all() -> impl Fn(&str) -> Result<Choice<&'static Target>, UnknownName> + Clone {
+    one_or_all("target", targets::ALL.iter().copied(), |target| target.name)
+}
+
+/// The parser of a flavour's name.
+pub fn flavour() -> impl Fn(&str) -> Result<&'static Flavour, UnknownName> + Clone {
+    one_of("flavour", flavours::ALL.iter().copied(), |flavour| {
+        flavour.name
+    })
+}
+
+/// The parser of a precision's name.
+pub fn precision() -> impl Fn(&str) -> Result<Precision, UnknownName> + Clone {
+    one_of("precision", Precision::ALL, Precision::name)
+}
+
+/// The parser of the name of a family of GPUs.
+pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone {
+    one_of("GPU family", FAMILIES, |family| family.name)
+}
+
+/// The parser of the name of a family of GPUs, or `all`.
+pub fn family_or_all() -> impl Fn(&str) -> Result<Choice<&'static Family>, UnknownName> + Clone {
+    one_or_all("GPU family", FAMILIES, |family| family.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::lut::{Format, TableAxis};
+    use crate::physics::spectra::{Gamut, Observer, Space};
+
+    #[track_caller]
+    fn check<T: Copy + PartialEq + fmt::Debug, const N: usize>(
+        all: [T; N],
+        name: fn(T) -> &'static str,
+    ) {
+        let parse = one_of("name", all, name);
+        for one in all {
+            assert_eq!(parse(name(one)), Ok(one));
+        }
+        assert!(parse("other").is_err());
+    }
+
+    #[test]
+    fn names_are_found_again() {
+        check(Space::ALL, Space::name);
+        check(Observer::ALL, Observer::name);
+        check(Gamut::ALL, Gamut::name);
+        check(TableAxis::ALL, TableAxis::name);
+        check(Format::ALL, Format::name);
+        check(Precision::ALL, Precision::name);
+    }
+
+    #[test]
+    fn all_and_nothing_mean_all() {
+        let parse = one_or_all("precision", Precision::ALL, Precision::name);
+        let chosen = |words: &[&str]| {
+            let words: Vec<_> = words.iter().map(|word| parse(word).unwrap()).collect();
+            Choice::chosen(&words, Precision::ALL, |one| one.name())
+        };
+        assert_eq!(chosen(&[]), Precision::ALL);
+        assert_eq!(chosen(&["f16", "all"]), Precision::ALL);
+        assert_eq!(chosen(&["f16", "f32", "f16"]), Precision::ALL);
+        assert_eq!(chosen(&["f16"]), [Precision::F16]);
+    }
+
+    #[test]
+    fn none_stands_alone() {
+        let none: [Choice<()>; 2] = [Choice::None, Choice::All];
+        assert_eq!(Choice::is_none(&none[..1], "materials"), Ok(true));
+        assert!(Choice::is_none(&none, "materials").is_err());
+    }
+}

@@ -1,0 +1,102 @@
+//! The parameters of a material for people.
+
+use crate::generator::fit::{ColourErrors, GreyTint, MaterialParams, MeasuredSpread, rounded_up};
+use crate::physics::foreign::one_line;
+use crate::physics::materials::Material;
+
+use crate::pictures::table;
+
+/// The parameters of a material in a medium, and how well each is known.
+pub fn params_text(
+    of_material: &MaterialParams,
+    material: &Material,
+    medium: Option<&Material>,
+) -> String {
+    let params = &of_material.params;
+    let row = |name: &str, values: [f64; 3], what: &str| {
+        let mut cells = channel_cells(name, values);
+        cells.push(what.to_owned());
+        cells
+    };
+    let rows = [
+        row("F0", params.f0, "at 0 degrees"),
+        row("F82", params.f82, "at 81.79 degrees"),
+        row(
+            "F82 tint",
+            params.f82_tint,
+            "F82 over Schlick's value there",
+        ),
+        row("F90", params.f90, "at 90 degrees"),
+        row("average", params.average, "hemispherical reflectance"),
+        row("reflectivity", params.reflectivity, "Gulbrandsen's r"),
+        row("edge tint", params.edge_tint, "Gulbrandsen's g"),
+        row("n", params.n, &params.nk_by.join(", ")),
+        row("k", params.k, ""),
+    ];
+    let mut lines = vec![
+        format!("{}: {}", material.name, one_line(&material.summary)),
+        of_material.truth.clone(),
+    ];
+    lines.extend(of_material.remark.map(str::to_owned));
+    lines.extend(medium.map(|medium| format!("in {}: n and k are relative to it", medium.name)));
+    let held = of_material.extrapolated.iter();
+    lines.extend(held.map(|held| format!("extrapolated: {held}")));
+    lines.push(String::new());
+    lines.push(table::text_table(&["", "red", "green", "blue", ""], &rows));
+    let number =
+        |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.5}"));
+    lines.push(format!(
+        "its own index at the d line {}, Abbe number {}",
+        number(of_material.ior_d),
+        number(of_material.abbe)
+    ));
+    lines.push(grey_tint_line(&of_material.grey_f82_tint));
+    lines.extend(of_material.colour_error.iter().flat_map(colour_error_lines));
+    lines.extend(spread_lines(&of_material.spread));
+    lines.join("\n") + "\n"
+}
+
+fn grey_tint_line(grey: &GreyTint) -> String {
+    format!(
+        "one F82 tint for all channels {:.5}: error at most {} (at {:.2} degrees), Schlick's {}",
+        grey.tint,
+        rounded_up(grey.max_abs),
+        libm::acos(grey.worst_cos).to_degrees(),
+        rounded_up(grey.schlick_max_abs)
+    )
+}
+
+fn channel_cells(name: &str, values: [f64; 3]) -> Vec<String> {
+    let numbers = values.map(|value| format!("{value:.5}"));
+    [name.to_owned()].into_iter().chain(numbers).collect()
+}
+
+fn colour_error_lines(errors: &ColourErrors) -> [String; 4] {
+    let rows = errors.rows.iter().map(|row| {
+        let cells = row.delta_e2000.map(|error| format!("{error:.2}"));
+        [row.illuminant.clone()].into_iter().chain(cells).collect()
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    [
+        String::new(),
+        "Colour error of three channels in place of a spectrum: Delta E 2000 after 1, 2 and 3 bounces under another light.".to_owned(),
+        "No function of three channels avoids it. Under the light that the functions are made for, one bounce has no colour error: only the model error is seen.".to_owned(),
+        table::text_table(&["light", "1", "2", "3"], &rows),
+    ]
+}
+
+fn spread_lines(spread: &MeasuredSpread) -> Vec<String> {
+    if spread.others.is_empty() {
+        return Vec::new();
+    }
+    let others = spread.others.iter();
+    let mut rows: Vec<Vec<String>> = others
+        .map(|other| channel_cells(&other.name, other.f0))
+        .collect();
+    rows.push(channel_cells("least of all", spread.f0_min));
+    rows.push(channel_cells("most of all", spread.f0_max));
+    vec![
+        "How well it is known: F0 by the other measurements".to_owned(),
+        table::text_table(&["", "red", "green", "blue"], &rows),
+    ]
+}

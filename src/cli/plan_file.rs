@@ -1,0 +1,158 @@
+//! A plan that `plan --json` wrote, read back: the request for exactly its functions.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::generator::emit::FunctionForm;
+use crate::language::methods::{self, Method};
+use crate::physics::foreign::Foreign;
+use crate::physics::materials::{self, FileFault};
+use crate::physics::num::Precision;
+use crate::physics::spectra::Space;
+use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
+use crate::generator::envelope::{SCHEMA, TOOL};
+
+use crate::cli::args::MaterialName;
+use crate::cli::error::Error;
+use crate::generator::request::loaded::load;
+use crate::generator::error::unknown;
+use crate::generator::request::{Materials, Request, source};
+
+/// The beginning of the command of a plan.
+const COMMAND: &str = "plan";
+
+/// The request for a plan's functions: each material's own, and library files.
+///
+/// # Errors
+/// The file cannot be read, is no plan, or names what does not exist.
+pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Request, Error> {
+    let plan = read(file)?;
+    let mut sources = Vec::new();
+    let mut chosen = BTreeMap::new();
+    let mut library = BTreeSet::new();
+    for (place, row) in plan.rows.iter().enumerate() {
+        let at_row = |error: Error| Error::usage(format!(
+                "{}: row {} ({}): {error}",
+                crate::physics::foreign::path(&file),
+                place + 1,
+                Foreign(&row.material)
+            ));
+        let method = method(row).map_err(at_row)?;
+        if row.form != FunctionForm::Specialised {
+            library.insert(row.method.clone());
+            continue;
+        }
+        let material = MaterialName::parse(&row.material).map_err(Error::from);
+        let name = material.map_err(at_row)?;
+        check_place(file, &name, allowed).map_err(at_row)?;
+        let source = name.source().map_err(at_row)?;
+        let loaded = load(&source).map_err(|fault| at_row(fault.into()))?;
+        let name = loaded.material.name;
+        if chosen.insert(name, method.name).is_some() {
+            let what =
+                "another row gives this material a function; a plan has one for each".to_owned();
+            return Err(at_row(Error::usage(what)));
+        }
+        sources.push(source);
+    }
+    let mut viewing = request.viewing.clone();
+    viewing.integration.space = space(&plan)?;
+    Ok(Request {
+        methods: library.into_iter().collect(),
+        materials: match sources.is_empty() {
+            true => Materials::None,
+            false => Materials::These(sources),
+        },
+        chosen,
+        viewing,
+        precision: precision(file, &plan)?,
+        ..request
+    })
+}
+
+/// Refuses a material's file that a plan must not name.
+fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<(), Error> {
+    let Some(path) = name.path() else {
+        return Ok(());
+    };
+    let checked = source::check_below(plan, Path::new(path), allowed);
+    checked.map_err(|what| Error::usage(what))
+}
+
+/// The method of a row: one that plans choose, in a form that they choose.
+fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
+    let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
+    let method = methods::find(&row.method);
+    let method = method.ok_or_else(|| unknown("method", &row.method, &names))?;
+    let forms = [
+        FunctionForm::Specialised,
+        FunctionForm::Library,
+        FunctionForm::Scalar,
+    ];
+    if !is_plannable(method) || !forms.contains(&row.form) {
+        let what = format!(
+            "no plan chooses `{}` as a function that is {}",
+            method.name,
+            row.form.name()
+        );
+        return Err(Error::usage(what));
+    }
+    Ok(method)
+}
+
+/// The paths of material files that a plan names.
+///
+/// # Errors
+/// As [`planned`].
+pub fn material_paths(file: &Path) -> Result<Vec<String>, Error> {
+    let rows = read(file)?.rows.into_iter();
+    let own = rows.filter(|row| row.form == FunctionForm::Specialised);
+    Ok(own
+        .map(|row| row.material)
+        .filter(|material| materials::source(material).is_none())
+        .collect())
+}
+
+fn read(file: &Path) -> Result<PlanFile, Error> {
+    let text = source::text(file)?;
+    let fault = |line: usize, column: usize, what: String| FileFault {
+        file: file.display().to_string(),
+        line: line.max(1),
+        column: column.max(1),
+        what,
+    };
+    let made_by = "`fresnel-gen plan --json FILE` makes one";
+    let plan: PlanFile = serde_json::from_str(&text).map_err(|error| {
+        let (line, column) = (error.line(), error.column());
+        let error = error.to_string();
+        let why = error.split(" at line ").next().unwrap_or_default();
+        let what = format!("this is no plan: {why}; {made_by}");
+        fault(line, column, what)
+    })?;
+    let is_ours = plan.tool == TOOL && plan.schema == SCHEMA;
+    let is_plan = plan.command.split(' ').next() == Some(COMMAND);
+    if !is_ours || !is_plan || plan.rows.is_empty() {
+        let what = format!("this is no plan with functions; {made_by}");
+        return Err(fault(1, 1, what).into());
+    }
+    Ok(plan)
+}
+
+fn space(plan: &PlanFile) -> Result<Space, Error> {
+    let found = Space::ALL
+        .into_iter()
+        .find(|space| space.name() == plan.space);
+    found.ok_or_else(|| unknown("space", &plan.space, &Space::ALL.map(Space::name)).into())
+}
+
+/// The one precision of a plan.
+fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
+    let first = plan.rows[0].precision;
+    match plan.rows.iter().all(|row| row.precision == first) {
+        true => Ok(first),
+        false => Err(Error::usage(format!(
+                "{}: its functions compute in different precisions; a plan has one",
+                crate::physics::foreign::path(&file)
+            ))),
+    }
+}

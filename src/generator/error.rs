@@ -1,0 +1,198 @@
+//! What can go wrong between the artifacts and the disk: each error names the path, the fault and the way out.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::generator::fault::RequestFault;
+use crate::generator::{emit, lut};
+use crate::physics::foreign::{self, Foreign, one_line};
+use crate::physics::materials;
+use crate::physics::names::UnknownName;
+
+/// A fault of the output folder, or of what was to be put there.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A name that does not exist.
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
+    /// A fault of the request that several commands know.
+    #[error(transparent)]
+    Request(#[from] RequestFault),
+    /// A request that contradicts itself or cannot be met.
+    #[error("{}", one_line(what))]
+    Usage {
+        /// What was wrong, and what is allowed.
+        what: String,
+    },
+    /// Something that this takes is not here.
+    #[error("{}", one_line(what))]
+    Lacking {
+        /// What is missing, and how to get it.
+        what: String,
+    },
+    /// A material that is not known where it is looked at.
+    #[error(transparent)]
+    Unseen(#[from] materials::Unseen),
+    /// A file that the user named cannot be read.
+    #[error("cannot read {}: {source}", foreign::path(path))]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A material file with a fault.
+    #[error(transparent)]
+    Material(#[from] materials::FileFault),
+    /// Emission refused.
+    #[error(transparent)]
+    Emit(#[from] emit::Error),
+    /// An adapter cannot be written.
+    #[error(transparent)]
+    Flavour(#[from] crate::generator::flavours::Error),
+    /// A table cannot be made.
+    #[error(transparent)]
+    Lut(#[from] lut::Error),
+    /// A table cannot be baked.
+    #[error(transparent)]
+    Bake(#[from] crate::generator::bake::Error),
+    /// An artifact's path cannot be used.
+    #[error(
+        "the output path `{}` cannot be used: {}",
+        Foreign(path),
+        one_line(reason)
+    )]
+    Path {
+        /// The path, relative to the output folder.
+        path: String,
+        /// The rule that it breaks.
+        reason: String,
+    },
+    /// `manifest.json` is not JSON, or not our manifest.
+    #[error(
+        "{}:{line}:{column}: {}; nothing was written. Restore the file, or delete it and run again, or choose another --out-dir",
+        foreign::path(path),
+        one_line(reason)
+    )]
+    Manifest {
+        /// The manifest.
+        path: PathBuf,
+        /// The line of the fault, from 1.
+        line: usize,
+        /// The column of the fault, from 1.
+        column: usize,
+        /// What was found and what was expected.
+        reason: String,
+    },
+    /// A file or folder is there and cannot be read.
+    #[error(
+        "cannot read {}: {source}; nothing was written. Check its permissions and that each folder above it is a folder",
+        foreign::path(path)
+    )]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A folder, pipe or device stands where a file is to be written.
+    #[error(
+        "{} is not a file; nothing was written. Move it away or choose another output",
+        foreign::path(path)
+    )]
+    NotAFile {
+        /// What stands there.
+        path: PathBuf,
+    },
+    /// A file lies where one is to be written, and nothing proves that this program wrote it.
+    #[error(
+        "{}: {}; nothing was written. Move it away, choose another place, or replace it with --overwrite",
+        foreign::path(path),
+        one_line(what)
+    )]
+    NotOurs {
+        /// The place.
+        path: PathBuf,
+        /// What lies there.
+        what: String,
+    },
+    /// A folder of the output is a link: what lies behind it is not this run's.
+    #[error(
+        "{} is a link to {}; nothing was written. Name the folder itself with --out-dir, or put a folder in the link's place",
+        foreign::path(link),
+        foreign::path(leads_to)
+    )]
+    Linked {
+        /// The link.
+        link: PathBuf,
+        /// Where it leads.
+        leads_to: PathBuf,
+    },
+    /// An output leads over a link, or into a pipe, that another user may have put there.
+    #[error(
+        "{} is a link or a pipe of another user in a folder that users share; nothing was written. Name another place, or remove it",
+        foreign::path(link)
+    )]
+    Planted {
+        /// The link.
+        link: PathBuf,
+    },
+    /// A file could not be prepared: no old file was touched.
+    #[error(
+        "cannot write {}: {source}; no file was changed. Check permissions and free space, then run again",
+        foreign::path(path)
+    )]
+    Stage {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// All files were prepared, but one could not be put in place.
+    #[error(
+        "cannot replace {}: {source}; {replaced} of {pending} files are new, the others are as before. Close whatever holds the file and run again",
+        foreign::path(path)
+    )]
+    Replace {
+        /// The file that was to be replaced.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+        /// How many files were replaced before this one.
+        replaced: usize,
+        /// How many files were to be replaced.
+        pending: usize,
+    },
+    /// All files were prepared, and something has appeared in the place of one.
+    #[error(
+        "{}: what lies there appeared or changed while this run wrote, or cannot be read, and stays; {replaced} of {pending} files are new, the others are as before. Move it away, or replace it with --overwrite, and run again",
+        foreign::path(path)
+    )]
+    Taken {
+        /// The place.
+        path: PathBuf,
+        /// How many files were replaced before this one.
+        replaced: usize,
+        /// How many files were to be replaced.
+        pending: usize,
+    },
+    /// All files were written, but an orphan could not be removed.
+    #[error(
+        "cannot remove {}, which is no longer generated: {source}; all other files are written. Remove it by hand",
+        foreign::path(path)
+    )]
+    Remove {
+        /// The orphan.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+}
+
+/// The error for a name that does not exist.
+pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
+    UnknownName::new(kind, name, all).into()
+}

@@ -1,0 +1,211 @@
+//! The catalogue of fitted coefficients: an array in each language; as JSON, as a storage buffer, and as textures. A run that names
+//! neither methods nor materials writes it; what is for no language belongs to a run without flags.
+
+use serde::Serialize;
+
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail, CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE};
+use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
+use crate::generator::reference::MaterialInMedium;
+use crate::physics::spectra::Space;
+use crate::generator::envelope::{Origin, TOOL};
+
+use crate::generator::output::artifact::Artifact;
+use crate::generator::error::Error;
+use crate::generator::generate::Generated;
+use crate::generator::output::ours::SHARED;
+use crate::generator::request::{Materials, Request, Source};
+
+/// The version of the form of `catalogue.json`. In the first one coefficients stood by channel.
+const SCHEMA: u32 = 2;
+
+/// Adds the arrays of the run's languages, and in a run without flags the files for no language, and makes them the run's own.
+///
+/// # Errors
+/// A material cannot be seen as the request wants, or a language refuses a name.
+pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
+    let (rows, reference) = match recorded_rows(request) {
+        Some(rows) => (rows, request.viewing.reference_in_words()),
+        None => derived_rows(request)?,
+    };
+    for target in request.resolved_targets()? {
+        let command = command(request, Some(target.name))?;
+        let file = emit::catalogue_array(target, &rows, &request.naming(), &reference, &command)?;
+        generated.artifacts.extend(file.map(|file| {
+            let path = format!("{}/{}", target.name, file.name);
+            artifact(path, file.bytes, target.name, file.detail)
+        }));
+    }
+    if generated.scope.whole {
+        generated
+            .artifacts
+            .extend(shared(&rows, &reference, request)?);
+        let targets = SHARED.map(|(_, target)| target.to_owned());
+        generated.scope.targets.extend(targets);
+    }
+    generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
+    generated.scope.shared = true;
+    Ok(())
+}
+
+/// The materials that can be seen as the request wants. What is known at three wavelengths only has no spectrum.
+fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
+    let mut subjects = request.subjects()?.materials();
+    let of_spectra = request.viewing.wavelengths_nm.is_none();
+    subjects.retain(|subject| !of_spectra || subject.material.rgb_nm.is_none());
+    Ok(subjects)
+}
+
+/// The rows of a request, where they are recorded.
+fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
+    match request.medium {
+        None => emit::recorded_catalogue(&request.viewing),
+        Some(_) => None,
+    }
+}
+
+/// The rows of a request and what the reference is, derived from the spectra. The reference is the same for all; which ones hold a value
+/// beyond their range stands beside each.
+///
+/// # Errors
+/// A material cannot be seen as the request wants.
+pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Error> {
+    let request = Request {
+        materials: Materials::All,
+        ..request.clone()
+    };
+    let subjects = subjects(&request)?;
+    let rows = emit::catalogue_rows(&subjects, &request.naming())?;
+    let first = subjects.first();
+    let reference = first.map(|subject| subject.reference.surface.seen.clone());
+    Ok((rows, reference.unwrap_or_default()))
+}
+
+/// The command that writes a target's array among its part of the tree, or all.
+fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
+    let medium = request.medium.as_ref();
+    let medium = medium.map(Source::argument).transpose()?;
+    Ok(CommandLine::new(TOOL)
+        .list("target", target)
+        .list("medium", medium)
+        .list("prefix", Naming::flag_of_prefix(&request.prefix))
+        .seen_as(&request.viewing)
+        .into())
+}
+
+/// `catalogue.json`: how its materials are seen, the files with the same numbers, the methods, the materials with their coefficients.
+#[derive(Serialize)]
+struct CatalogueFile<'a> {
+    #[serde(flatten)]
+    origin: Origin,
+    truth: &'a str,
+    space: Option<&'static str>,
+    licence: &'static str,
+    order: &'static str,
+    first_dielectric: usize,
+    buffer: BufferDetail,
+    textures: [CatalogueTextureDetail; 2],
+    methods: Vec<CatalogueMethod>,
+    materials: Vec<CatalogueMaterial<'a>>,
+}
+
+/// The files for no language; none where no fitted method follows a material.
+fn shared(
+    rows: &[CatalogueRow],
+    reference: &str,
+    request: &Request,
+) -> Result<Vec<Artifact>, Error> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
+    let command = command(request, None)?;
+    let is_spectral = request.viewing.wavelengths_nm.is_none();
+    let space = is_spectral.then_some(request.viewing.integration.space);
+    let files = SHARED.map(|(path, target)| {
+        let texture = CatalogueTexture::ALL.into_iter();
+        let mut texture = texture.filter(|texture| texture.file() == path);
+        let bytes = match texture.next() {
+            Some(texture) => texture.encode(rows, space),
+            None if path == CATALOGUE_BUFFER => emit::catalogue_buffer(rows),
+            None => as_json(rows, reference, space, &command).into_bytes(),
+        };
+        let detail = Detail::Catalogue(CatalogueDetail {
+            command: command.clone(),
+            array: None,
+            materials: rows.len(),
+            rows: (path == CATALOGUE_BUFFER).then_some(COEFFICIENTS * rows.len()),
+            seen: reference.to_owned(),
+            licence: OUTPUT_LICENCE,
+        });
+        artifact(path.to_owned(), bytes, target, detail)
+    });
+    Ok(files.into())
+}
+
+fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command: &str) -> String {
+    let file = CatalogueFile {
+        origin: Origin::new(command).with_schema(SCHEMA),
+        truth: reference,
+        space: space.map(Space::name),
+        licence: OUTPUT_LICENCE,
+        order: COEFFICIENT_ORDER,
+        first_dielectric: emit::first_dielectric(rows),
+        buffer: BufferDetail::new(),
+        textures: CatalogueTexture::ALL.map(|texture| texture.detail(rows)),
+        methods: CatalogueMethod::all(rows),
+        materials: CatalogueMaterial::all(rows),
+    };
+    serde_json::to_string_pretty(&file).expect("a report has only text keys") + "\n"
+}
+
+fn artifact(path: String, bytes: Vec<u8>, target: &str, detail: Detail) -> Artifact {
+    Artifact {
+        path,
+        bytes,
+        target: target.to_owned(),
+        effect: None,
+        method: None,
+        material: None,
+        detail,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_names_nothing_writes_it() {
+        let usual = Request::default();
+        let named = |methods: &[&str]| methods.iter().map(|m| (*m).to_owned()).collect();
+        assert!(usual.names_nothing());
+        assert!(
+            Request {
+                targets: named(&["gles"]),
+                ..usual.clone()
+            }
+            .names_nothing()
+        );
+        assert!(
+            !Request {
+                methods: named(&["fitted"]),
+                ..usual.clone()
+            }
+            .names_nothing()
+        );
+        assert!(
+            !Request {
+                materials: Materials::None,
+                ..usual.clone()
+            }
+            .names_nothing()
+        );
+        assert!(
+            !Request {
+                precision: crate::physics::num::Precision::F16,
+                ..usual
+            }
+            .names_nothing()
+        );
+    }
+}

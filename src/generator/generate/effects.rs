@@ -1,0 +1,205 @@
+//! The files of effects: in their usual form, by another method, or specialised to materials.
+
+use crate::generator::output::artifact::Artifact;
+use crate::generator::error::Error;
+use crate::generator::fault::RequestFault;
+use crate::generator::request::Request;
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{self, EffectRequest, Emitted, Naming};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::effects::{self, Effect, USUAL_METHOD};
+use crate::language::methods::{self, Method};
+use crate::language::targets::Target;
+
+use crate::generator::generate::owners::Owners;
+use crate::generator::generate::{Made, Run};
+
+/// The effects of a request, with what they are written for.
+#[derive(Debug, Default)]
+pub struct WantedEffects {
+    /// The effects.
+    pub effects: Vec<&'static Effect>,
+    /// What computes R, where it is named.
+    pub method: Option<&'static Method>,
+}
+
+/// Which effects a request wants.
+///
+/// # Errors
+/// A name is no effect, several methods are named, or the precision is not single.
+pub fn wanted(
+    request: &Request,
+    named: Option<&[&'static Method]>,
+) -> Result<WantedEffects, Error> {
+    if request.effects.is_empty() {
+        return Ok(WantedEffects {
+            effects: match request.names_nothing() {
+                true => effects::ALL.to_vec(),
+                false => Vec::new(),
+            },
+            method: None,
+        });
+    }
+    if request.precision.is_half() {
+        let why = "effects compute in single precision; leave --precision f16 out";
+        return Err(RequestFault::conflict(why).into());
+    }
+    let method = match named {
+        None => None,
+        Some([method]) if method.is_textured() => {
+            return Err(RequestFault::textured_reflectance(method).into());
+        }
+        Some([method]) => Some(*method),
+        Some(_) => {
+            let why = "an effect takes R from one method; name one --method";
+            return Err(RequestFault::conflict(why).into());
+        }
+    };
+    Ok(WantedEffects {
+        effects: request.resolved_effects()?,
+        method,
+    })
+}
+
+impl Run<'_> {
+    /// Whether the run is of effects alone.
+    pub fn is_of_effects(&self) -> bool {
+        !self.request.effects.is_empty()
+    }
+
+    /// What effects are written for: any material, or each that is named.
+    fn effect_subjects(&self) -> Vec<Option<&MaterialInMedium>> {
+        let is_named = self.is_of_effects() && !self.subjects.is_empty();
+        let subjects = self.subjects.iter().filter(|_| is_named);
+        let named: Vec<_> = subjects.map(|(subject, _)| Some(subject)).collect();
+        match is_named {
+            true => named,
+            false => vec![None],
+        }
+    }
+
+    /// The functions of an effect, with what they were asked for.
+    fn effect<'s>(
+        &self,
+        effect: &'static Effect,
+        subject: Option<&'s MaterialInMedium>,
+    ) -> Result<(EffectRequest<'s>, Vec<Emitted>), Error> {
+        let usual = subject.map_or(USUAL_METHOD, MaterialInMedium::exact_method);
+        let usual = methods::find(usual).expect("the usual methods are registered");
+        let request = EffectRequest {
+            effect,
+            method: self.effects.method.unwrap_or(usual),
+            subject,
+        };
+        let functions = request.functions(&self.naming)?;
+        Ok((request, functions))
+    }
+
+    /// All files of effects.
+    pub fn effect_files(&self, owners: &mut Owners) -> Result<Vec<Made>, Error> {
+        let mut files = Vec::new();
+        for (request, functions) in self.effect_functions()? {
+            let stem = request.stem();
+            for emitted in &functions {
+                owners.claim(&emitted.name, &stem)?;
+            }
+            for target in &self.targets {
+                let command = self.effect_command(target, &request);
+                let naming = &self.naming;
+                let file = emit::effect_file(target, &request, &functions, naming, &command)?;
+                files.push(Made {
+                    artifact: Artifact {
+                        path: format!("{}/{}", target.name, file.name),
+                        bytes: file.bytes,
+                        target: target.name.to_owned(),
+                        effect: Some(request.effect.name.to_owned()),
+                        method: request.unusual_method().map(str::to_owned),
+                        material: request.subject.map(|subject| subject.name.clone()),
+                        detail: file.detail,
+                    },
+                    functions: functions.clone(),
+                    subject: None,
+                });
+            }
+        }
+        Ok(files)
+    }
+
+    /// The functions of each file. An effect that neither the method nor the material changes has none.
+    ///
+    /// # Errors
+    /// None of the effects has any.
+    pub fn effect_functions(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
+        let mut all = Vec::new();
+        for effect in &self.effects.effects {
+            for subject in self.effect_subjects() {
+                all.push(self.effect(effect, subject)?);
+            }
+        }
+        all.retain(|(_, functions)| !functions.is_empty());
+        if all.is_empty() && self.is_of_effects() {
+            let names = self.request.effects.join(", ");
+            let why = format!("{}; leave the flag out", self.unchanged(&names));
+            return Err(RequestFault::conflict(why).into());
+        }
+        Ok(all)
+    }
+
+    /// Why an effect has no file of this run.
+    fn unchanged(&self, effect: &str) -> String {
+        let what = match (self.effects.method, self.subjects.is_empty()) {
+            (Some(method), true) => format!("method `{}`", method.name),
+            _ => "the material".to_owned(),
+        };
+        format!("{what} changes nothing of {effect}, whose usual form serves")
+    }
+
+    /// Which effects that were named have none of these files, and why.
+    pub fn unchanged_effects(&self, artifacts: &[Artifact]) -> Vec<String> {
+        let has = |effect: &Effect| {
+            let mut made = artifacts.iter();
+            made.any(|artifact| artifact.effect.as_deref() == Some(effect.name))
+        };
+        let all = self.effects.effects.iter();
+        let without = all.filter(|effect| self.is_of_effects() && !has(effect));
+        without.map(|effect| self.unchanged(effect.name)).collect()
+    }
+
+    /// The effects with all of their functions, what several materials share once.
+    pub fn whole_effects(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
+        let mut all = Vec::new();
+        for effect in &self.effects.effects {
+            for (place, subject) in self.effect_subjects().into_iter().enumerate() {
+                let (request, changed) = self.effect(effect, subject)?;
+                let functions = match place {
+                    0 => request.whole(&self.naming)?,
+                    _ => changed,
+                };
+                all.push((request, functions));
+            }
+        }
+        all.retain(|(_, functions)| !functions.is_empty());
+        Ok(all)
+    }
+
+    /// The command that writes a file of an effect again.
+    pub fn effect_command(&self, target: &Target, effect: &EffectRequest) -> String {
+        let request = self.request;
+        let medium = effect.subject.and_then(|subject| subject.medium.as_ref());
+        let seen = effect.subject.map(|subject| {
+            crate::generator::command_line::surface_flags(
+                &request.viewing,
+                &subject.reference.surface,
+            )
+        });
+        CommandLine::new("fresnel-gen")
+            .list("target", [target.name])
+            .list("effect", [effect.effect.name])
+            .list("method", effect.unusual_method())
+            .list("material", effect.subject.map(|subject| &subject.argument))
+            .list("medium", medium.map(|(argument, _)| argument))
+            .list("prefix", Naming::flag_of_prefix(&request.prefix))
+            .with(&seen.unwrap_or_default())
+            .into()
+    }
+}

@@ -1,0 +1,374 @@
+//! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
+
+mod again;
+pub mod catalogue;
+mod effects;
+mod flavours;
+pub mod kept;
+mod owners;
+mod single;
+pub mod tables;
+mod written;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::generator::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
+use crate::generator::flavours::Flavour;
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{self, Method};
+use crate::language::targets::Target;
+use crate::physics::materials::Unseen;
+
+use crate::generator::output::artifact::{Artifact, sha256};
+use crate::generator::error::Error;
+use crate::generator::output::manifest::{Input, Provenance};
+use crate::generator::request::{Materials, Request};
+use crate::generator::output::scope::Scope;
+use crate::generator::request::subjects::Subjects;
+use effects::WantedEffects;
+use owners::Owners;
+
+pub use single::generate_single;
+
+/// What a request comes to.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// The files, sorted by path.
+    pub artifacts: Vec<Artifact>,
+    /// What the run owns of an output folder.
+    #[doc(hidden)]
+    pub scope: Scope,
+    /// Versions and inputs, for the manifest.
+    #[doc(hidden)]
+    pub provenance: Provenance,
+    /// Why materials that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
+    /// Methods that nobody named and half precision cannot bear, with the reason.
+    pub refused: Vec<String>,
+}
+
+/// Methods that a material's file holds besides those of the request, by target and material: what earlier runs put
+/// there by name. A run that names methods adds to a file and takes nothing from it.
+pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
+
+/// Generates everything that the request asks for.
+///
+/// ```
+/// use fresnel_gen::{Materials, Request, generate};
+///
+/// let request = Request {
+///     targets: vec!["wgsl".into()],
+///     methods: vec!["schlick".into()],
+///     materials: Materials::None,
+///     ..Request::default()
+/// };
+/// let files = generate(&request)?.artifacts;
+/// assert_eq!(files[0].path, "wgsl/fresnel_schlick.wgsl");
+/// # Ok::<(), fresnel_gen::Error>(())
+/// ```
+///
+/// # Errors
+/// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over the
+/// whole spectrum, or two functions would have one name.
+pub fn generate(request: &Request) -> Result<Generated, Error> {
+    generate_beside(request, &Kept::new())
+}
+
+/// The same, for a folder whose material files hold these methods already.
+///
+/// # Errors
+/// As [`generate()`].
+pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Error> {
+    let run = Run::new(request)?;
+    let mut artifacts: Vec<Artifact> = made(&run, kept)?
+        .into_iter()
+        .map(|made| made.artifact)
+        .collect();
+    let (adapters, without_adapters) = run.flavour_files()?;
+    artifacts.extend(adapters);
+    artifacts.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(Generated {
+        scope: run.scope(&artifacts),
+        provenance: run.provenance(),
+        refused: written::refused(request, run.named.as_deref())
+            .into_iter()
+            .chain(run.unchanged_effects(&artifacts))
+            .chain(without_adapters)
+            .collect(),
+        left_out: run.left_out,
+        artifacts,
+    })
+}
+
+/// A file with the functions in it.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// The file.
+    pub artifact: Artifact,
+    /// Its functions in order.
+    pub functions: Vec<Emitted>,
+    /// The place of its material among the subjects, where it has one.
+    pub subject: Option<usize>,
+}
+
+/// What a request comes to, with what its text means.
+#[derive(Clone, Debug)]
+pub struct Meant {
+    /// The files.
+    pub files: Vec<Made>,
+    /// The materials.
+    pub subjects: Vec<MaterialInMedium>,
+    /// Why materials that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
+}
+
+/// What the files of a folder hold.
+#[derive(Clone, Debug, Default)]
+pub struct Held {
+    /// The methods of material files, which hold these and no others.
+    pub methods: Kept,
+    /// The files whose comments have the full form, with their folder and without their ending.
+    pub full_headers: BTreeSet<String>,
+}
+
+/// Generates everything that the request asks for, and keeps the graphs of what is generated. For a file that is in `held`, methods and
+/// form of comments are taken from there.
+///
+/// # Errors
+/// As [`generate()`].
+pub fn generate_meant<'r>(
+    request: &'r Request,
+    kept: &Kept,
+    held: &'r Held,
+) -> Result<Meant, Error> {
+    let mut run = Run::new(request)?;
+    run.held = Some(held);
+    Ok(Meant {
+        files: made(&run, kept)?,
+        subjects: run
+            .subjects
+            .into_iter()
+            .map(|(subject, _)| subject)
+            .collect(),
+        left_out: run.left_out,
+    })
+}
+
+fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
+    let mut owners = Owners::default();
+    if run.targets.is_empty() {
+        return Ok(Vec::new());
+    }
+    if run.is_of_effects() {
+        return run.effect_files(&mut owners);
+    }
+    let mut files = Vec::new();
+    for method in written::library_methods(run.request, run.named.as_deref()) {
+        files.extend(run.library(method, &mut owners)?);
+    }
+    for (index, (subject, _)) in run.subjects.iter().enumerate() {
+        files.extend(run.material(index, subject, kept, &mut owners)?);
+    }
+    files.extend(run.effect_files(&mut owners)?);
+    Ok(files)
+}
+
+/// A request with its names resolved.
+struct Run<'r> {
+    request: &'r Request,
+    targets: Vec<&'static Target>,
+    /// The methods asked for by name; nothing where all are meant.
+    named: Option<Vec<&'static Method>>,
+    effects: WantedEffects,
+    flavours: Vec<&'static Flavour>,
+    subjects: Vec<(MaterialInMedium, String)>,
+    left_out: Vec<Unseen>,
+    naming: Naming,
+    bounds: Bounds,
+    /// What files hold that are compared with what would be written.
+    held: Option<&'r Held>,
+}
+
+impl<'r> Run<'r> {
+    fn new(request: &'r Request) -> Result<Run<'r>, Error> {
+        let named = request.resolved_methods()?;
+        request.derivation()?;
+        let names_others = named.is_some() || !request.effects.is_empty();
+        let no_materials = names_others && request.materials == Materials::Default
+            || request.materials == Materials::None;
+        written::check(request, named.as_deref(), no_materials)?;
+        let (targets, flavours) = (request.resolved_targets()?, request.resolved_flavours()?);
+        flavours::check(request, &flavours, &targets, named.as_deref())?;
+        let subjects = if no_materials {
+            Subjects::default()
+        } else {
+            request.subjects()?
+        };
+        Ok(Run {
+            request,
+            targets,
+            flavours,
+            subjects: subjects.ready,
+            left_out: subjects.left_out,
+            effects: effects::wanted(request, named.as_deref())?,
+            named,
+            naming: request.naming(),
+            bounds: Bounds::recorded(),
+            held: None,
+        })
+    }
+
+    /// The functions of a method's library file, and what stands beside them.
+    fn library_functions(&self, method: &'static Method) -> Result<Vec<Emitted>, Error> {
+        let mut functions = emit::library_functions(method, &self.naming)?;
+        functions.extend(emit::companions(method, &self.naming)?);
+        Ok(functions)
+    }
+
+    /// The library files of a method.
+    fn library(&self, method: &'static Method, owners: &mut Owners) -> Result<Vec<Made>, Error> {
+        let functions = self.library_functions(method)?;
+        for emitted in &functions {
+            owners.claim(&emitted.name, "the library")?;
+        }
+        let mut files = Vec::new();
+        for target in &self.targets {
+            let form = self.form(target, &functions[0].name);
+            let command = self.command(target, Some(&[method.name]), None, form);
+            let heading = Heading {
+                form,
+                command: &command,
+            };
+            for file in emit::library(target, method, &functions, heading)? {
+                files.push(Made {
+                    artifact: artifact(target, file, Some(method.name), None),
+                    functions: emit::written_for(target, functions.clone()).collect(),
+                    subject: None,
+                });
+            }
+        }
+        Ok(files)
+    }
+
+    /// The files of a material.
+    fn material(
+        &self,
+        index: usize,
+        subject: &MaterialInMedium,
+        kept: &Kept,
+        owners: &mut Owners,
+    ) -> Result<Vec<Made>, Error> {
+        let mut ready: BTreeMap<&str, Emitted> = BTreeMap::new();
+        let mut files = Vec::new();
+        for target in &self.targets {
+            let methods = written::methods_of(self, target, subject, kept);
+            let functions = self.specialised(&methods, subject, &mut ready)?;
+            let usual = methods == written::usual(self.request, subject);
+            let (named, of) = ((!usual).then_some(&methods[..]), Some(subject));
+            let form = self.form(
+                target,
+                &format!("materials/{}", self.naming.material(subject)),
+            );
+            let command = self.command(target, named, of, form);
+            let heading = Heading {
+                form,
+                command: &command,
+            };
+            for file in emit::material(target, subject, &functions, &self.naming, heading)? {
+                files.push(Made {
+                    artifact: artifact(target, file, None, Some(&subject.name)),
+                    functions: functions.clone(),
+                    subject: Some(index),
+                });
+            }
+        }
+        for emitted in ready.values() {
+            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
+        }
+        Ok(files)
+    }
+
+    fn specialised<'a>(
+        &self,
+        methods: &[&'a str],
+        subject: &MaterialInMedium,
+        ready: &mut BTreeMap<&'a str, Emitted>,
+    ) -> Result<Vec<Emitted>, Error> {
+        let mut functions = Vec::new();
+        for name in methods {
+            if !ready.contains_key(name) {
+                let method = methods::find(name).expect("resolved names are names of methods");
+                let emitted =
+                    emit::specialised_function(method, subject, &self.naming, &self.bounds)?;
+                ready.insert(name, emitted);
+            }
+            functions.push(ready[name].clone());
+        }
+        Ok(functions)
+    }
+
+    /// What the run owns; of effects the files that it made.
+    fn scope(&self, artifacts: &[Artifact]) -> Scope {
+        let names = |methods: &Vec<&'static Method>| {
+            methods
+                .iter()
+                .map(|method| method.name.to_owned())
+                .collect()
+        };
+        let request = self.request;
+        let is_of_effects = self.is_of_effects();
+        let subjects = self.subjects.iter().filter(|_| !is_of_effects);
+        Scope {
+            targets: self
+                .targets
+                .iter()
+                .map(|target| target.name.to_owned())
+                .collect(),
+            methods: match (&self.named, request.chosen.is_empty()) {
+                _ if is_of_effects => Some(BTreeSet::new()),
+                (Some(named), _) => Some(names(named)),
+                (None, true) => None,
+                (None, false) => Some(BTreeSet::new()),
+            },
+            materials: subjects.map(|(subject, _)| subject.name.clone()).collect(),
+            effects: artifacts.iter().filter_map(Artifact::effect_key).collect(),
+            shared: false,
+            flavours: (self.flavours.iter())
+                .map(|flavour| flavour.name.to_owned())
+                .collect(),
+            precision: request.precision,
+            whole: request.targets.is_empty()
+                && request.flavours.is_empty()
+                && request.names_nothing(),
+        }
+    }
+
+    fn provenance(&self) -> Provenance {
+        let input = |(subject, text): &(MaterialInMedium, String)| Input {
+            name: subject.name.clone(),
+            sha256: sha256(text.as_bytes()),
+        };
+        provenance(self.subjects.iter().map(input).collect())
+    }
+}
+
+/// What a manifest says of a run with these inputs.
+pub fn provenance(inputs: Vec<Input>) -> Provenance {
+    Provenance {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        naga: NAGA_VERSION.to_owned(),
+        inputs,
+    }
+}
+
+fn artifact(target: &Target, file: File, method: Option<&str>, material: Option<&str>) -> Artifact {
+    Artifact {
+        path: format!("{}/{}", target.name, file.name),
+        bytes: file.bytes,
+        target: target.name.to_owned(),
+        effect: None,
+        method: method.map(str::to_owned),
+        material: material.map(str::to_owned),
+        detail: file.detail,
+    }
+}

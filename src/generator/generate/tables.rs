@@ -1,0 +1,125 @@
+//! Lookup tables of a run: the materials they hold, and their files as a manifest lists them.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::generator::bake::{self, Baked, TableMaterial, usual_request};
+use crate::generator::emit::{Detail, OUTPUT_LICENCE, TableDetail};
+use crate::generator::lut::TABLES;
+use crate::generator::reference::Typed;
+use crate::physics::materials::ViewingConditions;
+use crate::generator::envelope::Report;
+
+use crate::generator::output::artifact::Artifact;
+use crate::generator::error::Error;
+use crate::generator::generate::Generated;
+use crate::generator::request::loaded::{Loaded, load};
+use crate::generator::request::{Materials, Source, check_transparent};
+use crate::generator::request::subjects::same_name;
+
+/// The tables that are wanted, of which materials.
+#[derive(Clone, Debug)]
+pub struct WantedTables {
+    /// The choice of materials.
+    pub materials: Materials,
+    /// What the light comes from; air where there is none.
+    pub medium: Option<Source>,
+    /// How they are seen.
+    pub viewing: ViewingConditions,
+}
+
+/// The materials, sorted by name, each once; and why some that `all` brings along are left out.
+///
+/// # Errors
+/// A file or name that is none, a material that is not known where it is looked at, two of one name.
+pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec<String>), Error> {
+    let medium = wanted.medium.as_ref().map(load).transpose()?;
+    if let Some(medium) = &medium {
+        check_transparent(&medium.material)?;
+    }
+    let medium: Option<Typed> = medium.map(|medium| (medium.argument, medium.material));
+    let mut ready: BTreeMap<String, (TableMaterial, String)> = BTreeMap::new();
+    let mut left_out = Vec::new();
+    for source in wanted.materials.sources() {
+        let Loaded {
+            material,
+            argument,
+            text,
+        } = load(&source)?;
+        let found = TableMaterial::new((&argument, &material), medium.as_ref(), &wanted.viewing);
+        match (found, source) {
+            (Err(fault), Source::BroughtAlong(_)) => left_out.push(fault.why),
+            (Err(fault), _) => return Err(fault.into()),
+            (Ok(found), _) => match ready.get(&found.name) {
+                Some((other, its)) if *its != text => {
+                    let words = [&other.argument, &found.argument].map(String::as_str);
+                    return Err(same_name(&found.name, words));
+                }
+                _ => drop(ready.insert(found.name.clone(), (found, text))),
+            },
+        }
+    }
+    if let (true, Some(why)) = (ready.is_empty(), left_out.first()) {
+        return Err(Error::Usage { what: why.clone() });
+    }
+    Ok((
+        ready.into_values().map(|(found, _)| found).collect(),
+        left_out,
+    ))
+}
+
+/// Adds the tables of the usual materials and their atlas to what a run without flags generates, so that what functions called
+/// `table` read is there. They are not made the run's own: it replaces tables, and removes none, since `bake` writes others
+/// beside them.
+///
+/// # Errors
+/// The medium or the viewing conditions leave a material unknown.
+pub fn add_tables(
+    generated: &mut Generated,
+    medium: Option<Source>,
+    viewing: ViewingConditions,
+) -> Result<(), Error> {
+    let wanted = WantedTables {
+        materials: Materials::Default,
+        medium,
+        viewing,
+    };
+    let (materials, _) = table_materials(&wanted)?;
+    let request = usual_request(materials, &wanted.viewing);
+    let baked = bake::bake(&request, &mut |_, _, _| {})?;
+    generated
+        .artifacts
+        .extend(baked.into_iter().flat_map(artifacts));
+    generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(())
+}
+
+/// The files of a picture as a manifest lists them, and a description of all beside them.
+pub fn artifacts(baked: Baked) -> Vec<Artifact> {
+    let description = format!("{TABLES}/{}.json", baked.name);
+    let row_materials = baked.row_materials();
+    let text = pretty(&Report::new(&baked.command, baked.rows));
+    let mut files = baked.files;
+    files.push((description.clone(), text.into_bytes()));
+    let listed = |(path, bytes)| Artifact {
+        path,
+        bytes,
+        target: TABLES.to_owned(),
+        effect: None,
+        method: Some(baked.method.to_owned()),
+        material: baked.material.clone(),
+        detail: Detail::Table(TableDetail {
+            command: baked.command.clone(),
+            row_materials: row_materials.clone(),
+            description: description.clone(),
+            licence: OUTPUT_LICENCE,
+        }),
+    };
+    files.into_iter().map(listed).collect()
+}
+
+/// A file of JSON.
+fn pretty(report: &impl Serialize) -> String {
+    serde_json::to_string_pretty(report).expect("a report has only text keys") + "\n"
+}

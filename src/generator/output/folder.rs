@@ -1,0 +1,262 @@
+//! Reading the output folder. Links are never followed here: what lies behind one is not ours to remove.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Component, Path, PathBuf};
+
+use crate::generator::error::Error;
+use crate::generator::output::reading;
+use crate::physics::digest::sha256;
+
+/// The beginning of a temporary file's name.
+const TEMPORARY_PREFIX: &str = ".fresnel-gen-";
+/// The end of a temporary file's name.
+const TEMPORARY_SUFFIX: &str = ".tmp";
+/// The hexadecimal digits between them.
+const TEMPORARY_DIGITS: usize = 16;
+
+/// The files right in `root` and at any depth of these folders in it, as paths relative to `root` with `/`.
+/// A link is listed as one file.
+///
+/// # Errors
+/// A folder cannot be read. A folder that does not exist has no files, and is no error.
+pub fn list(root: &Path, folders: &BTreeSet<String>) -> Result<BTreeSet<String>, Error> {
+    let mut files = BTreeSet::new();
+    let top = list_one(root, "", &mut files)?;
+    let mut waiting: Vec<String> = top.into_iter().filter(|f| folders.contains(f)).collect();
+    while let Some(folder) = waiting.pop() {
+        waiting.extend(list_one(root, &folder, &mut files)?);
+    }
+    Ok(files)
+}
+
+/// The content of a file, None if nothing is there.
+///
+/// # Errors
+/// What lies there is not a file, or cannot be read.
+pub fn read(path: &Path) -> Result<Option<Vec<u8>>, Error> {
+    match fs::metadata(path) {
+        // Opening a pipe would wait for ever.
+        Ok(found) if !found.is_file() => Err(Error::NotAFile {
+            path: path.to_path_buf(),
+        }),
+        Ok(_) => match reading::bytes(path, u64::MAX) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(fault) => Err(read_fault(path, fault)),
+        },
+        Err(fault) if fault.kind() == ErrorKind::NotFound => Ok(None),
+        Err(fault) => Err(read_fault(path, fault)),
+    }
+}
+
+/// A new name for a temporary file.
+pub fn temporary_name() -> String {
+    format!(
+        "{TEMPORARY_PREFIX}{:0digits$x}{TEMPORARY_SUFFIX}",
+        fastrand::u64(..),
+        digits = TEMPORARY_DIGITS
+    )
+}
+
+/// A new name for the temporary file of an output that the user names. Its first half is the same in every run, so that what a
+/// killed run left behind is found by the next one. Its second half is new in every run, so that nobody can take the place.
+pub fn temporary_of(output: &Path) -> String {
+    format!(
+        "{}{:08x}{TEMPORARY_SUFFIX}",
+        temporaries_of(output),
+        fastrand::u32(..)
+    )
+}
+
+/// How the names of an output's temporary files begin.
+fn temporaries_of(output: &Path) -> String {
+    let name = output.file_name().unwrap_or_default();
+    let hash = sha256(name.as_encoded_bytes());
+    format!("{TEMPORARY_PREFIX}{}", &hash[..TEMPORARY_DIGITS / 2])
+}
+
+/// The temporary files of an output that lie beside it: those of other runs. A folder that cannot be listed has none.
+pub fn temporaries_beside(output: &Path) -> Vec<PathBuf> {
+    let start = temporaries_of(output);
+    let entries = fs::read_dir(folder_of(output)).into_iter().flatten();
+    let of_output = |name: &str| name.starts_with(&start) && is_temporary(name);
+    let of_output = entries
+        .flatten()
+        .filter(|entry| entry.file_name().to_str().is_some_and(of_output));
+    of_output.map(|entry| entry.path()).collect()
+}
+
+/// The folder that a file lies in.
+pub fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Is this the name of a temporary file?
+pub fn is_temporary(path: &str) -> bool {
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let inner = name.strip_prefix(TEMPORARY_PREFIX);
+    let digits = inner.and_then(|inner| inner.strip_suffix(TEMPORARY_SUFFIX));
+    digits.is_some_and(|digits| {
+        digits.len() == TEMPORARY_DIGITS && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+    })
+}
+
+/// Is this a file itself, and neither a link nor a folder?
+pub fn is_plain_file(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
+}
+
+/// Whether two paths lead to one file, which the later of two outputs would replace. A device takes both.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    !is_device(one) && resolved(one) == resolved(other)
+}
+
+/// Whether a path ends in a slash, so that no file can bear it.
+pub fn is_named_as_folder(path: &Path) -> bool {
+    let last = path.to_string_lossy().chars().next_back();
+    last.is_some_and(std::path::is_separator)
+}
+
+/// Whether a path leads to a device or a pipe.
+pub fn is_device(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file())
+}
+
+/// Whether a path leads into a folder.
+pub fn is_below(folder: &Path, path: &Path) -> bool {
+    resolved(path).starts_with(resolved(folder))
+}
+
+/// How many links are followed in a row: as many as Linux follows.
+const LINKS: u32 = 40;
+
+/// A path without links and without `..`, whether or not it is there: a run makes the folders that are missing, so that `new/..`
+/// is where `new` will lie, and a link that leads to nothing leads to what will be made.
+pub fn resolved(path: &Path) -> PathBuf {
+    let whole = resolved_within(path, LINKS, &mut |_, _| {});
+    fs::canonicalize(&whole).unwrap_or(whole)
+}
+
+/// What another user may have put on the way to a path: the first such link, or a pipe in its place.
+pub fn planted(path: &Path) -> Option<PathBuf> {
+    let mut first = None;
+    // To open a pipe waits for who reads it, and what is written goes to them.
+    if is_device(path) && is_planted(folder_of(path), path) {
+        return Some(path.to_path_buf());
+    }
+    resolved_within(path, LINKS, &mut |folder, link| {
+        if first.is_none() && is_planted(folder, link) {
+            first = Some(link.to_path_buf());
+        }
+    });
+    first
+}
+
+/// Whether this lies in a folder that several users write to, such as `/tmp`, and belongs to none of these: the user who runs this, root, the owner of
+/// the folder. The rule is that of Linux (`fs.protected_symlinks`), which other systems lack and an administrator can turn off.
+#[cfg(unix)]
+fn is_planted(folder: &Path, link: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    const STICKY: u32 = 0o1000;
+    const WRITABLE_TO_OTHERS: u32 = 0o022;
+    let (Ok(folder), Ok(link)) = (fs::metadata(folder), fs::symlink_metadata(link)) else {
+        return false;
+    };
+    let is_shared = folder.mode() & STICKY != 0 && folder.mode() & WRITABLE_TO_OTHERS != 0;
+    let user = rustix::process::geteuid().as_raw();
+    is_shared && ![user, 0, folder.uid()].contains(&link.uid())
+}
+
+/// Elsewhere folders have no such bit. In a build script nobody else writes.
+#[cfg(not(unix))]
+fn is_planted(_folder: &Path, _link: &Path) -> bool {
+    false
+}
+
+/// `on_link` hears of each link that is followed: its folder, without links, and the link.
+fn resolved_within(path: &Path, links: u32, on_link: &mut dyn FnMut(&Path, &Path)) -> PathBuf {
+    let mut whole = match path.is_absolute() {
+        true => PathBuf::new(),
+        false => fs::canonicalize(".").unwrap_or_default(),
+    };
+    for part in path.components() {
+        match part {
+            Component::Prefix(_) | Component::RootDir => whole.push(part),
+            Component::CurDir => {}
+            Component::ParentDir => {
+                whole.pop();
+            }
+            Component::Normal(name) => {
+                let next = whole.join(name);
+                whole = match fs::read_link(&next) {
+                    Ok(leads_to) if links > 0 => {
+                        on_link(&whole, &next);
+                        resolved_within(&whole.join(leads_to), links - 1, on_link)
+                    }
+                    _ => next,
+                };
+            }
+        }
+    }
+    whole
+}
+
+/// Where a link leads that leads to nothing.
+pub fn dangling_link(path: &Path) -> Option<PathBuf> {
+    let leads_to = fs::read_link(path).ok()?;
+    let is_missing = fs::metadata(path).is_err_and(|fault| fault.kind() == ErrorKind::NotFound);
+    is_missing.then(|| path.parent().unwrap_or(Path::new("")).join(leads_to))
+}
+
+/// The first folder on the way from `root` to this path that is a link, and where the link leads.
+pub fn linked_folder(root: &Path, path: &str) -> Option<(PathBuf, PathBuf)> {
+    let mut folder = root.to_path_buf();
+    let parts: Vec<&str> = path.split('/').collect();
+    for part in &parts[..parts.len().saturating_sub(1)] {
+        folder.push(part);
+        if let Ok(leads_to) = fs::read_link(&folder) {
+            return Some((folder, leads_to));
+        }
+    }
+    None
+}
+
+/// Adds the files of one folder and returns the folders in it. A folder that is not there is empty.
+fn list_one(root: &Path, folder: &str, files: &mut BTreeSet<String>) -> Result<Vec<String>, Error> {
+    let path = root.join(folder);
+    let entries = match fs::read_dir(&path) {
+        Err(fault) if fault.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        other => other.map_err(|e| read_fault(&path, e))?,
+    };
+    let mut inner = Vec::new();
+    for entry in entries {
+        let (name, is_folder) = entry
+            .and_then(|entry| Ok((entry.file_name(), entry.file_type()?.is_dir())))
+            .map_err(|e| read_fault(&path, e))?;
+        let name = join(folder, &name.to_string_lossy());
+        if is_folder {
+            inner.push(name);
+        } else {
+            files.insert(name);
+        }
+    }
+    Ok(inner)
+}
+
+fn join(folder: &str, name: &str) -> String {
+    match folder {
+        "" => name.to_string(),
+        _ => format!("{folder}/{name}"),
+    }
+}
+
+fn read_fault(path: &Path, source: io::Error) -> Error {
+    Error::Read {
+        path: path.to_path_buf(),
+        source,
+    }
+}

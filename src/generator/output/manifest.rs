@@ -1,0 +1,264 @@
+//! `manifest.json`: what lies in the output folder, what each file was made from, and how wrong it is.
+//!
+//! Runs of different scopes share one manifest. Its bytes are a function of the entries alone, not of the order of the runs.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::{Map, Value};
+
+use crate::physics::num::Precision;
+use crate::physics::spectra::without_mark;
+use crate::generator::envelope::TOOL;
+
+use crate::generator::output::artifact::{Artifact, check_path};
+use crate::generator::error::Error;
+use crate::generator::output::ours::{could_be_written, listed_hash};
+use crate::generator::output::scope::Scope;
+
+/// The manifest's name in the output folder.
+pub const FILE: &str = "manifest.json";
+
+/// The version of the manifest's form. It rises when an older program would misread a newer manifest.
+pub const SCHEMA: u32 = 1;
+
+/// All that `manifest.json` says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Always [`TOOL`].
+    #[serde(deserialize_with = "our_tool")]
+    pub tool: String,
+    /// The version of its form: [`SCHEMA`]. The first manifests did not say it.
+    #[serde(default, deserialize_with = "known_schema")]
+    pub schema: u32,
+    /// The version that wrote it last.
+    pub version: String,
+    /// The version of naga that lowered to SPIR-V.
+    pub naga: String,
+    /// The data of the materials, sorted by name.
+    pub inputs: Vec<Input>,
+    /// The artifacts, sorted by file.
+    pub files: Vec<Entry>,
+    /// What somebody else wrote into it: it stays.
+    #[serde(flatten)]
+    pub others: Map<String, Value>,
+}
+
+/// The data of one material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Input {
+    /// The material's name, as in [`Entry::material`].
+    pub name: String,
+    /// The SHA-256 of its data.
+    pub sha256: String,
+}
+
+/// One artifact as the manifest knows it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// The path, relative to the output folder, parts separated by `/`.
+    #[serde(deserialize_with = "inner_path")]
+    pub file: String,
+    /// The target that it is written for.
+    pub target: String,
+    /// The effect of a file of effects.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effect: Option<String>,
+    /// The method of a library file; of an effect's file the method that computes R, where it is not the usual one.
+    pub method: Option<String>,
+    /// The material of a specialised file.
+    pub material: Option<String>,
+    /// The SHA-256 of the file; of text, as it is with LF at the ends of lines.
+    pub sha256: String,
+    /// The SHA-256 of the file that this one replaces. It stands here only while a run writes, so that a run that is
+    /// killed leaves no file unlisted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub was: Option<String>,
+    /// Functions, parameters, errors: [`Detail`](crate::generator::emit::Detail), or what another version wrote, which stays.
+    #[serde(flatten)]
+    pub detail: Map<String, Value>,
+}
+
+/// What a run adds to the manifest besides its artifacts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The version of this program.
+    pub version: String,
+    /// The version of naga.
+    pub naga: String,
+    /// The data of the materials that the run used; those that no entry names are left out.
+    pub inputs: Vec<Input>,
+}
+
+impl Manifest {
+    /// Reads a manifest; `path` is for the message only.
+    ///
+    /// # Errors
+    /// The text is not JSON, not a manifest of this program, or holds the marks of a merge conflict.
+    pub fn parse(path: &Path, text: &[u8]) -> Result<Manifest, Error> {
+        // A UTF-16 text is no JSON, and is told so by the parser.
+        let text = without_mark(text).unwrap_or(text);
+        serde_json::from_slice(text).map_err(|fault| match conflict(text) {
+            Some(line) => Error::Manifest {
+                path: path.to_path_buf(),
+                line,
+                column: 1,
+                reason: CONFLICT.to_owned(),
+            },
+            None => Error::Manifest {
+                path: path.to_path_buf(),
+                line: fault.line(),
+                column: fault.column(),
+                reason: reason(&fault),
+            },
+        })
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        let text = serde_json::to_string_pretty(self);
+        text.expect("all keys are strings, and no part of a manifest can fail to serialise") + "\n"
+    }
+
+    /// The manifest after a run: its artifacts, and those old entries that it does not own.
+    pub fn merge(
+        old: Option<&Manifest>,
+        scope: &Scope,
+        artifacts: &[Artifact],
+        provenance: &Provenance,
+    ) -> Manifest {
+        let old_files = old.map_or(&[][..], |old| &old.files);
+        let kept = old_files
+            .iter()
+            .filter(|entry| !scope.owns(entry) || !could_be_written(entry));
+        let made = artifacts.iter().map(Entry::of);
+        // Later pairs replace earlier ones: what this run made stands above what it found.
+        let files: BTreeMap<_, _> = (kept.cloned().chain(made))
+            .map(|entry| (entry.file.clone(), entry))
+            .collect();
+        let files: Vec<Entry> = files.into_values().collect();
+        Manifest {
+            tool: TOOL.to_string(),
+            schema: SCHEMA,
+            version: provenance.version.clone(),
+            naga: provenance.naga.clone(),
+            inputs: merge_inputs(old, &provenance.inputs, &files),
+            files,
+            others: old.map_or_else(Map::new, |old| old.others.clone()),
+        }
+    }
+}
+
+impl Entry {
+    /// What its functions compute in; only half precision is said.
+    pub fn precision(&self) -> &str {
+        let said = self.detail.get("precision").and_then(Value::as_str);
+        said.unwrap_or(Precision::F32.name())
+    }
+
+    /// Its functions. What another version wrote need not be as this one writes it: what is not counts as not said.
+    pub fn functions(&self) -> &[Value] {
+        let functions = self.detail.get("functions").and_then(Value::as_array);
+        functions.map_or(&[], Vec::as_slice)
+    }
+
+    /// The names of its functions.
+    pub fn function_names(&self) -> impl Iterator<Item = &str> {
+        let functions = self.functions().iter();
+        functions.filter_map(|function| function["name"].as_str())
+    }
+
+    /// The methods of its functions.
+    pub fn function_methods(&self) -> impl Iterator<Item = &str> {
+        let functions = self.functions().iter();
+        functions.filter_map(|function| function["method"].as_str())
+    }
+
+    /// The materials of an atlas, in the order of its rows.
+    pub fn row_materials(&self) -> Vec<&str> {
+        let rows = self.detail.get("row_materials").and_then(Value::as_array);
+        let rows = rows.map_or(&[][..], Vec::as_slice).iter();
+        rows.filter_map(Value::as_str).collect()
+    }
+
+    /// How its material is seen, in words.
+    pub fn reference(&self) -> Option<&str> {
+        self.detail.get("seen")?["truth"].as_str()
+    }
+
+    /// The entry of an artifact.
+    pub fn of(artifact: &Artifact) -> Entry {
+        let Ok(Value::Object(detail)) = serde_json::to_value(&artifact.detail) else {
+            unreachable!("a detail is a structure of text keys")
+        };
+        Entry {
+            file: artifact.path.clone(),
+            target: artifact.target.clone(),
+            effect: artifact.effect.clone(),
+            method: artifact.method.clone(),
+            material: artifact.material.clone(),
+            sha256: listed_hash(&artifact.path, &artifact.bytes),
+            was: None,
+            detail,
+        }
+    }
+}
+
+fn merge_inputs(old: Option<&Manifest>, new: &[Input], files: &[Entry]) -> Vec<Input> {
+    let named: BTreeSet<_> = files.iter().filter_map(|e| e.material.as_ref()).collect();
+    let old_inputs = old.map_or(&[][..], |old| &old.inputs);
+    let inputs: BTreeMap<_, _> = (old_inputs.iter().chain(new))
+        .filter(|input| named.contains(&input.name))
+        .map(|input| (&input.name, input))
+        .collect();
+    inputs.into_values().cloned().collect()
+}
+
+/// What to do with a manifest that version control could not merge.
+const CONFLICT: &str = "it holds a merge conflict. Take either side whole (git checkout --ours or --theirs), then run the \
+    same commands again: each run lists what it writes";
+
+/// The line of a conflict that version control left, from 1.
+fn conflict(text: &[u8]) -> Option<usize> {
+    let mut lines = text.split(|byte| *byte == b'\n');
+    let marks: [&[u8]; 2] = [b"<<<<<<< ", b">>>>>>> "];
+    let is_mark = |line: &[u8]| marks.iter().any(|mark| line.starts_with(mark));
+    lines.position(is_mark).map(|at| at + 1)
+}
+
+fn reason(fault: &serde_json::Error) -> String {
+    let text = fault.to_string();
+    // serde_json ends with the position, which the message gives in front.
+    let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |p| p.0);
+    format!("not a manifest of {TOOL}: {reason}")
+}
+
+fn our_tool<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    let tool = String::deserialize(from)?;
+    if tool == TOOL {
+        return Ok(tool);
+    }
+    Err(D::Error::custom(format!("`tool` is `{tool}`")))
+}
+
+/// What a newer program wrote may mean something else: it is not touched.
+fn known_schema<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    let schema = u32::deserialize(from)?;
+    if schema <= SCHEMA {
+        return Ok(schema);
+    }
+    Err(D::Error::custom(format!(
+        "its `schema` is {schema}, and this version knows {SCHEMA} at most: a newer fresnel-gen wrote it. Update this one"
+    )))
+}
+
+/// A manifest comes from a repository, and what it lists may be removed: it must not reach outside.
+fn inner_path<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    let path = String::deserialize(from)?;
+    match check_path(&path) {
+        Ok(()) => Ok(path),
+        Err(rule) => Err(D::Error::custom(format!("`file` is `{path}`: {rule}"))),
+    }
+}

@@ -1,0 +1,266 @@
+//! Files that wait beside their places: written whole, and not yet renamed. In a tree the folder's lock lists their temporary names
+//! before they are made; elsewhere each is locked itself. Whatever is dropped before it is renamed leaves nothing behind.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
+use crate::generator::error::Error;
+use crate::generator::output::folder::{self, folder_of};
+use crate::generator::output::held::{Before, Placing, put};
+use crate::generator::output::lock::{Lock, create_held, remove_leftovers_of};
+
+/// A file to be staged.
+pub struct Pending<'a> {
+    /// Its place.
+    pub path: PathBuf,
+    /// What it is to hold.
+    pub bytes: &'a [u8],
+    /// What may lie there when it takes its place.
+    pub before: Before,
+}
+
+/// A file ready to be renamed into place; deleted when dropped before.
+struct Staged {
+    temporary: TempPath,
+    destination: PathBuf,
+    before: Before,
+    /// The lock on the temporary file, held until it is renamed or removed.
+    _held: Option<File>,
+}
+
+/// Files ready to be renamed into place, and the folders that were made for them.
+#[derive(Default)]
+pub struct StagedFiles {
+    files: Vec<Staged>,
+    created: Vec<PathBuf>,
+}
+
+impl StagedFiles {
+    /// Stages files of a tree, under names that the folder's lock lists.
+    ///
+    /// # Errors
+    /// The disk refuses one: then none is staged.
+    pub fn in_tree(
+        pending: &[Pending],
+        out_dir: &Path,
+        lock: &mut Lock,
+    ) -> Result<StagedFiles, Error> {
+        let beside = |one: &Pending| one.path.with_file_name(folder::temporary_name());
+        let temporaries: Vec<PathBuf> = pending.iter().map(beside).collect();
+        if let Some(Pending { path: first, .. }) = pending.first() {
+            let listed: Vec<String> = temporaries
+                .iter()
+                .map(|path| inner(out_dir, path))
+                .collect();
+            lock.write_down(&listed)
+                .map_err(|source| stage_fault(first, source))?;
+        }
+        let mut temporaries = temporaries.into_iter();
+        Self::new(pending, |_| {
+            let temporary = temporaries.next().expect("there is one for each file");
+            let new = OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(&temporary)?;
+            // A tree has more files than some systems let a process open: they are closed, and the folder's lock holds.
+            Ok((temporary, new, false))
+        })
+    }
+
+    /// Stages files that the user names. Each temporary file is locked itself.
+    ///
+    /// # Errors
+    /// The disk refuses one: then none is staged.
+    pub fn beside_outputs(pending: &[Pending]) -> Result<StagedFiles, Error> {
+        Self::new(pending, |path| {
+            remove_leftovers_of(path);
+            let (temporary, new) = create_beside(path)?;
+            Ok((temporary, new, true))
+        })
+    }
+
+    /// Stages files in temporary ones that `create` makes; it says too whether they are held open.
+    fn new(
+        pending: &[Pending],
+        mut create: impl FnMut(&Path) -> io::Result<(PathBuf, File, bool)>,
+    ) -> Result<StagedFiles, Error> {
+        let mut all = StagedFiles::default();
+        for one in pending {
+            let path = &one.path;
+            let mut stage = || {
+                create_folder(folder_of(path), &mut all.created)?;
+                let (temporary, file, is_held) = create(path)?;
+                filled(temporary, file, is_held, one)
+            };
+            let staged = stage().map_err(|source| stage_fault(path, source))?;
+            all.files.push(staged);
+        }
+        Ok(all)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Takes the last one out, where it is wanted.
+    pub fn split_last(&mut self, is_wanted: bool) -> StagedFiles {
+        let last = if is_wanted { self.files.pop() } else { None };
+        StagedFiles {
+            files: last.into_iter().collect(),
+            created: Vec::new(),
+        }
+    }
+
+    /// Refuses places where a folder lies by now: one output of a run can lie above another (`-o a.wgsl --depfile a.wgsl/b.d`), whose
+    /// folder was made when it was staged. To be asked when all are staged, and none is renamed.
+    ///
+    /// # Errors
+    /// One is a folder.
+    pub fn refuse_folders(&self) -> Result<(), Error> {
+        match self.files.iter().find(|file| file.destination.is_dir()) {
+            Some(file) => Err(Error::NotAFile {
+                path: file.destination.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses places where something lies by now that was not there when the run looked: to be asked before the first is renamed.
+    ///
+    /// # Errors
+    /// One is taken.
+    pub fn refuse_taken(&self) -> Result<(), Error> {
+        let is_taken = |file: &&Staged| !file.before.allows(&file.destination);
+        match self.files.iter().find(is_taken) {
+            Some(file) => Err(Error::NotOurs {
+                path: file.destination.clone(),
+                what: "what lies there appeared or changed while this run wrote, or cannot be read"
+                    .to_owned(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Renames all into place; the numbers are for the message: how many were replaced before, how many there are in all.
+    ///
+    /// # Errors
+    /// The system refuses one, or something has appeared in its place. Those before it are in place then.
+    pub fn replace(mut self, before: usize, pending: usize) -> Result<(), Error> {
+        for (index, file) in self.files.drain(..).enumerate() {
+            let (path, replaced) = (file.destination, before + index);
+            match put(file.temporary, &path, &file.before) {
+                Placing::Done => {}
+                Placing::Taken => {
+                    return Err(Error::Taken {
+                        path,
+                        replaced,
+                        pending,
+                    });
+                }
+                Placing::Refused(source) => {
+                    return Err(Error::Replace {
+                        path,
+                        source,
+                        replaced,
+                        pending,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Drop for StagedFiles {
+    fn drop(&mut self) {
+        self.files.clear();
+        // Where nothing was put in place they are empty; others cannot be removed so.
+        for folder in self.created.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// A path of a tree as the lock lists it.
+fn inner(out_dir: &Path, path: &Path) -> String {
+    let inside = path.strip_prefix(out_dir).unwrap_or(path);
+    let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
+    parts.join("/")
+}
+
+/// Makes a temporary file beside an output, and holds its lock where there can be one.
+fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
+    /// Names are drawn by lot: one that is taken, or that another run looks at just now, is given up.
+    const TRIES: usize = 16;
+    let create = || {
+        let temporary = folder_of(path).join(folder::temporary_of(path));
+        Ok((temporary.clone(), create_held(&temporary)?))
+    };
+    let is_taken = |made: &io::Result<_>| {
+        let kind = made.as_ref().err().map(io::Error::kind);
+        matches!(kind, Some(ErrorKind::AlreadyExists | ErrorKind::WouldBlock))
+    };
+    let mut made = create();
+    for _ in 1..TRIES {
+        if is_taken(&made) {
+            made = create();
+        }
+    }
+    made
+}
+
+/// A temporary file with its bytes.
+fn filled(
+    temporary: PathBuf,
+    mut file: File,
+    is_held: bool,
+    pending: &Pending,
+) -> io::Result<Staged> {
+    let path = &pending.path;
+    // From here on it is deleted when dropped.
+    let temporary = TempPath::try_from_path(temporary)?;
+    // Who may read a file is its owner's choice: a new version keeps it, where the file system can.
+    if let Some(old) = fs::symlink_metadata(path)
+        .ok()
+        .filter(fs::Metadata::is_file)
+    {
+        let _ = file.set_permissions(old.permissions());
+    }
+    file.write_all(pending.bytes)?;
+    file.flush()?;
+    Ok(Staged {
+        temporary,
+        destination: path.clone(),
+        before: pending.before.clone(),
+        _held: is_held.then_some(file),
+    })
+}
+
+/// Creates a folder and those above it, and notes each that was not there.
+fn create_folder(folder: &Path, created: &mut Vec<PathBuf>) -> io::Result<()> {
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    if let Some(parent) = folder.parent() {
+        create_folder(parent, created)?;
+    }
+    match fs::create_dir(folder) {
+        Ok(()) => created.push(folder.to_path_buf()),
+        // Made by somebody else in the meantime.
+        Err(_) if folder.is_dir() => {}
+        Err(fault) => return Err(fault),
+    }
+    Ok(())
+}
+
+/// What is said where a file cannot be prepared.
+pub fn stage_fault(path: &Path, source: io::Error) -> Error {
+    Error::Stage {
+        path: path.to_path_buf(),
+        source,
+    }
+}

@@ -1,0 +1,346 @@
+//! The artifacts of a run against the output folder: what would be written, what removed. Nothing is changed here.
+//!
+//! An *orphan* is in the scope of the run, is no longer generated, and is removed: it is proved to be as this program wrote it. What else lies in the folder *stays*. Where a file that is not ours lies in the place of an artifact,
+//! it is an *obstacle*: the run ends before it writes anything. What is ours and by what proof: [`ours`](crate::generator::output::ours).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::generator::output::artifact::{self, Artifact};
+use crate::generator::output::atlas_rows::{ChangedRows, changed_rows};
+use crate::generator::error::Error;
+use crate::generator::output::folder;
+use crate::generator::output::manifest::{self, Entry, Manifest, Provenance};
+use crate::generator::output::namesake::refuse_namesakes;
+use crate::generator::output::ours::{bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash};
+use crate::generator::output::scope::Scope;
+use crate::generator::output::stays::{strangers, unknown};
+use crate::generator::emit::FunctionDetail;
+
+pub use crate::generator::output::stays::Stay;
+
+/// The difference between the artifacts and the folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TreePlan {
+    /// The output folder.
+    pub out_dir: PathBuf,
+    /// The artifacts, sorted by path.
+    pub files: Vec<Planned>,
+    /// The manifest after the run.
+    pub manifest: Planned,
+    /// The manifest while the run writes: it lists what is there and what comes.
+    pub interim: Vec<u8>,
+    /// The entries of files that a write removes, sorted by file.
+    pub orphans: Vec<Entry>,
+    /// Files that stay though they are not what this program writes there, sorted: to be named.
+    pub stays: Vec<Stay>,
+    /// Files of others that lie where an artifact is to be written.
+    pub obstacles: Vec<Obstacle>,
+    /// Files of ours that were changed since they were written, and that a write replaces: to be named.
+    pub edited: Vec<String>,
+    /// Functions that earlier runs put into a file and this one does not, by file: to be named.
+    pub dropped: Vec<(String, Vec<String>)>,
+    /// Files whose functions are written for other viewing conditions than before: the file, and both in words; to be named.
+    pub reseen: Vec<(String, [String; 2])>,
+    /// Atlases whose rows are other materials than before: to be named.
+    pub rows: Vec<ChangedRows>,
+    /// The first folder of the tree that is a link, and where it leads.
+    pub linked: Option<(PathBuf, PathBuf)>,
+}
+
+/// One file, as it is and as it will be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// The path, relative to the output folder, parts separated by `/`.
+    pub path: String,
+    /// The bytes on disk, if the file is there.
+    pub old: Option<Vec<u8>>,
+    /// The bytes that it should have.
+    pub new: Vec<u8>,
+}
+
+/// What lies where an artifact is to be written, and is not this program's to replace.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Obstacle {
+    /// The path, relative to the output folder.
+    pub path: String,
+    /// Where it leads, if it is a link.
+    pub leads_to: Option<PathBuf>,
+}
+
+/// How a file on disk stands to what it should be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It is not there.
+    Missing,
+    /// It is there and differs.
+    Changed,
+    /// It is there and says the same.
+    Unchanged,
+}
+
+/// Compares the artifacts with the folder, which need not exist yet.
+///
+/// # Errors
+/// An artifact's path cannot be used, the manifest is not one of ours, or a file of the folder cannot be read.
+pub fn plan(
+    out_dir: &Path,
+    artifacts: &[Artifact],
+    scope: &Scope,
+    provenance: &Provenance,
+) -> Result<TreePlan, Error> {
+    artifact::check_paths(artifacts)?;
+    let old_text = folder::read(&out_dir.join(manifest::FILE))?;
+    let old = old_manifest(out_dir, old_text.as_deref(), scope)?;
+    let merged = Manifest::merge(old.as_ref(), scope, artifacts, provenance);
+    refuse_meeting_names(artifacts, &merged)?;
+    let old_entries = old.as_ref().map_or(&[][..], |old| &old.files);
+    let listed: BTreeMap<&str, &Entry> = old_entries
+        .iter()
+        .map(|entry| (entry.file.as_str(), entry))
+        .collect();
+    let files = planned(out_dir, artifacts)?;
+    if let Some(old) = &old {
+        refuse_namesakes(artifacts, &files, old, provenance)?;
+    }
+    let manifest = Planned {
+        path: manifest::FILE.to_string(),
+        old: old_text,
+        new: merged.to_json().into_bytes(),
+    };
+    let expected: BTreeSet<&str> = (merged.files.iter().map(|entry| entry.file.as_str()))
+        .chain([manifest::FILE])
+        .collect();
+    let (orphans, mut stays) = dropped(out_dir, old_entries, &expected)?;
+    stays.extend(unknown(out_dir, old_entries, &files, scope));
+    if scope.whole {
+        stays.extend(strangers(out_dir, &expected, &listed, scope)?);
+    }
+    stays.sort();
+    let (obstacles, edited) = standing(out_dir, &files, &manifest, &listed);
+    let mut written = files.iter().map(|file| file.path.as_str());
+    let mut linked = written.find_map(|path| folder::linked_folder(out_dir, path));
+    if linked.is_none() {
+        let mut removed = orphans.iter().map(|entry| entry.file.as_str());
+        linked = removed.find_map(|path| folder::linked_folder(out_dir, path));
+    }
+    Ok(TreePlan {
+        out_dir: out_dir.to_path_buf(),
+        interim: interim(&merged, &files, &orphans, &listed),
+        files,
+        manifest,
+        orphans,
+        stays,
+        obstacles,
+        edited,
+        dropped: dropped_functions(artifacts, &listed),
+        reseen: reseen(artifacts, &listed),
+        rows: changed_rows(artifacts, &listed),
+        linked,
+    })
+}
+
+/// Functions that the manifest lists of a file and the artifact does not hold.
+fn dropped_functions(
+    artifacts: &[Artifact],
+    listed: &BTreeMap<&str, &Entry>,
+) -> Vec<(String, Vec<String>)> {
+    let dropped = |artifact: &Artifact| {
+        let entry = listed.get(artifact.path.as_str())?;
+        let kept = artifact.detail.functions();
+        let is_lost = |name: &&str| !kept.iter().any(|function| function.name == *name);
+        let lost = entry.function_names().filter(is_lost);
+        let lost: Vec<String> = lost.map(str::to_owned).collect();
+        (!lost.is_empty()).then(|| (artifact.path.clone(), lost))
+    };
+    artifacts.iter().filter_map(dropped).collect()
+}
+
+/// Files of materials whose functions were written for other viewing conditions. A file is written for one set of them: functions
+/// that it keeps from earlier runs change with it.
+fn reseen(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<(String, [String; 2])> {
+    let changed = |artifact: &Artifact| {
+        let old = listed.get(artifact.path.as_str())?.reference()?;
+        let new = &artifact.detail.seen()?.truth;
+        (old != new).then(|| (artifact.path.clone(), [old.to_owned(), new.clone()]))
+    };
+    artifacts.iter().filter_map(changed).collect()
+}
+
+/// Refuses a function that another file of the same language holds already, from another run: whoever includes both would have
+/// it twice.
+fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(), Error> {
+    let made: BTreeSet<&str> = artifacts
+        .iter()
+        .map(|artifact| artifact.path.as_str())
+        .collect();
+    // What this program could not have written is not its own, whatever a manifest says of it.
+    let is_other = |entry: &&Entry| !made.contains(entry.file.as_str()) && could_be_written(entry);
+    let others = merged.files.iter().filter(is_other);
+    let mut owners: BTreeMap<(&str, &str), &str> = BTreeMap::new();
+    for entry in others {
+        for name in entry.function_names() {
+            owners.insert((&entry.target, name), &entry.file);
+        }
+    }
+    for artifact in artifacts {
+        for FunctionDetail { name, .. } in artifact.detail.functions() {
+            if let Some(other) = owners.get(&(artifact.target.as_str(), name.as_str())) {
+                return Err(Error::Usage {
+                    what: format!(
+                        "`{name}` would stand in {} and stands in {other}; rename a material, or choose another --prefix",
+                        artifact.path
+                    ),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+impl TreePlan {
+    /// All files that a write puts in place, the manifest last.
+    pub fn all(&self) -> impl Iterator<Item = &Planned> {
+        self.files.iter().chain([&self.manifest])
+    }
+
+    /// The paths of the files in this state, sorted, the manifest last.
+    pub fn paths(&self, state: State) -> Vec<&str> {
+        let matching = self.all().filter(|file| file.state() == state);
+        matching.map(|file| file.path.as_str()).collect()
+    }
+}
+
+impl Planned {
+    /// How the file on disk stands to what it should be.
+    pub fn state(&self) -> State {
+        match &self.old {
+            None => State::Missing,
+            Some(old) if is_same(&self.path, old, &self.new) => State::Unchanged,
+            Some(_) => State::Changed,
+        }
+    }
+}
+
+/// The old manifest. A run without flags forgets entries whose file somebody deleted:
+/// no other run would, once nobody asks for that material again.
+fn old_manifest(
+    out_dir: &Path,
+    text: Option<&[u8]>,
+    scope: &Scope,
+) -> Result<Option<Manifest>, Error> {
+    let Some(text) = text else {
+        return Ok(None);
+    };
+    let mut old = Manifest::parse(&out_dir.join(manifest::FILE), text)?;
+    if scope.whole {
+        let is_there = |entry: &Entry| out_dir.join(&entry.file).try_exists().unwrap_or(true);
+        old.files
+            .retain(|entry| !could_be_written(entry) || is_there(entry));
+    }
+    Ok(Some(old))
+}
+
+fn planned(out_dir: &Path, artifacts: &[Artifact]) -> Result<Vec<Planned>, Error> {
+    let compare = |artifact: &Artifact| {
+        Ok(Planned {
+            path: artifact.path.clone(),
+            old: folder::read(&out_dir.join(&artifact.path))?,
+            new: artifact.bytes.clone(),
+        })
+    };
+    let mut files = (artifacts.iter().map(compare)).collect::<Result<Vec<_>, Error>>()?;
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(files)
+}
+
+/// What the old manifest lists and the new one does not: files as they are listed are orphans, others stay.
+fn dropped(
+    out_dir: &Path,
+    old: &[Entry],
+    expected: &BTreeSet<&str>,
+) -> Result<(Vec<Entry>, Vec<Stay>), Error> {
+    let (mut orphans, mut stays) = (Vec::new(), Vec::new());
+    let mut seen = expected.clone();
+    for entry in old {
+        let path = out_dir.join(&entry.file);
+        if !seen.insert(&entry.file) || fs::symlink_metadata(&path).is_err() {
+            continue;
+        }
+        let is_plain = folder::is_plain_file(&path);
+        if is_plain && folder::read(&path)?.is_some_and(|bytes| is_as_written(entry, &bytes)) {
+            orphans.push(entry.clone());
+        } else {
+            stays.push(Stay {
+                path: entry.file.clone(),
+                why: "it is no longer generated, and is not as fresnel-gen wrote it: the manifest lists it no more",
+            });
+        }
+    }
+    Ok((orphans, stays))
+}
+
+/// Of the files that differ from what they should be: those of others, and those of ours that were changed.
+fn standing(
+    out_dir: &Path,
+    files: &[Planned],
+    manifest: &Planned,
+    listed: &BTreeMap<&str, &Entry>,
+) -> (Vec<Obstacle>, Vec<String>) {
+    let (mut obstacles, mut edited) = (Vec::new(), Vec::new());
+    for file in files.iter().chain([manifest]) {
+        if file.state() == State::Unchanged {
+            continue;
+        }
+        let leads_to = fs::read_link(out_dir.join(&file.path)).ok();
+        let Some(old) = &file.old else {
+            // A link that leads to nothing lies there, or nothing does.
+            obstacles.extend(leads_to.map(|leads_to| Obstacle {
+                path: file.path.clone(),
+                leads_to: Some(leads_to),
+            }));
+            continue;
+        };
+        let entry = listed.get(file.path.as_str());
+        let is_manifest = file.path == manifest::FILE;
+        let path = file.path.clone();
+        if leads_to.is_some() {
+            obstacles.push(Obstacle { path, leads_to });
+        } else if is_manifest || entry.is_some_and(|entry| is_as_written(entry, old)) {
+            // As we left it.
+        } else if bears_mark(old) {
+            edited.push(path);
+        } else {
+            obstacles.push(Obstacle { path, leads_to });
+        }
+    }
+    (obstacles, edited)
+}
+
+/// The manifest that is on disk while the run writes. It lists every file with the hash that it has before and the one it
+/// has after, and the orphans: a run that is killed leaves nothing unlisted.
+fn interim(
+    merged: &Manifest,
+    files: &[Planned],
+    orphans: &[Entry],
+    listed: &BTreeMap<&str, &Entry>,
+) -> Vec<u8> {
+    let mut interim = merged.clone();
+    let changed = files.iter().filter(|file| file.state() == State::Changed);
+    let before: BTreeMap<&str, &Vec<u8>> = changed
+        .filter_map(|file| Some((file.path.as_str(), file.old.as_ref()?)))
+        .collect();
+    for entry in &mut interim.files {
+        let path = entry.file.as_str();
+        let (Some(old), Some(known)) = (before.get(path), listed.get(path)) else {
+            continue;
+        };
+        if is_listed(known, old) {
+            entry.was = Some(listed_hash(path, old));
+        }
+    }
+    interim.files.extend(orphans.iter().cloned());
+    interim.files.sort_by(|a, b| a.file.cmp(&b.file));
+    interim.to_json().into_bytes()
+}

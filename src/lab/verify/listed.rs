@@ -1,0 +1,154 @@
+//! What the manifest says of a file, against what is true of it today: functions, signatures, errors, costs.
+
+use serde_json::{Value, json};
+
+use crate::generator::output::artifact::Artifact;
+use crate::generator::output::manifest::{self, Entry, Manifest};
+use crate::generator::output::ours::is_listed;
+use crate::generator::emit::Detail;
+
+/// The manifest's entry of a file.
+pub(super) struct Listed<'a> {
+    entry: &'a Entry,
+    text: &'a str,
+    /// How often the manifest lists the file.
+    times: usize,
+}
+
+impl<'a> Listed<'a> {
+    /// The entry of a file, where there is one.
+    pub fn new(manifest: &'a Manifest, text: &'a str, path: &str) -> Option<Listed<'a>> {
+        let mut entries = manifest.files.iter().filter(|entry| entry.file == path);
+        Some(Listed {
+            entry: entries.next()?,
+            text,
+            times: 1 + entries.count(),
+        })
+    }
+
+    /// Whether it lists a function.
+    pub fn has(&self, name: &str) -> bool {
+        self.entry.function_names().any(|listed| listed == name)
+    }
+
+    /// The entries that differ from those that a run would write today.
+    pub fn findings(&self, artifact: &Artifact) -> Vec<String> {
+        let mut found = Vec::new();
+        if self.times > 1 {
+            found.push(format!(
+                "{}: it lists {} {} times; a run that writes the file lists it once",
+                manifest::FILE,
+                self.entry.file,
+                self.times
+            ));
+        }
+        for (claim, said, right) in [
+            ("method", &self.entry.method, &artifact.method),
+            ("material", &self.entry.material, &artifact.material),
+        ] {
+            if said != right {
+                found.push(format!(
+                    "{}:{}: of {} it says `{claim}` is {}, and right is {}",
+                    manifest::FILE,
+                    self.line(&[&format!("\"{claim}\":")]),
+                    self.entry.file,
+                    said.as_deref().unwrap_or("null"),
+                    right.as_deref().unwrap_or("null")
+                ));
+            }
+        }
+        let today = artifact.detail.functions();
+        for function in self.entry.functions() {
+            let name = function["name"].as_str().unwrap_or_default();
+            match today.iter().find(|other| other.name == name) {
+                None => found.push(self.finding(
+                    name,
+                    "name",
+                    "lists it, and fresnel-gen does not write it",
+                )),
+                Some(right) => found.extend(self.claims(name, function, &json!(right))),
+            }
+        }
+        if let Detail::Functions(today) = &artifact.detail {
+            found.extend(self.of_material("seen", &json!(today.seen)));
+            found.extend(self.of_material("data", &json!(today.data)));
+        }
+        found
+    }
+
+    /// A wrong entry of the material's viewing conditions or source.
+    fn of_material(&self, claim: &str, right: &Value) -> Option<String> {
+        let said = self.entry.detail.get(claim).filter(|said| *said != right)?;
+        Some(format!(
+            "{}:{}: of {} it says `{claim}` is {said}, and right is {right}",
+            manifest::FILE,
+            self.line(&[&format!("\"{claim}\":")]),
+            self.entry.file,
+        ))
+    }
+
+    /// The functions of the file that the entry does not list.
+    pub fn unlisted(&self, in_file: &[&str]) -> Vec<String> {
+        let missing = in_file.iter().filter(|name| !self.has(name));
+        let finding = |name: &&str| {
+            format!(
+                "{}:{}: of {} it does not list {name}",
+                manifest::FILE,
+                self.line(&[]),
+                self.entry.file
+            )
+        };
+        missing.map(finding).collect()
+    }
+
+    fn claims(&self, name: &str, function: &Value, right: &Value) -> Vec<String> {
+        let claims = function.as_object().into_iter().flatten();
+        let is_false = |(claim, said): &(&String, &Value)| right.get(claim.as_str()) != Some(said);
+        let words = |(claim, said): (&String, &Value)| {
+            let what = format!(
+                "says `{claim}` is {said}, and right is {}",
+                right[claim.as_str()]
+            );
+            self.finding(name, claim, &what)
+        };
+        claims.filter(is_false).map(words).collect()
+    }
+
+    /// A wrong hash, for a file whose bytes are those that a run would write today.
+    pub fn hash_finding(&self, bytes: &[u8]) -> Option<String> {
+        (!is_listed(self.entry, bytes)).then(|| {
+            format!(
+                "{}:{}: of {} it says a `sha256` that is not the file's",
+                manifest::FILE,
+                self.line(&["\"sha256\":"]),
+                self.entry.file
+            )
+        })
+    }
+
+    fn finding(&self, name: &str, claim: &str, what: &str) -> String {
+        let line = self.line(&[&format!("\"name\": \"{name}\""), &format!("\"{claim}\":")]);
+        format!(
+            "{}:{line}: of {name} in {} it {what}",
+            manifest::FILE,
+            self.entry.file
+        )
+    }
+
+    /// The line of a claim in the manifest: the last of these marks, each looked for after the one before.
+    fn line(&self, marks: &[&str]) -> usize {
+        let file = format!("\"file\": \"{}\"", self.entry.file);
+        let mut lines = self.text.lines().enumerate().peekable();
+        let mut at = 1;
+        for mark in [file.as_str()].iter().chain(marks) {
+            while let Some((i, line)) = lines.peek() {
+                if line.contains(mark) {
+                    at = i + 1;
+                    break;
+                }
+                lines.next();
+            }
+        }
+        at
+    }
+}

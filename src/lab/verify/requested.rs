@@ -1,0 +1,190 @@
+//! The plan of a verification from a request, and from what an output folder and its manifest hold.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use crate::generator::generate::kept::kept;
+use crate::generator::error::Error;
+use crate::generator::generate::{Held, Kept, Made, Meant, generate_meant};
+use crate::generator::request::{Materials, Request};
+use crate::generator::emit::{Emitted, HeaderForm};
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::verify::plan::{PlannedFile, ShippedPage, VerifyPlan};
+use crate::language::{methods, targets};
+
+use crate::lab::verify::shipped::{Folder, replace_with_today};
+
+/// What a request comes to, with the text that lies in a folder.
+///
+/// # Errors
+/// The request cannot be met, or a file cannot be read.
+pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, Error> {
+    // What earlier runs put into a material's file belongs to it: it would be written again.
+    let kept = kept(folder, request.precision)?;
+    let meant = generate_meant(request, &kept, &Held::default())?;
+    let shipped = Folder::new(folder)?;
+    let held = Held {
+        methods: held_methods(request, &meant, &shipped, &kept)?,
+        full_headers: full_headers(&meant, &shipped)?,
+    };
+    let exact = match is_as_meant(&meant, &held) {
+        true => meant.files.clone(),
+        false => generate_meant(request, &kept, &held)?.files,
+    };
+    let mut files: Vec<PlannedFile> = Vec::new();
+    for (meant, exact) in meant.files.into_iter().zip(exact) {
+        let (made, page) = page(request, &shipped, meant, exact)?;
+        let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
+        match files.last_mut() {
+            Some(last) if stem(&last.pages[0].path) == stem(&page.path) => last.add(page),
+            _ => files.push(planned(made, page)?),
+        }
+    }
+    // A request that names methods and no material has library files only; they need values all the same.
+    let others = if meant.subjects.is_empty() {
+        usual_subjects(request)?
+    } else {
+        Vec::new()
+    };
+    let pages: BTreeSet<&str> = (files.iter().flat_map(|file| &file.pages))
+        .map(|page| page.path.as_str())
+        .collect();
+    let mut places = shipped.files();
+    places.extend(pages.iter().map(|page| folder.join(page)));
+    let unasked = match request.names_nothing() {
+        true => shipped.others(&request.targets, &pages),
+        false => Vec::new(),
+    };
+    Ok(VerifyPlan {
+        places,
+        unasked,
+        files,
+        others,
+        subjects: meant.subjects,
+        left_out: meant
+            .left_out
+            .into_iter()
+            .map(|unseen| unseen.why)
+            .collect(),
+    })
+}
+
+/// The methods that material files in the folder hold, by the manifest and by the names of the functions in them: what such a
+/// file is held against has these and no others.
+fn held_methods(
+    request: &Request,
+    meant: &Meant,
+    shipped: &Folder,
+    kept: &Kept,
+) -> Result<Kept, Error> {
+    let naming = request.naming();
+    let mut held = Kept::new();
+    for made in &meant.files {
+        let Some((file, subject)) = material_file(meant, made) else {
+            continue;
+        };
+        let names = shipped.functions_in(&made.artifact.path)?;
+        let in_text = methods::ALL
+            .iter()
+            .filter(|method| names.contains(&naming.specialised(method, subject)));
+        let mut all = kept.get(&file).cloned().unwrap_or_default();
+        all.extend(in_text.map(|method| method.name.to_owned()));
+        all.retain(|name| methods::find(name).is_some());
+        if !all.is_empty() {
+            held.entry(file).or_default().extend(all);
+        }
+    }
+    Ok(held)
+}
+
+/// The files of the folder whose comments have the full form: what such a file is held against has it too.
+fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Error> {
+    let mut full = BTreeSet::new();
+    for made in &meant.files {
+        let path = &made.artifact.path;
+        if shipped.header_form(path)? == HeaderForm::Full {
+            let stem = path
+                .rsplit_once('.')
+                .map_or(path.as_str(), |(stem, _)| stem);
+            full.insert(stem.to_owned());
+        }
+    }
+    Ok(full)
+}
+
+/// The target and the material that a material's file is kept under, and the material.
+fn material_file<'a>(
+    meant: &'a Meant,
+    made: &Made,
+) -> Option<((String, String), &'a MaterialInMedium)> {
+    let subject = &meant.subjects[made.subject?];
+    let file = (made.artifact.target.clone(), subject.name.clone());
+    Some((file, subject))
+}
+
+/// Whether files that hold something hold the very methods that would be written, in the usual form: nothing need be generated
+/// again then.
+fn is_as_meant(meant: &Meant, held: &Held) -> bool {
+    held.full_headers.is_empty()
+        && meant.files.iter().all(|made| {
+            let file = material_file(meant, made);
+            let held = file.and_then(|(file, _)| held.methods.get(&file));
+            let methods = || made.functions.iter().map(|one| one.method.name.to_owned());
+            held.is_none_or(|held| *held == methods().collect())
+        })
+}
+
+/// A file as it lies in the folder, and what is run of it. `exact` is what the file should hold; `meant` also holds what this run asks
+/// for.
+fn page(
+    request: &Request,
+    shipped: &Folder,
+    meant: Made,
+    exact: Made,
+) -> Result<(Made, ShippedPage), Error> {
+    let asked_in = |made: &Made| -> Vec<bool> {
+        let asked = made.functions.iter();
+        asked.map(|one| is_asked_for(request, one)).collect()
+    };
+    let asked = asked_in(&exact);
+    let mut page = shipped.page(&exact, &asked)?;
+    let has = |name: &str| exact.functions.iter().any(|one| one.name == name);
+    let missing = meant.functions.iter().filter(|one| !has(&one.name));
+    let lacks: Vec<&str> = missing.map(|one| one.name.as_str()).collect();
+    let (mut made, asked) = if request.methods.is_empty() || lacks.is_empty() {
+        (exact, asked)
+    } else {
+        let asked = asked_in(&meant);
+        replace_with_today(&mut page, &meant, &asked, &lacks);
+        (meant, asked)
+    };
+    let mut asked = asked.into_iter();
+    made.functions.retain(|_| asked.next().unwrap_or(true));
+    Ok((made, page))
+}
+
+/// Whether a function's method was asked for: by name, or because none was named.
+fn is_asked_for(request: &Request, emitted: &Emitted) -> bool {
+    let named = |name: &String| name == "all" || name == emitted.method.name;
+    emitted.effect.is_some() || request.methods.is_empty() || request.methods.iter().any(named)
+}
+
+fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
+    let usual = Request {
+        materials: Materials::Default,
+        ..request.clone()
+    };
+    Ok(usual.subjects()?.materials())
+}
+
+fn planned(made: Made, page: ShippedPage) -> Result<PlannedFile, Error> {
+    let target = targets::find(&made.artifact.target).ok_or_else(|| Error::Usage {
+        what: format!("there is no target `{}`", made.artifact.target),
+    })?;
+    Ok(PlannedFile {
+        target,
+        pages: vec![page],
+        functions: made.functions,
+        subject: made.subject,
+    })
+}

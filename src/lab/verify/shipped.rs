@@ -1,0 +1,347 @@
+//! A file as it lies in the folder, against what would be written today and against what the manifest says of it.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use crate::generator::error::Error;
+use crate::generator::output::folder;
+use crate::generator::generate::Made;
+use crate::generator::output::manifest::{self, Manifest};
+use crate::generator::emit::HeaderForm;
+use crate::lab::verify::{drift, module};
+use crate::lab::verify::outline::{Item, Outline, outline};
+use crate::lab::verify::plan::ShippedPage;
+use crate::language::targets;
+use crate::physics::foreign::Foreign;
+
+use crate::lab::verify::difference;
+use crate::lab::verify::listed::Listed;
+
+/// The version of this program.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+fn loop_found(found: &Item) -> String {
+    match found.line {
+        0 => format!("it holds a loop ({})", found.words),
+        line => format!("it holds a loop (line {line}: `{}`)", found.words),
+    }
+}
+
+/// Lets what would be written today be run in place of the file, which lacks some of its functions.
+pub(super) fn replace_with_today(
+    page: &mut ShippedPage,
+    made: &Made,
+    asked: &[bool],
+    lacks: &[&str],
+) {
+    page.is_shipped = false;
+    page.holds_loop = None;
+    page.bytes.clone_from(&made.artifact.bytes);
+    page.entries = Today::new(made, asked).entries();
+    page.remark = Some(format!(
+        "{}: it lacks {}, so that what would be written today was run",
+        page.path,
+        lacks.join(", ")
+    ));
+}
+
+/// The output folder.
+pub(super) struct Folder<'a> {
+    path: &'a Path,
+    /// The manifest with its text.
+    manifest: Option<(Manifest, String)>,
+}
+
+impl Folder<'_> {
+    pub fn new(path: &Path) -> Result<Folder<'_>, Error> {
+        let file = path.join(manifest::FILE);
+        let text = folder::read(&file)?;
+        let manifest = match text {
+            Some(text) => {
+                let parsed = Manifest::parse(&file, &text)?;
+                Some((parsed, String::from_utf8_lossy(&text).into_owned()))
+            }
+            None => None,
+        };
+        Ok(Folder { path, manifest })
+    }
+
+    /// The files that its manifest lists, and the manifest.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let listed = self
+            .manifest
+            .iter()
+            .flat_map(|(manifest, _)| &manifest.files);
+        let listed = listed.map(|entry| self.path.join(&entry.file));
+        listed.chain([self.path.join(manifest::FILE)]).collect()
+    }
+
+    /// The files of functions that the manifest lists for these targets, or for any where none is named, besides these pages.
+    pub fn others(&self, targets: &[String], pages: &BTreeSet<&str>) -> Vec<String> {
+        let listed = self
+            .manifest
+            .iter()
+            .flat_map(|(manifest, _)| &manifest.files);
+        let is_wanted = |target: &str| {
+            targets::find(target).is_some()
+                && (targets.is_empty() || targets.iter().any(|own| own == target))
+        };
+        let others = listed.filter(|entry| {
+            is_wanted(&entry.target)
+                && entry.function_names().next().is_some()
+                && !pages.contains(entry.file.as_str())
+        });
+        others.map(|entry| entry.file.clone()).collect()
+    }
+
+    /// The names of the functions that stand in a file of the folder; of a module all its names.
+    pub fn functions_in(&self, path: &str) -> Result<Vec<String>, Error> {
+        let bytes = folder::read(&self.path.join(path))?.unwrap_or_default();
+        if path.ends_with(".spv") {
+            return Ok(module::names(&bytes));
+        }
+        let found = outline(&String::from_utf8_lossy(&bytes), nests(path));
+        Ok(found.functions())
+    }
+
+    /// The form of the comments of a file of the folder. Modules have no comments, and what is not there has the usual form.
+    pub fn header_form(&self, path: &str) -> Result<HeaderForm, Error> {
+        let bytes = folder::read(&self.path.join(path))?.filter(|_| !path.ends_with(".spv"));
+        let text = bytes.unwrap_or_default();
+        Ok(HeaderForm::in_text(&String::from_utf8_lossy(&text)))
+    }
+
+    /// The page of a file; `asked` says which of its functions are to be run.
+    pub fn page(&self, made: &Made, asked: &[bool]) -> Result<ShippedPage, Error> {
+        let path = made.artifact.path.clone();
+        let lying = folder::read(&self.path.join(&path))?;
+        let today = Today::new(made, asked);
+        let listed = self
+            .manifest
+            .as_ref()
+            .and_then(|(manifest, text)| Listed::new(manifest, text, &path));
+        let mut page = ShippedPage {
+            is_shipped: lying.is_some(),
+            is_current: true,
+            holds_loop: None,
+            bytes: Vec::new(),
+            entries: today.entries(),
+            remark: None,
+            findings: listed
+                .iter()
+                .flat_map(|listed| listed.findings(&made.artifact))
+                .collect(),
+            path,
+        };
+        let Some(bytes) = lying else {
+            page.findings.extend(listed.map(|_| {
+                format!(
+                    "{}: it is not there, and {} lists it",
+                    page.path,
+                    manifest::FILE
+                )
+            }));
+            page.bytes.clone_from(&made.artifact.bytes);
+            return Ok(page);
+        };
+        today.compare(&mut page, bytes, listed.as_ref());
+        let version = self
+            .manifest
+            .as_ref()
+            .map(|(manifest, _)| &manifest.version);
+        if let (Some(remark), Some(version)) = (&mut page.remark, version)
+            && version != VERSION
+        {
+            *remark += &format!(
+                "; version {} wrote the folder last, and this is {VERSION}",
+                Foreign(version)
+            );
+        }
+        Ok(page)
+    }
+}
+
+/// What would be written today.
+struct Today<'a> {
+    made: &'a Made,
+    asked: &'a [bool],
+}
+
+impl<'a> Today<'a> {
+    fn new(made: &'a Made, asked: &'a [bool]) -> Today<'a> {
+        Today { made, asked }
+    }
+
+    fn is_module(&self) -> bool {
+        self.made.artifact.path.ends_with(".spv")
+    }
+
+    /// The entry points of the functions that are to be run.
+    fn entries(&self) -> Vec<String> {
+        let functions = self.made.artifact.detail.functions();
+        let wanted = functions
+            .iter()
+            .zip(self.asked)
+            .filter(|(_, asked)| **asked);
+        wanted
+            .filter_map(|(function, _)| function.entry_point.clone())
+            .collect()
+    }
+
+    /// The names by which a file holds the functions that are to be run.
+    fn names(&self) -> Vec<String> {
+        if self.is_module() {
+            return self.entries();
+        }
+        let wanted = self
+            .made
+            .functions
+            .iter()
+            .zip(self.asked)
+            .filter(|(_, asked)| **asked);
+        wanted.map(|(emitted, _)| emitted.name.clone()).collect()
+    }
+
+    /// Enters what lies there. Where it lacks a function that is to be run, what would be written is run.
+    fn compare(&self, page: &mut ShippedPage, bytes: Vec<u8>, listed: Option<&Listed>) {
+        page.is_current = self.is_current(&bytes);
+        if page.is_current {
+            let hash = listed.and_then(|listed| listed.hash_finding(&bytes));
+            page.findings.extend(hash);
+            page.findings
+                .extend(self.unlisted(listed, &self.entries_of_all()));
+            page.bytes = bytes;
+            return;
+        }
+        let found = self.outline(&bytes);
+        let held = self.held(&bytes, &found);
+        page.findings.extend(self.unlisted(listed, &held));
+        // A manifest that lists what lies there proves nothing: anybody can write one.
+        if self.is_module() && !page.is_run() {
+            page.findings.push(format!(
+                "{}: it is not what would be written today ({}), and only compute modules are run; write it again, and look at the difference",
+                page.path,
+                self.difference(&bytes)
+            ));
+        }
+        let lacks: Vec<String> = self
+            .names()
+            .into_iter()
+            .filter(|name| !held.contains(name))
+            .collect();
+        let is_listed = |name: &str| listed.is_none_or(|listed| listed.has(name));
+        page.findings
+            .extend(self.findings(&page.path, &found, &lacks, &is_listed));
+        if !lacks.is_empty() {
+            let lacks: Vec<&str> = lacks.iter().map(String::as_str).collect();
+            replace_with_today(page, self.made, self.asked, &lacks);
+            return;
+        }
+        page.holds_loop = found.loops.first().map(loop_found);
+        page.remark = Some(format!(
+            "{}: it is not what would be written today: {}",
+            page.path,
+            self.difference(&bytes)
+        ));
+        page.bytes = bytes;
+    }
+
+    /// Functions by the name that stands in the file: of a module the entry point.
+    fn functions(&self) -> impl Iterator<Item = (&str, &str)> {
+        let functions = self.made.artifact.detail.functions().iter();
+        functions.map(|function| {
+            let entry_point = function.entry_point.as_ref();
+            let in_file = entry_point.unwrap_or(&function.name);
+            (in_file.as_str(), function.name.as_str())
+        })
+    }
+
+    fn entries_of_all(&self) -> Vec<String> {
+        self.functions()
+            .map(|(entry, _)| entry.to_owned())
+            .collect()
+    }
+
+    /// Of the functions that the file holds those that the manifest does not list.
+    fn unlisted(&self, listed: Option<&Listed>, held: &[String]) -> Vec<String> {
+        let held = self
+            .functions()
+            .filter(|(entry, _)| held.iter().any(|held| held == entry));
+        let names: Vec<&str> = held.map(|(_, name)| name).collect();
+        listed.map_or_else(Vec::new, |listed| listed.unlisted(&names))
+    }
+
+    fn is_current(&self, bytes: &[u8]) -> bool {
+        let today = &self.made.artifact.bytes;
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace("\r\n", "\n");
+        bytes == today || !self.is_module() && text(bytes) == text(today)
+    }
+
+    /// In what the bytes differ from today's.
+    fn difference(&self, bytes: &[u8]) -> String {
+        let today = &self.made.artifact.bytes;
+        if self.is_module() {
+            return difference::of_modules(bytes, today).to_owned();
+        }
+        difference::of_texts(
+            &String::from_utf8_lossy(bytes),
+            &String::from_utf8_lossy(today),
+        )
+    }
+
+    fn outline(&self, bytes: &[u8]) -> Outline {
+        if self.is_module() {
+            return Outline {
+                declared: module::declarations(bytes),
+                loops: module::loops(bytes),
+                ..Outline::default()
+            };
+        }
+        let nests = nests(&self.made.artifact.path);
+        outline(&String::from_utf8_lossy(bytes), nests)
+    }
+
+    fn held(&self, bytes: &[u8], found: &Outline) -> Vec<String> {
+        if self.is_module() {
+            return module::entry_points(bytes);
+        }
+        found.functions()
+    }
+
+    fn findings(
+        &self,
+        path: &str,
+        found: &Outline,
+        lacks: &[String],
+        is_listed: &dyn Fn(&str) -> bool,
+    ) -> Vec<String> {
+        if self.is_module() && !lacks.is_empty() {
+            // A module with fewer functions has another interface. Functions are listed by name, not by entry point.
+            let pairs = self
+                .made
+                .functions
+                .iter()
+                .zip(self.made.artifact.detail.functions());
+            let lost = pairs.filter(|(emitted, function)| {
+                let entry = function.entry_point.as_ref();
+                entry.is_some_and(|entry| lacks.contains(entry)) && is_listed(&emitted.name)
+            });
+            return lost
+                .map(|(emitted, _)| format!("{path}: it lacks `{}`", emitted.name))
+                .collect();
+        }
+        drift::findings(
+            path,
+            found,
+            &self.outline(&self.made.artifact.bytes),
+            is_listed,
+        )
+    }
+}
+
+/// Whether comments of a file may stand in comments, by its ending.
+fn nests(path: &str) -> bool {
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let mut targets = targets::ALL.iter();
+    targets.any(|target| target.extension == ending && target.nests_comments)
+}

@@ -1,0 +1,64 @@
+//! A figure of the thesis as a chart.
+
+use crate::lab::reproduce::{DrawnCurve, FIGURE_POINTS, ThesisFigure};
+use crate::pictures::plot::{ChartAxis, LineChart, Mark, Series, Style, ticks};
+
+/// The chart of a figure.
+pub fn figure_chart(figure: &ThesisFigure) -> LineChart {
+    let approximate = figure.curves.iter().enumerate();
+    let approximate = approximate.map(|(i, curve)| series(curve, Style::Approximate(i)));
+    let marks = figure.marks.iter();
+    LineChart {
+        title: format!("Figure {}: {}", figure.number, figure.subject),
+        subtitle: subtitle(figure),
+        x: ChartAxis::angle_of_incidence(),
+        y: ChartAxis {
+            label: "unpolarised reflectance".to_owned(),
+            low: figure.low,
+            high: 100.0,
+            ticks: ticks(figure.low, 100.0, 5),
+            unit: "%",
+        },
+        series: [series(&figure.exact, Style::Exact)]
+            .into_iter()
+            .chain(approximate)
+            .collect(),
+        marks: marks
+            .map(|(at, label)| Mark {
+                at: *at,
+                label: label.clone(),
+            })
+            .collect(),
+        foot: "fresnel-gen reproduce figures".to_owned(),
+    }
+}
+
+fn subtitle(figure: &ThesisFigure) -> String {
+    let difference = |curve: &DrawnCurve| {
+        let (at, apart) = curve.largest_difference(&figure.exact);
+        format!("{} {apart:.2} percentage points at {at}°", curve.name)
+    };
+    let differences: Vec<String> = figure.curves.iter().map(difference).collect();
+    let mut parts = vec![
+        format!("Reflectance computed at {FIGURE_POINTS} angles, a quarter of a degree apart."),
+        format!(
+            "Largest difference from the exact law: {}.",
+            differences.join("; ")
+        ),
+        figure.derived.clone(),
+        figure.note.to_owned(),
+    ];
+    if figure.low > 0.0 {
+        parts.push(format!("The axis starts at {} %.", figure.low));
+    }
+    parts.retain(|part| !part.is_empty());
+    parts.join(" ")
+}
+
+fn series(curve: &DrawnCurve, style: Style) -> Series {
+    Series {
+        name: curve.name.to_owned(),
+        style,
+        points: curve.points.clone(),
+    }
+}

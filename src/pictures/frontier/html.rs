@@ -1,0 +1,122 @@
+//! All charts on one page: the set, the axes and what is shown are chosen there. Self-contained, for any browser.
+
+use serde::Serialize;
+use tera::Context;
+
+use crate::generator::fit::MethodErrors;
+use crate::lab::chart::{ChartData, ChartEntry, ERRORS, FunctionOrigin, LEAST_ERROR};
+use crate::pictures::html;
+
+static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
+
+/// What the page's script reads.
+#[derive(Serialize)]
+struct PageData<'a> {
+    least_error: f64,
+    as_near: f64,
+    entries: Vec<EntryColumns<'a>>,
+    errors: Vec<[&'static str; 2]>,
+    costs: Vec<CostColumns<'a>>,
+    sets: Vec<SetColumns<'a>>,
+}
+
+#[derive(Serialize)]
+struct EntryColumns<'a> {
+    label: String,
+    inputs: &'static str,
+    input_numbers: usize,
+    summary: &'a str,
+    source: String,
+    fetches: usize,
+    fails: Option<&'a str>,
+    is_ours: bool,
+    describes: Option<&'static str>,
+    no_cost: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct CostColumns<'a> {
+    name: &'a str,
+    title: &'a str,
+    holds_fetches: bool,
+    costs: &'a [Option<f64>],
+}
+
+#[derive(Serialize)]
+struct SetColumns<'a> {
+    name: &'a str,
+    title: &'a str,
+    count: usize,
+    undescribed: &'a [Vec<String>],
+    errors: Vec<[Option<f64>; 4]>,
+}
+
+/// The page; it opens with this set, cost and error. Or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
+pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<String, String> {
+    let json = serde_json::to_string(&page_data(data)).map_err(|why| why.to_string())?;
+    let mut context = Context::new();
+    // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
+    context.insert("data", &json.replace('<', "\\u003c"));
+    context.insert("first", &[set, cost, error]);
+    context.insert("command", &data.command);
+    let user = data.entries.iter().find_map(ChartEntry::user);
+    context.insert("user", &user.map(|user| &user.name));
+    html::fill(TEMPLATE, &context)
+}
+
+fn page_data(data: &ChartData) -> PageData<'_> {
+    let costs = data.costs.iter().map(|cost| CostColumns {
+        name: cost.name,
+        title: &cost.title,
+        holds_fetches: cost.holds_fetches,
+        costs: &cost.costs,
+    });
+    let sets = data.sets.iter().map(|set| SetColumns {
+        name: &set.name,
+        title: &set.title,
+        count: set.count,
+        undescribed: &set.undescribed,
+        errors: set.errors.iter().map(four_digits).collect(),
+    });
+    PageData {
+        least_error: LEAST_ERROR,
+        as_near: crate::lab::cost::TIE,
+        entries: data.entries.iter().map(entry_columns).collect(),
+        errors: ERRORS
+            .iter()
+            .map(|error| [error.short, error.title])
+            .collect(),
+        costs: costs.collect(),
+        sets: sets.collect(),
+    }
+}
+
+fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
+    let (summary, source) = match &entry.function {
+        FunctionOrigin::Method(method) => (method.summary, method.source_in_full()),
+        FunctionOrigin::User(user) => (user.about.as_str(), String::new()),
+    };
+    EntryColumns {
+        label: entry.label(),
+        inputs: entry.inputs(),
+        input_numbers: entry.input_numbers(),
+        summary,
+        source,
+        fetches: entry.fetches,
+        fails: entry.fails(),
+        is_ours: entry.is_ours(),
+        describes: entry.method().map(|method| method.class.described()),
+        no_cost: entry.user().and_then(|user| user.no_cost.as_deref()),
+    }
+}
+
+/// Each error with four digits that count: what is seen of a point on a page.
+fn four_digits(errors: &MethodErrors) -> [Option<f64>; 4] {
+    ERRORS.map(|axis| {
+        let error = (axis.value)(errors)?;
+        format!("{error:.3e}").parse().ok()
+    })
+}

@@ -1,0 +1,254 @@
+//! The chart as a self-contained SVG: both axes in powers of ten.
+
+use crate::pictures::plot::{AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK, TITLE, Tick, VERMILION, capital, log_ticks, plain_label};
+
+use crate::pictures::frontier::labels::{DOT, LabelPlace, place_names};
+use crate::lab::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
+
+/// The size of the picture.
+const FRAME: PanelFrame = PanelFrame {
+    width: 860.0,
+    height: 600.0,
+    margin: 24.0,
+    upper: 20.0,
+    lower: 18.0,
+};
+/// Room for the labels of the vertical axis and for its name.
+const LEFT: f64 = 84.0;
+/// Room for the same below.
+const BELOW: f64 = 62.0;
+/// Room for the foot.
+const FOOT_ROOM: f64 = 34.0;
+/// How much wider than the points the axes are.
+const SLACK: f64 = 1.25;
+
+const OURS: &str = BLUE;
+const THEIRS: &str = VERMILION;
+const YOURS: &str = GREEN;
+
+/// A chart's axes and their ticks.
+struct Plane {
+    axes: Axes,
+    x: Vec<Tick>,
+    y: Vec<Tick>,
+}
+
+impl Plane {
+    /// The axes around these points, in powers of ten.
+    fn new(points: &[ChartPoint], area: Area) -> Plane {
+        let costs = ends(points.iter().map(|point| point.cost));
+        let errors = ends(points.iter().map(|point| drawn(point.error)));
+        Plane {
+            axes: Axes {
+                area,
+                x: Scale::log(costs, [area.left, area.right]),
+                y: Scale::log(errors, [area.bottom, area.top]),
+            },
+            x: power_ticks(costs),
+            y: power_ticks(errors),
+        }
+    }
+
+    /// Where a point stands.
+    fn at(&self, point: &ChartPoint) -> (f64, f64) {
+        (
+            self.axes.x.at(point.cost),
+            self.axes.y.at(drawn(point.error)),
+        )
+    }
+}
+
+/// The ends of an axis that holds these values with some room.
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    [low / SLACK, high * SLACK]
+}
+
+/// 1, 2 and 5 times the powers of ten on the axis; powers alone where those are many.
+fn power_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
+    let is_long = libm::log10(high) - libm::log10(low) > 2.5;
+    let multiples: &[f64] = if is_long { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    let tick = |value| Tick {
+        value,
+        label: plain_label(value),
+    };
+    let ticks = log_ticks(low, high, multiples).into_iter();
+    ticks.map(tick).collect()
+}
+
+/// The picture of a view; none where nothing of it is known.
+pub fn chart_svg(view: &ChartView) -> Option<String> {
+    let points = view.points();
+    if points.is_empty() {
+        return None;
+    }
+    let mut layout = Layout::new(FRAME);
+    let title = capital(&view.title());
+    layout.paragraph(&TITLE, &title);
+    let key = key(view);
+    layout.paragraph(&SUBTITLE, &key);
+    let top = layout.bottom() + 12.0;
+    let bottom = FRAME.height - BELOW - FOOT_ROOM;
+    let area = Area {
+        left: FRAME.margin + LEFT - 30.0,
+        top,
+        right: FRAME.right() - 8.0,
+        bottom,
+    };
+    let plane = Plane::new(&points, area);
+    let mut elements = plane.axes.grid(&plane.x, &plane.y);
+    elements.extend(plane.axes.tick_labels(&plane.x, &plane.y));
+    elements.extend(titles(view, &plane.axes));
+    elements.push(staircase(&points, &plane));
+    elements.extend(pairs(&points, &plane));
+    // A full dot lies over its hollow one where they are the same, and a user's over all.
+    let mut layers: Vec<&ChartPoint> = points.iter().collect();
+    layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
+    elements.extend(layers.into_iter().map(|point| dot(point, &plane)));
+    elements.extend(labels(&points, &plane));
+    layout.extend(elements, bottom + BELOW - 8.0);
+    layout.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
+    Some(layout.document(&title, &key))
+}
+
+const KEY: &str = "Blue: ours. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
+largest error is least. Square: reads a texture; its cost excludes the fetch. The line: of functions that read no texture none is both cheaper and as accurate; those that fail inside their domain are left out of it.";
+
+/// The key, with a sentence on a user's function, and what is left out.
+fn key(view: &ChartView) -> String {
+    let user = view.data.entries.iter().find_map(ChartEntry::user);
+    let own = user.map(|user| match view.lacks() {
+        None => format!(" Green diamond: {}, your own.", user.name),
+        Some(lacks) => format!(" {lacks}"),
+    });
+    let without = without_point(view).into_iter();
+    let without: Vec<String> = without.map(|line| format!(" {line}")).collect();
+    let head = if without.is_empty() { "" } else { " Left out:" };
+    format!("{KEY}{}{head}{}", own.unwrap_or_default(), without.concat())
+}
+
+/// The titles of the axes.
+fn titles(view: &ChartView, axes: &Axes) -> Vec<String> {
+    let area = &axes.area;
+    let cost = format!("Cost: {}", view.cost.title);
+    let under = AXIS.wrap(&cost, area.right - area.left);
+    let error = capital(ERRORS[view.error].short);
+    let beside = AXIS.wrap(&error, area.bottom - area.top);
+    axes.titles(&under, 24.0, &beside, FRAME.margin - 8.0)
+}
+
+/// The frontier, as the least error that a cost buys.
+fn staircase(points: &[ChartPoint], plane: &Plane) -> String {
+    let Area { top, right, .. } = plane.axes.area;
+    let best = points.iter().filter(|point| point.is_on_frontier);
+    let mut line = String::new();
+    for point in best {
+        let (across, down) = plane.at(point);
+        line += &if line.is_empty() {
+            format!("M{across:.2} {top:.2}V{down:.2}")
+        } else {
+            format!("H{across:.2}V{down:.2}")
+        };
+    }
+    format!(
+        "<path fill=\"none\" stroke=\"{OURS}\" stroke-opacity=\"0.55\" stroke-width=\"2\" d=\"{line}H{right:.2}\"/>"
+    )
+}
+
+/// A line from each method with its intended inputs to itself with its best ones.
+fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
+    let best = points.iter().filter(|point| point.entry.is_best);
+    let line = |best: &ChartPoint| {
+        let is_same = |point: &&ChartPoint| {
+            point.entry.inputs() == "intended" && point.entry.name() == best.entry.name()
+        };
+        let intended = points.iter().find(is_same)?;
+        let ((across, to), (_, from)) = (plane.at(best), plane.at(intended));
+        let colour = colour(best);
+        Some(format!(
+            "<path stroke=\"{colour}\" stroke-opacity=\"0.5\" d=\"M{across:.2} {from:.2}V{to:.2}\"/>"
+        ))
+    };
+    best.filter_map(line).collect()
+}
+
+/// Blue where the form is ours.
+fn colour(point: &ChartPoint) -> &'static str {
+    match point.entry.is_ours() {
+        true => OURS,
+        false => THEIRS,
+    }
+}
+
+fn dot(point: &ChartPoint, plane: &Plane) -> String {
+    let (x, y) = plane.at(point);
+    if point.entry.user().is_some() {
+        return diamond(x, y);
+    }
+    let colour = colour(point);
+    let fill = if point.entry.is_best {
+        "#ffffff"
+    } else {
+        colour
+    };
+    let look = format!("fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.6\"");
+    if point.entry.fetches > 0 {
+        let size = 2.0 * DOT - 1.6;
+        let (left, top) = (x - size / 2.0, y - size / 2.0);
+        return format!(
+            "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{size}\" height=\"{size}\" {look}/>"
+        );
+    }
+    format!(
+        "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.1}\" {look}/>",
+        DOT - 0.8
+    )
+}
+
+/// The mark of a user's function.
+fn diamond(x: f64, y: f64) -> String {
+    let half = DOT + 1.5;
+    format!(
+        "<path fill=\"{YOURS}\" stroke=\"{YOURS}\" stroke-width=\"1.6\" d=\"M{:.2} {y:.2}L{x:.2} {:.2}L{:.2} {y:.2}L{x:.2} {:.2}Z\"/>",
+        x - half,
+        y - half,
+        x + half,
+        y + half
+    )
+}
+
+/// Names of points, a user's first, then those of the frontier. A method at its best, on a line with itself, has one only there.
+fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
+    const FONT: &Font = &TICK;
+    let has_name = |point: &&ChartPoint| point.is_on_frontier || !point.entry.is_best;
+    let mut order: Vec<&ChartPoint> = points.iter().filter(has_name).collect();
+    order.sort_by_key(|point| {
+        let entry = point.entry;
+        (entry.user().is_none(), !point.is_on_frontier, entry.is_best)
+    });
+    let all: Vec<(f64, f64)> = points.iter().map(|point| plane.at(point)).collect();
+    let at: Vec<(f64, f64)> = order.iter().map(|point| plane.at(point)).collect();
+    let texts: Vec<String> = order.iter().map(|point| point.entry.label()).collect();
+    let widths: Vec<f64> = texts.iter().map(|text| FONT.width(text)).collect();
+    let found = place_names(&at, &widths, FONT.leading - 3.0, &all, plane.axes.area);
+    let draw = |(i, place): (usize, Option<LabelPlace>)| {
+        let place = place?;
+        let line = place.is_led.then(|| led(at[i], &place, widths[i]));
+        let top = place.middle - FONT.leading / 2.0;
+        let text = FONT.draw_with_rim(&texts[i..=i], place.left, top, "start");
+        Some(line.into_iter().chain(text).collect::<Vec<String>>())
+    };
+    let drawn = found.into_iter().enumerate().filter_map(draw);
+    drawn.flatten().collect()
+}
+
+/// A thin line from a point to its name.
+fn led((x, y): (f64, f64), place: &LabelPlace, width: f64) -> String {
+    let nearest = x.clamp(place.left, place.left + width);
+    format!(
+        "<path stroke=\"{INK}\" stroke-opacity=\"0.3\" stroke-width=\"1\" d=\"M{x:.2} {y:.2}L{nearest:.2} {:.2}\"/>",
+        place.middle
+    )
+}

@@ -1,0 +1,25 @@
+//! The gallery as one page with everything in it.
+
+use tera::Context;
+
+use crate::pictures::gallery::Gallery;
+use crate::pictures::html;
+
+static TEMPLATE: &str = include_str!("../../../templates/gallery.html.tera");
+static SCRIPT: &str = include_str!("../../../templates/gallery.js");
+static PLAYER: &str = include_str!("../../../templates/gallery.player.js");
+
+/// The page, or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
+pub fn gallery_page(gallery: &Gallery, command: &str) -> Result<String, String> {
+    let json = serde_json::to_string(gallery).map_err(|why| why.to_string())?;
+    let mut context = Context::new();
+    // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
+    context.insert("data", &json.replace('<', "\\u003c"));
+    context.insert("player", PLAYER);
+    context.insert("script", SCRIPT);
+    context.insert("command", command);
+    html::fill(TEMPLATE, &context)
+}

@@ -1,0 +1,90 @@
+//! Reflectance against wavelength, at a few angles.
+
+use crate::physics::materials::{Extrapolate, Index, Material};
+use crate::physics::optics;
+use crate::pictures::plot::{BLUE, INK, LineChart, Look, Series, Style, VERMILION};
+
+use crate::pictures::material_sheet::angle::cosine;
+use crate::pictures::material_sheet::{DrawnMaterial, axis, window};
+
+/// Angles in degrees, from the flat ones to where metals are palest.
+const ANGLES: [(f64, &str, &str); 4] = [
+    (0.0, INK, ""),
+    (45.0, BLUE, "9 4"),
+    (70.0, VERMILION, "2.5 3"),
+    (82.0, "#8a4fb5", "10 3 2.5 3"),
+];
+
+/// The reflected share of unpolarised light, by the exact law.
+pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
+    let three = drawn.three_nm();
+    let (range, indices) = match three {
+        Some(rgb) => (Some(window::around(rgb)), points(drawn)),
+        None => measured(drawn),
+    };
+    let alone = three.is_some() || indices.len() == 1;
+    let series = ANGLES.map(|(degrees, colour, dashes)| Series {
+        name: format!("{degrees}°"),
+        style: Style::Own(Look {
+            colour,
+            dashes,
+            width: if alone { 1.4 } else { 2.2 },
+            dots: alone,
+        }),
+        points: reflectance(&indices, cosine(degrees)),
+    });
+    let subtitle = match (three, range) {
+        (Some([red, green, blue]), _) => {
+            format!("Known at {red}, {green} and {blue} nm; the lines only join the points.")
+        }
+        (None, Some(_)) => "Unpolarised light, exact law.".to_owned(),
+        (None, None) => "Not measured in visible light.".to_owned(),
+    };
+    LineChart {
+        title: "Reflectance against wavelength".to_owned(),
+        subtitle,
+        x: window::wavelength_axis(range),
+        y: axis::reflectance(&series),
+        series: series.to_vec(),
+        marks: Vec::new(),
+        foot: String::new(),
+    }
+}
+
+/// The relative index by wavelength.
+type Indices = Vec<(f64, Index)>;
+
+/// What the surface is known by, where this is three wavelengths.
+fn points(drawn: &DrawnMaterial) -> Indices {
+    let surface = &drawn.surface;
+    let wavelengths = surface.integrator.wavelengths.iter().copied();
+    let mut points: Indices = wavelengths.zip(surface.indices.iter().copied()).collect();
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    points
+}
+
+/// The visible range in which all was measured, and the index in it.
+fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
+    let medium = drawn.medium.map(Material::range_nm);
+    let (from, to) = drawn.material.range_nm();
+    let (low, high) = medium.unwrap_or((from, to));
+    let range = window::shown((from.max(low), to.min(high)));
+    let samples = range.map_or(Vec::new(), window::samples);
+    let index = |nm: f64| {
+        let own = drawn.material.index(nm, Extrapolate::Refuse).ok()?;
+        let Some(medium) = drawn.medium else {
+            return Some((nm, own));
+        };
+        let around = medium.index(nm, Extrapolate::Refuse).ok()?;
+        Some((nm, own.relative_to(around)))
+    };
+    (range, samples.into_iter().filter_map(index).collect())
+}
+
+fn reflectance(indices: &Indices, cos_theta: f64) -> Vec<(f64, f64)> {
+    let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
+    indices
+        .iter()
+        .map(|(nm, index)| (*nm, law(index)))
+        .collect()
+}

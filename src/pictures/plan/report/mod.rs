@@ -1,0 +1,237 @@
+//! A plan for people, and as JSON that `--plan` reads back.
+
+
+mod page;
+
+use serde::Serialize;
+
+use crate::lab::verify::Status;
+use crate::physics::foreign::{self, Foreign, one_line};
+use crate::pictures::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
+
+use crate::generator::envelope::Origin;
+use crate::pictures::table::{short_number, text_table};
+
+
+pub use page::plan_page;
+
+/// A plan as JSON.
+#[derive(Debug, Serialize)]
+pub struct PlanReport {
+    #[serde(flatten)]
+    origin: Origin,
+    device: Option<String>,
+    /// The GPUs whose costs decide.
+    gpu: &'static str,
+    /// What a cost counts.
+    cost_of: &'static str,
+    /// What errors are measured by.
+    metric: &'static str,
+    /// Its unit in words.
+    #[serde(skip)]
+    unit: &'static str,
+    /// What functions are held against.
+    reference: &'static str,
+    /// The space of the pictures and of the functions.
+    space: &'static str,
+    /// Frames of the scene.
+    frames: usize,
+    total: PlanTotal,
+    /// Materials that are not planned.
+    unplanned: Vec<Unplanned>,
+    /// What the scene says and is not read.
+    remarks: Vec<String>,
+    /// What came of the functions' text, where that was run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    proofs: Vec<Proof>,
+    rows: Vec<PlanRow>,
+}
+
+impl PlanReport {
+    /// The report that this command writes.
+    pub fn new(
+        command: String,
+        request: &PlanRequest,
+        frames: usize,
+        total: PlanTotal,
+        unplanned: Vec<Unplanned>,
+        remarks: Vec<String>,
+        rows: Vec<PlanRow>,
+    ) -> PlanReport {
+        PlanReport {
+            origin: Origin::new(command),
+            device: None,
+            gpu: request.family.name,
+            cost_of: request.family.columns.measure,
+            metric: request.metric.name(),
+            unit: request.metric.unit(),
+            reference: request.truth.name(),
+            space: request.space.name(),
+            frames,
+            total,
+            unplanned,
+            remarks,
+            proofs: Vec::new(),
+            rows,
+        }
+    }
+
+    /// The same, with what came of the functions' text on a device.
+    #[must_use]
+    pub fn with_proofs(self, device: Option<String>, proofs: Vec<Proof>) -> PlanReport {
+        PlanReport {
+            device,
+            proofs,
+            ..self
+        }
+    }
+
+    /// The command that makes it again.
+    fn command(&self) -> &str {
+        self.origin.command()
+    }
+
+    /// How a run ends by its proofs: 1 where one fails, 3 where one could not be made.
+    pub fn proof_code(&self) -> u8 {
+        let has = |status| self.proofs.iter().any(|proof| proof.status == status);
+        match (has(Status::Fail), has(Status::NotChecked)) {
+            (true, _) => 1,
+            (false, true) => 3,
+            (false, false) => 0,
+        }
+    }
+
+    /// As text: the functions, why each, what they cost together.
+    pub fn text(&self) -> String {
+        let columns = [
+            "material",
+            "method",
+            "form",
+            "channels",
+            "error",
+            "cost",
+            "exact",
+            "pixels",
+            "judged by",
+        ];
+        let cells: Vec<Vec<String>> = self.rows.iter().map(cells).collect();
+        let mut lines = vec![text_table(&columns, &cells)];
+        for row in &self.rows {
+            lines.push(one_line(&format!("{}: {}", named(row), row.why)) + "\n");
+        }
+        if self.rows.iter().any(|row| !row.is_within) {
+            lines.push("! means over the budget.\n".to_owned());
+        }
+        for one in &self.unplanned {
+            let (name, reason) = (Foreign(&one.name), one_line(&one.reason));
+            lines.push(format!("{name}: not planned: {reason}\n"));
+        }
+        lines.extend(self.remarks.iter().map(|remark| format!("{remark}.\n")));
+        lines.push(self.total());
+        lines.extend(self.proofs.iter().map(proof_line));
+        lines.push(format!(
+            "Costs are {} on {}, of one evaluation. Light is taken as it comes: an error changes what a surface shows, and not what it sends to others.\n",
+            self.cost_of, self.gpu
+        ));
+        let (cells, rest) = lines.split_at(1);
+        format!("{}\n{}", cells.concat(), rest.concat())
+    }
+
+    fn total(&self) -> String {
+        let PlanTotal {
+            cost,
+            cost_exact,
+            shared,
+            ..
+        } = &self.total;
+        let beside = |other: f64| {
+            let times = short_number(other / cost);
+            match *cost > 0.0 {
+                true if times == "1" => format!("{}, as much", short_number(other)),
+                true => format!("{} ({times} times as much)", short_number(other)),
+                false => short_number(other),
+            }
+        };
+        let mut parts = vec![format!(
+            "All together {} units × pixels of a frame",
+            short_number(*cost)
+        )];
+        parts.extend(cost_exact.map(|exact| format!("the exact laws {}", beside(exact))));
+        parts.extend(shared.as_ref().map(|shared| {
+            let is_beyond = self.rows.iter().any(|row| shared.error > row.budget);
+            format!(
+                "one library function `{}` for all {}, with an error of {}{}",
+                shared.method,
+                beside(shared.cost),
+                short_number(shared.error),
+                if is_beyond {
+                    ", which is over the budget"
+                } else {
+                    ""
+                }
+            )
+        }));
+        parts.join("; ") + ".\n"
+    }
+}
+
+/// A material, and what the scene calls it where that is something else.
+fn named(row: &PlanRow) -> String {
+    let others = row.names.iter().filter(|name| **name != row.material);
+    let others: Vec<&str> = others.map(String::as_str).collect();
+    match others.is_empty() {
+        true => row.material.clone(),
+        false => format!("{} ({})", row.material, others.join(", ")),
+    }
+}
+
+/// What came of a function's text.
+fn proof_line(proof: &Proof) -> String {
+    let Proof {
+        material,
+        target,
+        function,
+        ..
+    } = proof;
+    let head = format!("{}: {function} in {target}", Foreign(material));
+    let (Some(error), Some(codes), Some(code_abs)) = (proof.error, proof.codes, proof.code_abs)
+    else {
+        let why = proof.reason.as_deref().unwrap_or_default();
+        return format!(
+            "{head}: {}: {}\n",
+            proof.status.words(),
+            foreign::lines(why)
+        );
+    };
+    let bound = match proof.is_within_code_bound {
+        Some(true) => "within its bound",
+        _ => "beyond its bound",
+    };
+    let coded = proof.error_8bit.map_or_else(String::new, |error| {
+        format!(", {error:.4} in 8 bits, codes differ by {codes} at most")
+    });
+    format!(
+        "{head}: {}: the picture errs {error:.4}{coded}; the numbers are {code_abs:.1e} off, {bound}\n",
+        proof.status.words()
+    )
+}
+
+fn cells(row: &PlanRow) -> Vec<String> {
+    let judged = match row.judged_by {
+        "percentile" => "99.9 % of pixels",
+        "largest" => "the worst pixel",
+        _ => "every angle",
+    };
+    vec![
+        named(row),
+        row.method.to_owned(),
+        row.form.name().to_owned(),
+        row.channels.to_string(),
+        format!("{:.4}{}", row.error, if row.is_within { "" } else { " !" }),
+        short_number(row.cost),
+        row.cost_exact
+            .map_or_else(|| "not known".to_owned(), short_number),
+        format!("{:.0}", row.pixels),
+        judged.to_owned(),
+    ]
+}

@@ -1,0 +1,24 @@
+//! Pictures as self-contained SVG text: what all of them share, and line charts.
+//!
+//! A picture is a pure function of its data: equal data give equal bytes, with every coordinate at two decimals and nothing
+//! that depends on the time, the machine or the fonts installed. Text width is therefore estimated, on the generous side, and
+//! a plot gets whatever height the text leaves over.
+
+mod axes;
+mod layout;
+mod legend;
+mod line_chart;
+mod palette;
+mod scale;
+mod text;
+mod ticks;
+
+pub(super) use axes::{Area, Axes, Tick};
+pub(super) use layout::{Layout, PanelFrame};
+pub use line_chart::{ChartAxis, LineChart, Mark, Series};
+pub(crate) use palette::{shade_bytes, BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
+pub use palette::{Look, Style};
+pub(super) use scale::Scale;
+pub(crate) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
+pub use ticks::ticks;
+pub(super) use ticks::{log_ticks, plain_label, power_label};

@@ -1,0 +1,214 @@
+//! A map as a picture: the formula's error on the left, that of its rounding on the right, each with its colour bar.
+
+use crate::generator::emit::xml_text;
+use crate::lab::stability::{Cell, Map};
+use crate::pictures::plot::{Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, log_ticks, plain_label, power_label, shade};
+
+const WIDTH: f64 = 920.0;
+const HEIGHT: f64 = 366.0;
+/// The plot of a panel.
+const PLOT: (f64, f64) = (300.0, 220.0);
+const TOP: f64 = 90.0;
+/// The left edges of the panels' plots.
+const LEFTS: [f64; 2] = [70.0, 540.0];
+/// From a plot to its colour bar, and how wide that is.
+const BAR: (f64, f64) = (14.0, 14.0);
+/// Where a result is no reflectance at all.
+const BROKEN: &str = "#d7263d";
+
+/// What a panel shows.
+struct Panel {
+    /// What comes against what.
+    title: fn(&str) -> String,
+    /// The powers of ten at both ends of the colour bar.
+    decades: (i32, i32),
+    value: fn(&Cell) -> f64,
+}
+
+static PANELS: [Panel; 2] = [
+    Panel {
+        title: |_| "formula against the law, absolute".to_owned(),
+        decades: (-6, 0),
+        value: |cell| cell.error,
+    },
+    Panel {
+        title: |precision| format!("{precision} against the formula in f64, ulp"),
+        decades: (0, 8),
+        value: |cell| cell.digits,
+    },
+];
+
+/// The picture of a map, as SVG.
+pub fn heat_map(method: &str, map: &Map) -> String {
+    let mut parts = vec![format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+         font-family=\"system-ui, sans-serif\"><title>{}</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
+        xml_text(&format!("{method} over angle and {}", map.axis.name))
+    )];
+    let line = |font: &Font, text: String, top: f64| font.draw(&[text], 24.0, top, "start");
+    parts.extend(line(
+        &PANEL,
+        format!("{method} over angle and {}", map.axis.name),
+        14.0,
+    ));
+    parts.extend(line(
+        &SUBTITLE,
+        format!(
+            "{}; red: not a number, infinite, below 0 or above 1",
+            map.held
+        ),
+        36.0,
+    ));
+    for (panel, left) in PANELS.iter().zip(LEFTS) {
+        parts.extend(panel.draw(map, left));
+    }
+    parts.push("</svg>\n".to_owned());
+    parts.join("\n")
+}
+
+impl Panel {
+    fn draw(&self, map: &Map, left: f64) -> Vec<String> {
+        let axes = axes(map, left);
+        let title = [(self.title)(map.precision.name())];
+        let middle = axes.area.centre();
+        let mut parts = SUBTITLE.draw(&title, middle, TOP - 24.0, "middle");
+        parts.extend(self.cells(map, left));
+        let (x, y) = (angles(), values(map));
+        parts.extend(axes.outer_ticks(&x, &y));
+        parts.extend(axes.tick_labels(&x, &y));
+        let angle = ["angle of incidence".to_owned()];
+        parts.extend(TICK.draw(&angle, middle, axes.area.bottom + 21.0, "middle"));
+        let value = [map.axis.name.to_owned()];
+        parts.extend(TICK.draw_upwards(&value, left - 60.0, axes.area.middle()));
+        parts.extend(self.bar(left + PLOT.0 + BAR.0));
+        parts
+    }
+
+    /// The cells, those of one colour in a row as one rectangle.
+    fn cells(&self, map: &Map, left: f64) -> Vec<String> {
+        let columns = map.degrees.len();
+        let (width, height) = (
+            PLOT.0 / columns as f64,
+            PLOT.1 / map.axis.values.len() as f64,
+        );
+        let mut parts = vec!["<g shape-rendering=\"crispEdges\">".to_owned()];
+        for (row, cells) in map.cells.chunks(columns).enumerate() {
+            let y = TOP + PLOT.1 - height * (row + 1) as f64;
+            let mut first = 0;
+            while first < columns {
+                let colour = self.colour(&cells[first]);
+                let same = cells[first..]
+                    .iter()
+                    .take_while(|cell| self.colour(cell) == colour);
+                let count = same.count();
+                parts.push(format!(
+                    "<rect x=\"{:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{colour}\"/>",
+                    left + width * first as f64,
+                    width * count as f64,
+                    height
+                ));
+                first += count;
+            }
+        }
+        parts.push("</g>".to_owned());
+        parts
+    }
+
+    fn colour(&self, cell: &Cell) -> String {
+        if cell.is_broken {
+            return BROKEN.to_owned();
+        }
+        let (low, high) = (f64::from(self.decades.0), f64::from(self.decades.1));
+        let place = (libm::log10((self.value)(cell).max(1e-300)) - low) / (high - low);
+        shade((place.clamp(0.0, 1.0) * (SHADES - 1) as f64).round() as usize)
+    }
+
+    fn bar(&self, left: f64) -> Vec<String> {
+        let height = PLOT.1 / SHADES as f64;
+        let step = |i: usize| {
+            let y = TOP + PLOT.1 - height * (i + 1) as f64;
+            format!(
+                "<rect x=\"{left:.2}\" y=\"{y:.2}\" width=\"{}\" height=\"{:.2}\" fill=\"{}\"/>",
+                BAR.1,
+                height + 0.3,
+                shade(i)
+            )
+        };
+        let mut parts: Vec<String> = (0..SHADES).map(step).collect();
+        let (low, high) = self.decades;
+        let ends = [low, high].map(|decade| libm::exp10(f64::from(decade)));
+        let area = area(left, BAR.1);
+        let axes = Axes {
+            area,
+            x: Scale::linear([0.0, 1.0], [area.left, area.right]),
+            y: Scale::log(ends, [area.bottom, area.top]),
+        };
+        let tick = |decade: i32| Tick {
+            value: libm::exp10(f64::from(decade)),
+            label: power_label(decade),
+        };
+        let step = if high - low > 6 { 2 } else { 1 };
+        let ticks: Vec<Tick> = (low..=high).step_by(step).map(tick).collect();
+        parts.push(area.outline());
+        parts.extend(axes.right_ticks(&ticks));
+        parts
+    }
+}
+
+/// The plot of a panel, or its colour bar.
+fn area(left: f64, width: f64) -> Area {
+    Area {
+        left,
+        top: TOP,
+        right: left + width,
+        bottom: TOP + PLOT.1,
+    }
+}
+
+/// The axes of a map: a value stands in the middle of its cell.
+fn axes(map: &Map, left: f64) -> Axes {
+    let area = area(left, PLOT.0);
+    let (degrees, values) = (&map.degrees, &map.axis.values);
+    let half = [
+        PLOT.0 / degrees.len() as f64 / 2.0,
+        PLOT.1 / values.len() as f64 / 2.0,
+    ];
+    Axes {
+        area,
+        x: Scale::linear(ends(degrees), [area.left + half[0], area.right - half[0]]),
+        y: Scale::log(ends(values), [area.bottom - half[1], area.top + half[1]]),
+    }
+}
+
+fn ends(values: &[f64]) -> [f64; 2] {
+    [values[0], values[values.len() - 1]]
+}
+
+fn angles() -> Vec<Tick> {
+    let tick = |degree: i32| Tick {
+        value: f64::from(degree),
+        label: format!("{degree}°"),
+    };
+    (0..=90).step_by(15).map(tick).collect()
+}
+
+/// The ticks of the values: six a decade, or one where there are many decades.
+fn values(map: &Map) -> Vec<Tick> {
+    let [low, high] = ends(&map.axis.values);
+    let is_long = high / low > 1e4;
+    let multiples: &[f64] = if is_long {
+        &[1.0]
+    } else {
+        &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0]
+    };
+    let label = |value: f64| match is_long {
+        true => power_label(libm::round(libm::log10(value)) as i32),
+        false => plain_label(value),
+    };
+    let tick = |value| Tick {
+        value,
+        label: label(value),
+    };
+    let ticks = log_ticks(low, high, multiples).into_iter();
+    ticks.map(tick).collect()
+}

@@ -1,0 +1,9 @@
+//! Where functions fail, as maps over angle and index, and as a page.
+
+mod heat;
+mod page;
+mod words;
+
+pub use heat::heat_map;
+pub use page::stability_page;
+pub use words::{percent, worst};

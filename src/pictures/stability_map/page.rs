@@ -1,0 +1,99 @@
+//! One page with all maps, and a sentence for each failure: self-contained, for any browser.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
+use tera::Context;
+
+use crate::pictures::stability_map::{percent, worst};
+use crate::lab::stability::{Finding, StabilityRow};
+use crate::pictures::html;
+
+static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
+
+/// A method on the page.
+#[derive(Serialize)]
+struct MethodSection {
+    method: &'static str,
+    summary: &'static str,
+    /// What goes wrong where, a sentence each.
+    formula: Vec<String>,
+    rounding: Vec<String>,
+    arguments: Vec<String>,
+    pictures: Vec<Picture>,
+}
+
+/// A picture by its words.
+#[derive(Serialize)]
+struct Picture {
+    about: String,
+    data: String,
+}
+
+/// The page of these rows and pictures (method, what over, PNG), or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
+pub fn stability_page(
+    rows: &[StabilityRow],
+    pictures: &[(&'static str, &'static str, Vec<u8>)],
+    command: &str,
+) -> Result<String, String> {
+    let mut methods: Vec<&'static str> = rows.iter().map(|row| row.method).collect();
+    methods.dedup();
+    let sections: Vec<MethodSection> = methods
+        .into_iter()
+        .map(|method| section(method, rows, pictures))
+        .collect();
+    let mut context = Context::new();
+    context.insert("sections", &sections);
+    context.insert("command", command);
+    context.insert("precision", rows.first().map_or("f32", |row| row.precision));
+    html::fill(TEMPLATE, &context)
+}
+
+fn section(
+    method: &'static str,
+    rows: &[StabilityRow],
+    pictures: &[(&'static str, &'static str, Vec<u8>)],
+) -> MethodSection {
+    let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
+        let findings = rows
+            .iter()
+            .filter(|row| row.method == method)
+            .filter_map(|row| row.finding.as_ref());
+        findings
+            .filter(|finding| wanted(finding))
+            .map(sentence)
+            .collect()
+    };
+    let own = pictures.iter().filter(|(of, _, _)| *of == method);
+    MethodSection {
+        method,
+        summary: crate::language::methods::find(method).map_or("", |method| method.summary),
+        formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),
+        rounding: sentences(|finding| finding.is_media && !finding.failure.is_of_the_model()),
+        arguments: sentences(|finding| !finding.is_media),
+        pictures: own
+            .map(|(_, over, png)| Picture {
+                about: format!("Errors of {method} over angle and {over}"),
+                data: BASE64_STANDARD.encode(png),
+            })
+            .collect(),
+    }
+}
+
+/// A finding as a sentence.
+fn sentence(finding: &Finding) -> String {
+    let share = if finding.share >= 1.0 {
+        String::new()
+    } else {
+        format!(" ({} of it)", percent(finding.share))
+    };
+    format!(
+        "{}: {}{share}; worst at {}",
+        finding.region,
+        finding.failure.words(),
+        worst(finding)
+    )
+}
