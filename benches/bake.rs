@@ -2,11 +2,11 @@
 #![allow(missing_docs)]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use fresnel_gen::generator::request::Materials;
-use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::bake::{BakeRequest, TableSize, bake};
+use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::lut::{Depth, Format, Table, TableAxis, smallest};
 use fresnel_gen::generator::reference::ReferenceCurve;
+use fresnel_gen::generator::request::Materials;
 use fresnel_gen::language::methods::Light;
 use fresnel_gen::physics::materials::{Surface, ViewingConditions, find};
 

@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use fresnel_gen::generator::request::Request;
-use fresnel_gen::generator::output::{check, tree};
 use fresnel_gen::generator::generate;
+use fresnel_gen::generator::output::{check, tree};
+use fresnel_gen::generator::request::Request;
 
 fn everything(c: &mut Criterion) {
     c.bench_function("generate everything that is committed", |b| {

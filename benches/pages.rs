@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use fresnel_gen::generator::request::source::pages;
 use fresnel_gen::generator::fit::survey_page;
+use fresnel_gen::generator::request::source::pages;
 use fresnel_gen::physics::materials::{self, Extrapolate, Material, ViewingConditions};
 
 /// All pages of the database, name and text; none where it is not there.

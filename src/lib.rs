@@ -55,15 +55,15 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The wings, in the order of imports.
-pub mod physics;
-pub mod language;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod generator;
 #[cfg(feature = "lab")]
 pub mod lab;
+pub mod language;
+pub mod physics;
 #[cfg(feature = "pictures")]
 pub mod pictures;
-#[cfg(feature = "cli")]
-pub mod cli;
 
 // What build scripts use. The test `snapshots::api` lists it.
 pub use generator::error::Error;

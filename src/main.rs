@@ -8,9 +8,7 @@ use std::thread;
 use clap::Parser;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue};
-use fresnel_gen::cli::args::{Cli, with_names_of_today};
-use fresnel_gen::cli::command;
-use fresnel_gen::cli::legible::legible;
+use fresnel_gen::cli::{Cli, first_help, legible, run, with_names_of_today};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::foreign::one_line;
 use fresnel_gen::physics::num::{POINT_NOT_COMMA, has_decimal_commas};
@@ -45,10 +43,10 @@ fn work() -> ExitCode {
     renamed.iter().for_each(|remark| say(remark));
     let mut bar: Option<ProgressBar> = None;
     let mut progress = |done, whole, what: &str| show(&mut bar, done, whole, what);
-    let help = names_nothing.then(|| command::first_help(&cli.generate));
+    let help = names_nothing.then(|| first_help(&cli.generate));
     let outcome = match help.flatten() {
         Some(help) => Ok(help),
-        None => command::run(&cli, &mut progress, &say),
+        None => run(&cli, &mut progress, &say),
     };
     if let Some(bar) = bar {
         bar.finish_and_clear();

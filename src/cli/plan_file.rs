@@ -4,18 +4,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::generator::emit::FunctionForm;
+use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::language::methods::{self, Method};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{self, FileFault};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
-use crate::generator::envelope::{SCHEMA, TOOL};
 
-use crate::cli::args::MaterialName;
 use crate::cli::error::Error;
-use crate::generator::request::loaded::load;
+use crate::cli::flags::material::MaterialName;
 use crate::generator::error::unknown;
+use crate::generator::request::loaded::load;
 use crate::generator::request::{Materials, Request, source};
 
 /// The beginning of the command of a plan.
@@ -31,12 +31,14 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
     let mut chosen = BTreeMap::new();
     let mut library = BTreeSet::new();
     for (place, row) in plan.rows.iter().enumerate() {
-        let at_row = |error: Error| Error::usage(format!(
+        let at_row = |error: Error| {
+            Error::usage(format!(
                 "{}: row {} ({}): {error}",
                 crate::physics::foreign::path(&file),
                 place + 1,
                 Foreign(&row.material)
-            ));
+            ))
+        };
         let method = method(row).map_err(at_row)?;
         if row.form != FunctionForm::Specialised {
             library.insert(row.method.clone());
@@ -151,8 +153,8 @@ fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
     match plan.rows.iter().all(|row| row.precision == first) {
         true => Ok(first),
         false => Err(Error::usage(format!(
-                "{}: its functions compute in different precisions; a plan has one",
-                crate::physics::foreign::path(&file)
-            ))),
+            "{}: its functions compute in different precisions; a plan has one",
+            crate::physics::foreign::path(&file)
+        ))),
     }
 }

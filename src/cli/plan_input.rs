@@ -5,15 +5,19 @@ use std::path::{Path, PathBuf};
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::ViewingConditions;
-use crate::pictures::plan::{FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile, SceneLight, Unplanned, check_primaries, constant_index, read_gbuffer};
+use crate::pictures::plan::{
+    FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
+    SceneLight, Unplanned, check_primaries, constant_index, read_gbuffer,
+};
 use crate::pictures::scene::{Display, Environment, TONE_CURVES};
 
-use crate::cli::args::{MaterialName, PlanFlags};
 use crate::cli::error::Error;
+use crate::cli::flags::material::MaterialName;
+use crate::cli::plan::PlanFlags;
 use crate::generator::fault::RequestFault;
 use crate::generator::output::folder::is_same_file;
-use crate::generator::request::{Materials, Request, source};
 use crate::generator::request::subjects::same_name;
+use crate::generator::request::{Materials, Request, source};
 
 /// Gives one frame after another.
 pub type FrameOf<'a> = Box<dyn FnMut(usize) -> Result<FramePixels, Error> + 'a>;
@@ -104,7 +108,9 @@ fn of_gltf<'a>(
         None => SceneLight::Uniform([1.0; 3]),
         Some(path) => {
             let environment = Environment::read(&source::picture(path)?, viewing.integration.space);
-            SceneLight::of_environment(environment.map_err(|fault| Error::usage(format!("{}: {fault}", crate::physics::foreign::path(&path))))?)
+            SceneLight::of_environment(environment.map_err(|fault| {
+                Error::usage(format!("{}: {fault}", crate::physics::foreign::path(&path)))
+            })?)
         }
     };
     let view = GltfView {
@@ -206,7 +212,9 @@ fn of_frames<'a>(
         let file = files[index];
         let bytes = source::picture(file)?;
         let frame = check_primaries(&bytes, space).and_then(|()| read_gbuffer(&bytes, &ids));
-        let frame = frame.map_err(|fault| Error::usage(format!("{}: {fault}", crate::physics::foreign::path(&file))))?;
+        let frame = frame.map_err(|fault| {
+            Error::usage(format!("{}: {fault}", crate::physics::foreign::path(&file)))
+        })?;
         Ok(merged(frame, &places, count))
     };
     Ok(PlanInput {

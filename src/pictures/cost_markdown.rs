@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::pictures::cost_page::{percent, short};
 use crate::lab::cost::CostRow;
 use crate::physics::num::Precision;
+use crate::pictures::cost_page::{percent, short};
 
 const INTRODUCTION: &str = "\
 # What methods cost

@@ -4,8 +4,8 @@ use crate::generator::emit::{Bounds, Naming, half_bounds, specialised_function};
 use crate::generator::flavours;
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::lab::cost;
-use crate::language::{effects, targets};
 use crate::language::methods::{self, Class, Contract, Method, Origin, Spread};
+use crate::language::{effects, targets};
 use crate::physics::materials::{Material, Unseen, ViewingConditions};
 
 /// The effects with their functions; `...` stands for what the method of R takes.

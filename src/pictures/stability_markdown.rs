@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
 
-use crate::pictures::stability_map::{percent, worst};
 use crate::lab::stability::{Failure, Finding, StabilityRow};
 use crate::pictures::markdown::markdown_table;
+use crate::pictures::stability_map::{percent, worst};
 
 const HEAD: &str = "# Where methods fail
 

@@ -6,7 +6,10 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use fresnel_gen::generator::request::{Materials, Request, Source};
-use fresnel_gen::lab::cost::{CostBasis, CostFigures, CostRow, CostSource, CostedFunction, FAMILIES, KnownCost, cost_rows, find, functions, functions_of_effect, known_cost, records};
+use fresnel_gen::lab::cost::{
+    CostBasis, CostFigures, CostRow, CostSource, CostedFunction, FAMILIES, KnownCost, cost_rows,
+    find, functions, functions_of_effect, known_cost, records,
+};
 use fresnel_gen::language::effects::{self, USUAL_METHOD};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::Precision;

@@ -7,9 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fresnel_gen::generator::request::source;
 use fresnel_gen::generator::fit::{PageOutcome, survey_page};
-use fresnel_gen::physics::materials::{DispersionCurve, Extrapolate, FileFault, Material, Page, ViewingConditions};
+use fresnel_gen::generator::request::source;
+use fresnel_gen::physics::materials::{
+    DispersionCurve, Extrapolate, FileFault, Material, Page, ViewingConditions,
+};
 use fresnel_gen::physics::spectra::Gamut;
 
 /// A page by its path from its shelf on, and what became of it.

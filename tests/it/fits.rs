@@ -4,10 +4,10 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::generator::emit::{Bounds, Naming, missed, specialised_function};
 use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
+use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::cost;
 use fresnel_gen::language::ir::{Value, evaluate};
 use fresnel_gen::language::methods::{self, Method};

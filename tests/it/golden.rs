@@ -1,9 +1,9 @@
 //! Is `shaders-generated/` what the program writes today? The set of files, orphans included.
 
+use fresnel_gen::generator::emit::HeaderForm;
+use fresnel_gen::generator::generate;
 use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::request::Request;
-use fresnel_gen::generator::generate;
-use fresnel_gen::generator::emit::HeaderForm;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::Precision;
 
@@ -12,13 +12,13 @@ mod tree_of_a_run {
     use std::collections::BTreeSet;
     use std::path::Path;
 
-    use fresnel_gen::generator::generate::catalogue::add_catalogue;
-    use fresnel_gen::generator::output::lock::Lock;
-    use fresnel_gen::generator::generate::tables::add_tables;
-    use fresnel_gen::generator::request::Request;
-use fresnel_gen::generator::output::{check, tree, write};
-use fresnel_gen::generator::generate;
     use fresnel_gen::generator::bake::as_tables_are_seen;
+    use fresnel_gen::generator::generate;
+    use fresnel_gen::generator::generate::catalogue::add_catalogue;
+    use fresnel_gen::generator::generate::tables::add_tables;
+    use fresnel_gen::generator::output::lock::Lock;
+    use fresnel_gen::generator::output::{check, tree, write};
+    use fresnel_gen::generator::request::Request;
 
     /// All files below a folder, as paths in it.
     fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {

@@ -5,11 +5,11 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::request::{Materials, Request, Source};
-use fresnel_gen::generator::generate;
 use fresnel_gen::generator::emit::{Bounds, Emitted, Naming, specialised_function};
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::generate;
 use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::lab::verify::{HalfTrial, halves, library_half_error};
 use fresnel_gen::language::ir::Value;
 use fresnel_gen::language::methods::{self, Contract, HALF_AIM, InHalf, Method};

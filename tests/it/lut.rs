@@ -3,12 +3,14 @@
 use std::fs;
 use std::process::Command;
 
-use fresnel_gen::cli::args::Cli;
-use fresnel_gen::generator::request::{Materials, Source};
-use fresnel_gen::generator::generate::tables::{WantedTables, artifacts, table_materials};
+use fresnel_gen::cli::Cli;
 use fresnel_gen::generator::bake::{BakeRequest, TableMaterial, TableSize, bake};
-use fresnel_gen::generator::lut::{BetweenTexels, Depth, Format, Stored, Table, TableAxis, smallest, table_error};
+use fresnel_gen::generator::generate::tables::{WantedTables, artifacts, table_materials};
+use fresnel_gen::generator::lut::{
+    BetweenTexels, Depth, Format, Stored, Table, TableAxis, smallest, table_error,
+};
 use fresnel_gen::generator::reference::ReferenceCurve;
+use fresnel_gen::generator::request::{Materials, Source};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods::Light;
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};

@@ -58,8 +58,8 @@ mod tree;
 mod verify;
 mod working_spaces;
 
-use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::generator::request::{Materials, Request, Source};
 
 /// Materials of the catalogue, seen as they are unless asked otherwise.
 pub fn subjects(names: &[&str]) -> Vec<MaterialInMedium> {

@@ -1,9 +1,12 @@
 //! Timing by overdraw, apart from any device: what is drawn is valid, and what is read becomes the figures that it should.
 
+use fresnel_gen::generator::emit::validate_wgsl;
 use fresnel_gen::generator::request::Materials;
 use fresnel_gen::lab::overdraw::request::TimeRequest;
-use fresnel_gen::generator::emit::validate_wgsl;
-use fresnel_gen::lab::overdraw::{Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop, TimedFunctions, measure};
+use fresnel_gen::lab::overdraw::{
+    Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop,
+    TimedFunctions, measure,
+};
 use fresnel_gen::language::methods::{ALL, find};
 use fresnel_gen::physics::num::Precision;
 

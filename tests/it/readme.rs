@@ -11,7 +11,10 @@ use fresnel_gen::lab::cost::records;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ViewingConditions};
 use fresnel_gen::pictures::headline::headline;
-use fresnel_gen::pictures::markdown::{classes_table, effects_table, errors_table, flavours_table, half_table, methods_table, targets_table};
+use fresnel_gen::pictures::markdown::{
+    classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
+    targets_table,
+};
 use fresnel_gen::pictures::material_sheet::material_sheet;
 
 use super::stated::{check_stated, stated};

@@ -6,7 +6,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::lab::reproduce::{ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis};
+use fresnel_gen::lab::reproduce::{
+    ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis,
+};
 use fresnel_gen::pictures::figure_chart::figure_chart;
 
 /// The thesis's million angles: the figures must come out to its printed digit.
@@ -432,15 +434,13 @@ fn a_missing_figure_is_null_with_a_reason() {
 /// The command `reproduce`.
 mod program {
     use clap::Parser;
-    use fresnel_gen::cli::Error;
-    use fresnel_gen::cli::args::Cli;
-    use fresnel_gen::cli::command;
-use fresnel_gen::cli::command::Output;
+    use fresnel_gen::cli::Output;
+    use fresnel_gen::cli::{Cli, Error, run};
 
     fn command(arguments: &[&str]) -> Result<Output, Error> {
         let start = ["fresnel-gen", "reproduce"];
         let cli = Cli::parse_from(start.iter().chain(arguments));
-        command::run(&cli, &mut |_, _, _| {}, &|_| ())
+        run(&cli, &mut |_, _, _| {}, &|_| ())
     }
 
     #[test]

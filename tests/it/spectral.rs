@@ -7,7 +7,9 @@ use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::generator::{fit, reference};
 use fresnel_gen::language::ir::{Value, evaluate};
 use fresnel_gen::language::methods;
-use fresnel_gen::physics::materials::{self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions};
+use fresnel_gen::physics::materials::{
+    self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions,
+};
 use fresnel_gen::physics::optics::cosine;
 use fresnel_gen::physics::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
 

@@ -3,7 +3,9 @@
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
 use crate::generator::fit::ModelError;
-use crate::generator::lut::{BetweenTexels, Depth, Format, Picture, Stored, TABLES, Table, TableAxis, table_error};
+use crate::generator::lut::{
+    BetweenTexels, Depth, Format, Picture, Stored, TABLES, Table, TableAxis, table_error,
+};
 use crate::language::ir::Weights;
 use crate::language::targets::Target;
 

@@ -6,7 +6,10 @@
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
-use crate::generator::lut::{BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis, SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range};
+use crate::generator::lut::{
+    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis,
+    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range,
+};
 use crate::language::ir::Weights;
 use crate::language::methods::{self, Basis, Method};
 

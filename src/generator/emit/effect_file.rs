@@ -12,7 +12,6 @@ use crate::physics::num::Precision;
 
 use super::batch::batch_program;
 use super::bounds::CodeBound;
-use super::{comment, wgsl};
 use super::detail::{Detail, functions_detail};
 use super::error::Error;
 use super::file::{File, check_names};
@@ -20,6 +19,7 @@ use super::form::FunctionForm;
 use super::function::{Emitted, Naming};
 use super::header::{MARK, OUTPUT_LICENCE};
 use super::page::{PageRequest, comments, guard, render};
+use super::{comment, wgsl};
 
 /// A function of an effect, as it was asked for.
 #[derive(Clone, Copy, Debug)]

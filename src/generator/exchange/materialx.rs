@@ -11,10 +11,10 @@ use crate::generator::emit::{XmlDocument, comment_lines};
 use crate::physics::spectra::Space;
 
 use super::format::{Format, Notes};
-use super::{head, openpbr};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial};
+use super::{head, openpbr};
 
 /// The record of this format.
 pub static FORMAT: Format = Format {

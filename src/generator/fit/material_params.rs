@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use crate::generator::reference::ReferenceCurve;
 use crate::language::methods::Light;
-use crate::physics::materials::{Material, MaterialKind, Surface, Unseen, ViewingConditions, surfaces_of};
+use crate::physics::materials::{
+    Material, MaterialKind, Surface, Unseen, ViewingConditions, surfaces_of,
+};
 use crate::physics::spectra::Gamut;
 
 use super::grey_tint::{GreyTint, grey_tint};

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::generator::reference::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};
+use crate::generator::reference::{
+    ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
+};
 use crate::language::ir::{Checked, Column, Value, evaluate};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};

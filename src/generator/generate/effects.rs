@@ -1,12 +1,12 @@
 //! The files of effects: in their usual form, by another method, or specialised to materials.
 
-use crate::generator::output::artifact::Artifact;
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
-use crate::generator::request::Request;
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, EffectRequest, Emitted, Naming};
+use crate::generator::error::Error;
+use crate::generator::fault::RequestFault;
+use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::Request;
 use crate::language::effects::{self, Effect, USUAL_METHOD};
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;

@@ -1,13 +1,13 @@
 //! The files of flavours: adapters for hosts, with fitted coefficients of the run's materials.
 
-use crate::generator::output::artifact::Artifact;
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
-use crate::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
+use crate::generator::error::Error;
+use crate::generator::fault::RequestFault;
 use crate::generator::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
+use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use crate::language::methods::Method;
 use crate::language::targets::Target;
 use crate::physics::materials::ViewingConditions;

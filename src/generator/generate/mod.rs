@@ -19,12 +19,12 @@ use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::materials::Unseen;
 
-use crate::generator::output::artifact::{Artifact, sha256};
 use crate::generator::error::Error;
+use crate::generator::output::artifact::{Artifact, sha256};
 use crate::generator::output::manifest::{Input, Provenance};
-use crate::generator::request::{Materials, Request};
 use crate::generator::output::scope::Scope;
 use crate::generator::request::subjects::Subjects;
+use crate::generator::request::{Materials, Request};
 use effects::WantedEffects;
 use owners::Owners;
 

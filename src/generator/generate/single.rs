@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use crate::generator::emit::{self, Heading, PlaceInFile};
 use crate::generator::error::Error;
 use crate::generator::fault::RequestFault;
 use crate::generator::request::{Materials, Request};
-use crate::generator::emit::{self, Heading, PlaceInFile};
 use crate::language::targets::{Finish, Target};
 
 use crate::generator::generate::owners::Owners;

@@ -1,8 +1,8 @@
 //! Which methods are written: those asked for, those that a file holds already, and in half precision those that it can bear.
 
 use crate::generator::error::Error;
-use crate::generator::request::Request;
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::Request;
 use crate::language::methods::{self, InHalf, Method};
 use crate::language::targets::Target;
 

@@ -44,7 +44,10 @@ pub use lookup::lookup;
 pub use measure::{BetweenTexels, table_error};
 pub use picture::{Picture, TermChannels};
 pub use search::{TableKind, smallest};
-pub use split_sum::{BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS, check_side, term_range};
+pub use split_sum::{
+    BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
+    check_side, term_range,
+};
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};
 pub use thesis_measure::{ThesisMeasure, thesis_table_errors};

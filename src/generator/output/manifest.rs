@@ -9,12 +9,12 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
+use crate::generator::envelope::TOOL;
 use crate::physics::num::Precision;
 use crate::physics::spectra::without_mark;
-use crate::generator::envelope::TOOL;
 
-use crate::generator::output::artifact::{Artifact, check_path};
 use crate::generator::error::Error;
+use crate::generator::output::artifact::{Artifact, check_path};
 use crate::generator::output::ours::{could_be_written, listed_hash};
 use crate::generator::output::scope::Scope;
 

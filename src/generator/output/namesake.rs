@@ -1,12 +1,12 @@
 //! Two files whose materials come out with one name: `Gläser.csv` and `Glaser.csv`. The second run would take the place of the first
 //! one's functions without a word.
 
-use crate::generator::output::artifact::Artifact;
+use crate::generator::emit::Detail;
 use crate::generator::error::Error;
 use crate::generator::fault::RequestFault;
+use crate::generator::output::artifact::Artifact;
 use crate::generator::output::manifest::{Entry, Manifest, Provenance};
 use crate::generator::output::tree::{Planned, State};
-use crate::generator::emit::Detail;
 
 /// Refuses to write what is made of a table or page beside what is made of another, or of a material of the catalogue with its name: a table
 /// and a page are named after their files, and the data differ.

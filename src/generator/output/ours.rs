@@ -9,8 +9,8 @@
 use crate::generator::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
 use crate::generator::flavours;
 use crate::generator::lut::{CatalogueTexture, Format, KTX2_MARK, TABLES};
-use crate::language::{effects, methods};
 use crate::language::targets::{self, Finish};
+use crate::language::{effects, methods};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
 

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use crate::generator::output::ours::{SHARED, could_be_written};
 use crate::generator::error::Error;
 use crate::generator::output::folder;
 use crate::generator::output::manifest::Entry;
+use crate::generator::output::ours::{SHARED, could_be_written};
 use crate::generator::output::scope::Scope;
 use crate::generator::output::tree::Planned;
 use crate::physics::num::Precision;

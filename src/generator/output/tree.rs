@@ -7,16 +7,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::generator::emit::FunctionDetail;
+use crate::generator::error::Error;
 use crate::generator::output::artifact::{self, Artifact};
 use crate::generator::output::atlas_rows::{ChangedRows, changed_rows};
-use crate::generator::error::Error;
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Entry, Manifest, Provenance};
 use crate::generator::output::namesake::refuse_namesakes;
-use crate::generator::output::ours::{bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash};
+use crate::generator::output::ours::{
+    bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash,
+};
 use crate::generator::output::scope::Scope;
 use crate::generator::output::stays::{strangers, unknown};
-use crate::generator::emit::FunctionDetail;
 
 pub use crate::generator::output::stays::Stay;
 

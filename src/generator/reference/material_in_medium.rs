@@ -1,7 +1,9 @@
 //! A material in its medium, as it is seen.
 
 use crate::language::methods::{Light, Method};
-use crate::physics::materials::{Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions};
+use crate::physics::materials::{
+    Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions,
+};
 
 use super::derivation::Derivation;
 use super::effective::{Effective, effective};

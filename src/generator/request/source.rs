@@ -1,7 +1,7 @@
 //! Reading the files that a user names.
 
-use std::{fs, io};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use crate::physics::foreign;
 use crate::physics::materials::FileFault;

@@ -11,7 +11,6 @@ use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::compilers::{CompilerFault, Verdict};
 use crate::physics::num::each_channel;
 
-use super::{Audit, admission, cost, edges, place};
 use super::accept::Accepted;
 use super::bind::{self, Bound, BoundArgument};
 use super::choose::choose;
@@ -28,6 +27,7 @@ use super::row::{AuditRow, Audited, Ran};
 use super::runner::{Runner, Trouble};
 use super::scan::FoundFunction;
 use super::slice::{Slice, SlicedText};
+use super::{Audit, admission, cost, edges, place};
 
 /// An audit under way.
 pub struct Auditor<'a> {

@@ -30,6 +30,8 @@ pub use histogram::{BINS, CosineHistogram};
 pub use mesh::{Mesh, Vertex};
 pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
 pub use painted::{MAGNIFIED, Painted};
-pub use rendered_error::{RelativeErrors, RenderedError, drawn_errors, mean_relative, rendered_error};
+pub use rendered_error::{
+    RelativeErrors, RenderedError, drawn_errors, mean_relative, rendered_error,
+};
 pub use row::{ChannelErrors, SceneErrorRow};
 pub use shown::{Shown, shown};

@@ -4,7 +4,9 @@
 //! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
 //! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
-use crate::generator::lut::{Depth, LEAST_TEXELS, Stored, Table, TableAxis, ThesisMeasure, thesis_table_errors};
+use crate::generator::lut::{
+    Depth, LEAST_TEXELS, Stored, Table, TableAxis, ThesisMeasure, thesis_table_errors,
+};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::methods::Light;
 use crate::physics::materials::Surface;

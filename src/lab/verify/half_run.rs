@@ -3,7 +3,9 @@
 
 use crate::generator::fit::Measured;
 use crate::lab::verify::run::{RunFault, Runnable, ShippedFunction};
-use crate::lab::verify::{HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range};
+use crate::lab::verify::{
+    HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range,
+};
 use crate::language::methods::Contract;
 use crate::physics::num::Num;
 

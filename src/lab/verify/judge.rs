@@ -7,7 +7,10 @@ use crate::physics::num::Precision;
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
 use super::plan::{PlannedFile, ShippedPage};
-use super::row::{AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow, finite};
+use super::row::{
+    AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
+    ModelErrorFigures, SecondOpinion, VerifyRow, finite,
+};
 use super::run::{ExecutionPath, RunFault};
 use super::status::Status;
 use super::{HalfError, Miss, Outcome};

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
+use crate::generator::emit::Detail;
 use crate::generator::output::artifact::Artifact;
 use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::generator::output::ours::is_listed;
-use crate::generator::emit::Detail;
 
 /// The manifest's entry of a file.
 pub(super) struct Listed<'a> {

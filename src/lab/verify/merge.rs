@@ -8,12 +8,12 @@ use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
 
+use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::lab::verify::VerifyRow;
 use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard};
+use crate::lab::verify::shard_report::ShardReport;
 use crate::physics::foreign::{self, Foreign, one_line};
 use crate::physics::materials::FileFault;
-use crate::lab::verify::shard_report::ShardReport;
-use crate::generator::envelope::{SCHEMA, TOOL};
 
 use crate::lab::verify::error::Error;
 

@@ -8,14 +8,9 @@
 //! report and no more. All processes make the same [`VerifyPlan`](plan::VerifyPlan) from the same flags; a number names a file of it.
 
 mod code_error;
+pub mod compilers;
 pub mod dealt;
 mod difference;
-mod listed;
-pub mod requested;
-pub mod shard_report;
-mod shipped;
-pub mod merge;
-pub mod compilers;
 pub mod drift;
 pub mod effect_points;
 mod effect_run;
@@ -27,16 +22,21 @@ mod half;
 mod half_run;
 pub mod harness;
 mod judge;
+mod listed;
 pub mod machine;
+pub mod merge;
 pub mod module;
 pub mod naga_translation;
 mod object;
 pub mod outline;
 pub mod plan;
 mod points;
+pub mod requested;
 mod row;
 pub mod run;
 pub mod shard;
+pub mod shard_report;
+mod shipped;
 mod statement;
 mod status;
 mod supervise;
@@ -46,13 +46,22 @@ mod trial_case;
 mod worker;
 mod worst;
 
-pub use code_error::{ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error, library_code_error_at, random_medium};
+pub use code_error::{
+    ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error,
+    library_code_error_at, random_medium,
+};
 pub use error::Error;
 pub use exhaustive::exhaustive_rows;
-pub use half::{HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at, nearest_half};
+pub use half::{
+    HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
+    nearest_half,
+};
 pub use object::as_object;
 pub use points::{Random, WITHIN, beyond, cosines, cosines_around, limits, share};
-pub use row::{AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow, WORST};
+pub use row::{
+    AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow,
+    WORST,
+};
 pub use statement::MachineStatement;
 pub use status::Status;
 pub use supervise::supervise;

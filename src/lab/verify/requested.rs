@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use crate::generator::generate::kept::kept;
-use crate::generator::error::Error;
-use crate::generator::generate::{Held, Kept, Made, Meant, generate_meant};
-use crate::generator::request::{Materials, Request};
 use crate::generator::emit::{Emitted, HeaderForm};
+use crate::generator::error::Error;
+use crate::generator::generate::kept::kept;
+use crate::generator::generate::{Held, Kept, Made, Meant, generate_meant};
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::{Materials, Request};
 use crate::lab::verify::plan::{PlannedFile, ShippedPage, VerifyPlan};
 use crate::language::{methods, targets};
 

@@ -22,7 +22,10 @@ use super::effect_trial::EffectTrial;
 use super::harness::{self, Call, ENTRY};
 use super::naga_translation;
 use super::trial::Trial;
-use crate::lab::gpu::{self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape, Uniform, Wanted, Wrap};
+use crate::lab::gpu::{
+    self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wanted, Wrap,
+};
 
 /// Why nothing was run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,12 +1,13 @@
 //! The report of a shard of a verification: what the report of a whole run says of it, and what tells whether other shards are of
 //! the same run. `merge` reads it again, so that it owns its text and flattens no [`Origin`](crate::generator::envelope::Origin), which is written only.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use crate::generator::envelope::{SCHEMA, TOOL};
-use crate::cli::verify_text::devices;
-use crate::lab::verify::MachineStatement;
 use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardOutcome};
+use crate::lab::verify::{MachineStatement, VerifyRow};
 
 /// The report of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,4 +74,14 @@ impl ShardReport {
             rows: outcome.rows,
         }
     }
+}
+
+/// The devices of all rows, each once; none where nothing ran.
+pub fn devices(rows: &[VerifyRow]) -> Option<String> {
+    let names: BTreeSet<&str> = rows
+        .iter()
+        .filter_map(|row| row.device.as_deref())
+        .collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    (!names.is_empty()).then(|| names.join("; "))
 }

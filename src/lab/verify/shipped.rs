@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::generator::error::Error;
-use crate::generator::output::folder;
-use crate::generator::generate::Made;
-use crate::generator::output::manifest::{self, Manifest};
 use crate::generator::emit::HeaderForm;
-use crate::lab::verify::{drift, module};
+use crate::generator::error::Error;
+use crate::generator::generate::Made;
+use crate::generator::output::folder;
+use crate::generator::output::manifest::{self, Manifest};
 use crate::lab::verify::outline::{Item, Outline, outline};
 use crate::lab::verify::plan::ShippedPage;
+use crate::lab::verify::{drift, module};
 use crate::language::targets;
 use crate::physics::foreign::Foreign;
 

@@ -238,7 +238,7 @@ fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
 #[cfg(test)]
 mod tests {
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::METHOD;
 
     #[test]

@@ -80,7 +80,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 #[cfg(test)]
 mod tests {
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::{METHOD, conductor_exact};
 
     #[test]

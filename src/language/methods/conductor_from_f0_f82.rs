@@ -196,7 +196,7 @@ fn solved(values: &Values) -> Option<(&'static Method, Values)> {
 #[cfg(test)]
 mod tests {
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::METHOD;
 
     #[test]

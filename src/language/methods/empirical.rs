@@ -11,7 +11,9 @@ use crate::physics::cite::Citation;
 
 use super::class::Class;
 use super::half::InHalf;
-use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND};
+use super::input::{
+    Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
+};
 use super::known::{COS_60, mean};
 use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::origin::Origin;

@@ -142,7 +142,7 @@ fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
 #[cfg(test)]
 mod tests {
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::METHOD;
 
     #[test]

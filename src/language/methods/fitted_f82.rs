@@ -118,7 +118,7 @@ fn affine_weights(c: f64) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::METHOD;
 
     #[test]

@@ -16,7 +16,9 @@ use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::HOFFMAN_2019;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{
+    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+};
 use super::origin::Origin;
 
 /// The record of this method.
@@ -104,7 +106,7 @@ fn coefficients<'b>(x: &Inputs<'b>) -> [Expr<'b>; 4] {
 #[cfg(test)]
 mod tests {
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::{CENTRE, METHOD, QUADRATICS};
 
     /// As `tests/fit-f82` finds them, rounded: of x = F0 - .75 and y = F82 - .65, what multiplies 1, y, y², x, x y and x². Four digits move

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::language::ir::{BrokenRule, Builder, Checked, Expr, Function, Texels, Ty, Value, check_in, fold_in, specialise_in};
+use crate::language::ir::{
+    BrokenRule, Builder, Checked, Expr, Function, Texels, Ty, Value, check_in, fold_in,
+    specialise_in,
+};
 use crate::physics::cite::Citation;
 use crate::physics::num::{Num, Precision};
 

@@ -67,7 +67,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 mod tests {
     use super::super::dielectric_exact;
     use super::super::limits::check;
-use super::super::limits::value;
+    use super::super::limits::value;
     use super::METHOD;
 
     #[test]

@@ -5,7 +5,9 @@
 
 use super::glsl;
 use super::spelling::Spelling;
-use super::target::{Batch, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
+use super::target::{
+    Batch, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+};
 
 /// The record of this target.
 pub static TARGET: Target = Target {

@@ -1,9 +1,12 @@
 //! The chart as a self-contained SVG: both axes in powers of ten.
 
-use crate::pictures::plot::{AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK, TITLE, Tick, VERMILION, capital, log_ticks, plain_label};
+use crate::pictures::plot::{
+    AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK,
+    TITLE, Tick, VERMILION, capital, log_ticks, plain_label,
+};
 
-use crate::pictures::frontier::labels::{DOT, LabelPlace, place_names};
 use crate::lab::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
+use crate::pictures::frontier::labels::{DOT, LabelPlace, place_names};
 
 /// The size of the picture.
 const FRAME: PanelFrame = PanelFrame {

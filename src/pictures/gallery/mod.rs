@@ -23,7 +23,9 @@ use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::chart::{ChartData, chart_data};
 use crate::physics::spectra::Space;
-use crate::pictures::scene::{self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT};
+use crate::pictures::scene::{
+    self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
+};
 
 pub use functions::FunctionTexts;
 pub use lower::{GlesProgram, LoweredTexture, LoweringFault, lowered};

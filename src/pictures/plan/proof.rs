@@ -6,7 +6,10 @@
 
 use glam::DVec3;
 
-use crate::generator::emit::{self, Bounds, CodeBound, Emitted, HeaderForm, Heading, Naming, library_functions, specialised_function};
+use crate::generator::emit::{
+    self, Bounds, CodeBound, Emitted, HeaderForm, Heading, Naming, library_functions,
+    specialised_function,
+};
 use crate::generator::fit::Measured;
 use crate::lab::gpu::Wanted;
 use crate::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};

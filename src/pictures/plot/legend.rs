@@ -43,8 +43,8 @@ fn legend_entry(style: Style, lines: &[String], left: f64, top: f64) -> Vec<Stri
 
 #[cfg(test)]
 mod tests {
-    use crate::pictures::plot::layout::ALONE;
     use super::*;
+    use crate::pictures::plot::layout::ALONE;
 
     fn named(name: &str) -> Series {
         Series {

@@ -16,7 +16,7 @@ mod ticks;
 pub(super) use axes::{Area, Axes, Tick};
 pub(super) use layout::{Layout, PanelFrame};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
-pub(crate) use palette::{shade_bytes, BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
+pub(crate) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
 pub use palette::{Look, Style};
 pub(super) use scale::Scale;
 pub(crate) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};

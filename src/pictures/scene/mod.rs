@@ -27,11 +27,15 @@ mod window;
 
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
-pub use caustics::{FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics};
+pub use caustics::{
+    FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
+};
 pub use compare::{Comparison, Difference, compare};
 pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
-pub use frame::{ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame};
+pub use frame::{
+    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
+};
 pub use glass::{Glass, Ray};
 pub use light_file::is_deep;
 pub use picture::{Order, Picture, RenderedRow, render};

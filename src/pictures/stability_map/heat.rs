@@ -2,7 +2,10 @@
 
 use crate::generator::emit::xml_text;
 use crate::lab::stability::{Cell, Map};
-use crate::pictures::plot::{Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, log_ticks, plain_label, power_label, shade};
+use crate::pictures::plot::{
+    Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, log_ticks, plain_label,
+    power_label, shade,
+};
 
 const WIDTH: f64 = 920.0;
 const HEIGHT: f64 = 366.0;

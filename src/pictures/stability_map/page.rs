@@ -5,9 +5,9 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::Context;
 
-use crate::pictures::stability_map::{percent, worst};
 use crate::lab::stability::{Finding, StabilityRow};
 use crate::pictures::html;
+use crate::pictures::stability_map::{percent, worst};
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 

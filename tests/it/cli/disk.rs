@@ -142,7 +142,10 @@ fn all_outputs_are_written_or_none() {
         ("--target gles --method schlick --out-dir o", "--depfile"),
         ("--target gles --method schlick -o s.glsl", "--depfile"),
         ("materials show gold --svg gold.svg", "--json"),
-        ("cost --method schlick --material none --gpu gcn4 --out-dir o", "--json"),
+        (
+            "cost --method schlick --material none --gpu gcn4 --out-dir o",
+            "--json",
+        ),
     ];
     for (line, flag) in lines {
         place.refused(

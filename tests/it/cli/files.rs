@@ -202,7 +202,10 @@ fn binary_files_bear_the_mark() {
     fs::remove_file(place.path("manifest.json")).unwrap();
     let files = contents(&place.path(""));
     for (path, bytes) in &files {
-        assert!(fresnel_gen::generator::output::ours::bears_mark(bytes), "{path}");
+        assert!(
+            fresnel_gen::generator::output::ours::bears_mark(bytes),
+            "{path}"
+        );
     }
     // Without a manifest the mark is what lets a run replace them.
     place.done(

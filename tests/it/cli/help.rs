@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use clap::{CommandFactory, Parser};
-use fresnel_gen::cli::args::{Cli, completions};
+use fresnel_gen::cli::{Cli, completions};
 
 use super::{OUT, Place};
 

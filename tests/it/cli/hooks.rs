@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use clap::Parser;
-use fresnel_gen::cli::args::Cli;
+use fresnel_gen::cli::Cli;
 use serde_json::Value;
 
 use super::pipelines::path_with_program;

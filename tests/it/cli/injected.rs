@@ -4,8 +4,7 @@
 use std::path::Path;
 
 use clap::Parser;
-use fresnel_gen::cli::args::Cli;
-use fresnel_gen::cli::command;
+use fresnel_gen::cli::{Cli, run};
 use fresnel_gen::physics::foreign::is_hidden;
 use serde_json::{Value, json};
 
@@ -51,7 +50,7 @@ fn said(words: &[&str]) -> String {
     let mut all = String::new();
     let announced = std::cell::RefCell::new(String::new());
     let announce = |line: &str| announced.borrow_mut().push_str(&format!("{line}\n"));
-    match command::run(&cli, &mut |_, _, _| {}, &announce) {
+    match run(&cli, &mut |_, _, _| {}, &announce) {
         Ok(output) => {
             all += &String::from_utf8_lossy(&output.stdout);
             output

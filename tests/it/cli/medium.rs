@@ -1,6 +1,8 @@
 //! `--medium` as a number: one medium for all spellings of it, its names, and what is refused.
 
-use fresnel_gen::physics::materials::{self, ConstantIndex, Extrapolate, Surface, ViewingConditions};
+use fresnel_gen::physics::materials::{
+    self, ConstantIndex, Extrapolate, Surface, ViewingConditions,
+};
 
 use super::{OUT, Place};
 

@@ -2,10 +2,10 @@
 //! touched takes its own output alone, and a table of light takes all. `tests/run` builds the one for Cargo.
 
 use std::collections::BTreeSet;
-use std::{env, fs};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 use super::{PROGRAM, Place, Ran};
 use crate::compilers::Tool;

@@ -11,14 +11,14 @@ use std::ffi::OsStr;
 use std::process::Command;
 use std::sync::{LazyLock, Mutex};
 
-use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
-use fresnel_gen::generator::output::artifact::Artifact;
-use fresnel_gen::generator::{generate, emit};
 use fresnel_gen::generator::emit::Detail;
 use fresnel_gen::generator::lut::{self, TableAxis};
+use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
+use fresnel_gen::generator::{emit, generate};
 use fresnel_gen::lab::verify::compilers::Verdict;
-use fresnel_gen::language::{effects, methods, targets};
 use fresnel_gen::language::targets::Target;
+use fresnel_gen::language::{effects, methods, targets};
 use fresnel_gen::physics::num::Precision;
 use serde_json::json;
 

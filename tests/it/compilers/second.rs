@@ -3,7 +3,9 @@
 use std::fs;
 
 use fresnel_gen::generator::output::artifact::Artifact;
-use fresnel_gen::lab::verify::compilers::{CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv};
+use fresnel_gen::lab::verify::compilers::{
+    CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv,
+};
 use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
 use fresnel_gen::language::targets;
 use tempfile::TempDir;

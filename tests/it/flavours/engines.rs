@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::generator::lut::{Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation};
+use fresnel_gen::generator::lut::{
+    Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation,
+};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingConditions};

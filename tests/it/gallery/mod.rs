@@ -9,8 +9,8 @@ mod texts;
 use std::sync::OnceLock;
 
 use fresnel_gen::Materials;
-use fresnel_gen::generator::request::{Request, Source};
 use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::generator::request::{Request, Source};
 
 use crate::cli::Place;
 

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use fresnel_gen::generator::request::{Materials, Request};
-use fresnel_gen::generator::request;
 use fresnel_gen::generator::emit::{self, Bounds, Naming};
+use fresnel_gen::generator::request;
+use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::gpu::{Argument, Backend, ShaderCode, Uniform};
 use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, cosines};
 use fresnel_gen::language::ir::{Checked, Value, evaluate};

@@ -2,10 +2,10 @@
 //! as no function is meant for. A rule that fails says that a target's text, or what a stack makes of it, breaks a
 //! promise that each file's reader relies on.
 
-use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::generator::emit::{self, Bounds, Emitted, Naming};
 use fresnel_gen::generator::fit::{self, Measured};
 use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::lab::gpu::Wanted;
 use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial};

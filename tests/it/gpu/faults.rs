@@ -1,6 +1,9 @@
 //! What cannot run says why, in the words of what refused it.
 
-use fresnel_gen::lab::gpu::{Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape, Uniform, Wanted, Wrap, adapters};
+use fresnel_gen::lab::gpu::{
+    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wanted, Wrap, adapters,
+};
 
 use super::{device, gles, program, wgsl};
 

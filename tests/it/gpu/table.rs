@@ -1,12 +1,15 @@
 //! Tables as GPUs sample them: the lookup that is generated, on real stacks, against the filter that errors of tables
 //! are computed with; and the usual mistakes, made on purpose, are each seen.
 
-use fresnel_gen::generator::request::Materials;
-use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::bake::TableMaterial;
 use fresnel_gen::generator::emit::{self, Emitted, Naming};
+use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::lut::{Depth, Stored, Table, TableAxis};
-use fresnel_gen::lab::gpu::{Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape, Uniform, Wrap};
+use fresnel_gen::generator::request::Materials;
+use fresnel_gen::lab::gpu::{
+    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wrap,
+};
 use fresnel_gen::lab::verify::{cosines, harness};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::{methods, targets};

@@ -5,7 +5,7 @@
 pub mod language;
 
 use fresnel_gen::generator::request::{Materials, Request};
-use fresnel_gen::generator::{generate, emit, fit, lut};
+use fresnel_gen::generator::{emit, fit, generate, lut};
 use fresnel_gen::lab::verify::nearest_half;
 use fresnel_gen::language::ir::{Checked, Texels, Ty, Value, evaluate};
 use fresnel_gen::language::{methods, targets};

@@ -1,7 +1,10 @@
 //! Metals: a room seen in a ball, and dents.
 
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::pictures::scene::{self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance, sky};
+use fresnel_gen::pictures::scene::{
+    self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance,
+    sky,
+};
 use glam::DVec3;
 
 use super::one_surface::glass_of;

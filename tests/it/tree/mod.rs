@@ -11,6 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
+use fresnel_gen::generator::emit::{Detail, FunctionsDetail, SeenDetail};
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::output::lock::Lock;
@@ -18,7 +19,6 @@ use fresnel_gen::generator::output::manifest::{Input, Provenance};
 use fresnel_gen::generator::output::scope::Scope;
 use fresnel_gen::generator::output::tree::{TreePlan, plan};
 use fresnel_gen::generator::output::write::{self, Written};
-use fresnel_gen::generator::emit::{Detail, FunctionsDetail, SeenDetail};
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,
 /// a file without a comment and one that lies beside the targets' folders.

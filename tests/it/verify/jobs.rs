@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use clap::Parser;
-use fresnel_gen::cli::args::{Cli, Command as Subcommand};
+use fresnel_gen::cli::{Cli, Command as Subcommand};
 use serde_json::Value;
 
 use crate::cli::pipelines::path_with_program;

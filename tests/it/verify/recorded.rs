@@ -2,10 +2,12 @@
 
 use std::process::Command;
 
-use fresnel_gen::generator::request::DEFAULT_MATERIALS as MATERIALS;
-use fresnel_gen::generator::emit::{Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function};
+use fresnel_gen::generator::emit::{
+    Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function,
+};
 use fresnel_gen::generator::fit::Measured;
 use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::generator::request::DEFAULT_MATERIALS as MATERIALS;
 use fresnel_gen::language::ir::Op;
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
 

@@ -6,7 +6,9 @@ use serde::Serialize;
 use crate::generator::fit::rounded_up;
 use crate::language::targets::{self, Target};
 
-use super::{CATALOGUE, CATALOGUE_BUFFER, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
+use super::{
+    CATALOGUE, CATALOGUE_BUFFER, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of,
+};
 use crate::generator::emit::comment;
 use crate::generator::emit::detail::{CatalogueDetail, Detail};
 use crate::generator::emit::error::Error;

@@ -5,7 +5,9 @@ mod buffer;
 mod json;
 mod record;
 
-use crate::generator::fit::{FitCurve, FitObjective, ModelError, coefficients_and_error, model_error};
+use crate::generator::fit::{
+    FitCurve, FitObjective, ModelError, coefficients_and_error, model_error,
+};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{self, Method};
 use crate::physics::num::in_parallel;

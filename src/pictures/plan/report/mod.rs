@@ -1,6 +1,5 @@
 //! A plan for people, and as JSON that `--plan` reads back.
 
-
 mod page;
 
 use serde::Serialize;
@@ -11,7 +10,6 @@ use crate::pictures::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
 
 use crate::generator::envelope::Origin;
 use crate::pictures::table::{short_number, text_table};
-
 
 pub use page::plan_page;
 

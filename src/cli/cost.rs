@@ -1,0 +1,421 @@
+//! `cost`: what compilers of real GPUs make of functions.
+
+use crate::cli::error::Error;
+use crate::cli::flags::choice::{
+    Choice, effect_or_all, family, family_or_all, method_or_all, precision,
+};
+use crate::cli::flags::material::MaterialFlags;
+use crate::cli::flags::output::{PictureFlags, ReportFlags};
+use crate::cli::flags::precision::each_once;
+use crate::cli::places::try_places;
+use crate::cli::run::{Output, Progress, check_limit, not_drawn, report_beside};
+use crate::generator::command_line::CommandLine;
+use crate::generator::envelope::Report;
+use crate::generator::fault::RequestFault;
+use crate::generator::output::write::{OutputFile, try_places_of_ours};
+use crate::generator::request::Request;
+use crate::lab::cost::{
+    CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers,
+    cost_rows, functions, functions_of_effect, records, serve,
+};
+use crate::lab::process::{Pool, Surroundings};
+use crate::lab::verify::machine;
+use crate::language::effects::{self, Effect, USUAL_METHOD};
+use crate::language::methods;
+use crate::language::methods::Method;
+use crate::physics::num::Precision;
+use crate::pictures::cost_page::{cost_page, percent, short};
+use crate::pictures::table;
+use clap::Args;
+use core::time::Duration;
+use std::path::PathBuf;
+
+/// The flags of `cost`.
+#[derive(Args, Debug)]
+#[command(
+    mut_arg("out_dir", |arg| arg.help("Write a page with all figures as cost.html into this folder")),
+    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --gpu rdna2 --effect interior --method schlick_ior\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own price. Shares are of dielectric_exact with its argument from a uniform. Where a compiler is not here, what was recorded of the same shader stands in its place. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with --require-all: something could not be measured, with --check: nothing could."
+)]
+pub struct CostFlags {
+    /// Family of GPUs: operations (before any compiler), gcn4, rdna1, rdna2, rdna3, adreno330, malig72 ... [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = family_or_all())]
+    pub gpu: Vec<Choice<&'static Family>>,
+    /// Method, see `fresnel-gen methods` [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
+    pub method: Vec<Choice<&'static Method>>,
+    /// Effect, see `fresnel-gen effects`, or all: its functions and nothing else, with R by --method [default: all where no method is named]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = effect_or_all(), conflicts_with = "material")]
+    pub effect: Vec<Choice<&'static Effect>>,
+    /// Which materials.
+    #[command(flatten)]
+    pub materials: MaterialFlags,
+    /// What functions compute in: f32, f16 [default: each]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = precision())]
+    pub precision: Vec<Precision>,
+    /// Compare what compilers say now with what was recorded; exit 1 where it differs
+    #[arg(long)]
+    pub check: bool,
+    /// Folder whose folder `mesa` holds compilers, searched before the folder `tools` beside this program
+    #[arg(long, value_name = "DIR")]
+    pub tools: Option<PathBuf>,
+    /// Seconds that a compiler may take for one shader
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub limit: u64,
+    /// Exit with 3 where anything could not be measured or checked
+    #[arg(long)]
+    pub require_all: bool,
+    /// Pictures and pages.
+    #[command(flatten)]
+    pub pictures: PictureFlags,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
+    /// Answer shaders with what this family's compiler says
+    #[arg(long, hide = true, value_name = "NAME", value_parser = family())]
+    pub worker: Option<&'static Family>,
+}
+
+impl CostFlags {
+    /// The command that reports this again, without places.
+    pub fn command_line(&self) -> CommandLine {
+        CommandLine::new("cost")
+            .list("gpu", &self.gpu)
+            .list("method", &self.method)
+            .list("effect", &self.effect)
+            .list("material", self.materials.choices())
+            .list(
+                "precision",
+                self.precision.iter().map(|precision| precision.name()),
+            )
+    }
+}
+
+/// The page in the folder asked for.
+const PAGE: &str = "cost.html";
+
+/// Measures.
+pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
+    if let Some(family) = flags.worker {
+        let served = serve(family);
+        // The supervisor has gone: nobody is there to be told.
+        return Ok(Output {
+            code: u8::from(served.is_err()),
+            ..Output::default()
+        });
+    }
+    check_limit(flags.limit)?;
+    let families = Choice::chosen(&flags.gpu, FAMILIES, |family| family.name);
+    let (functions, left_out) = requested(flags)?;
+    let page = flags.pictures.folder().map(|folder| folder.join(PAGE));
+    try_places(flags.report.json(), page.as_deref())?;
+    try_places_of_ours(page.as_slice(), flags.pictures.overwrite)?;
+    let pool = Pool {
+        limit: Duration::from_secs(flags.limit),
+        workers: machine::cores(),
+    };
+    let surroundings = Surroundings::new(flags.tools.as_deref())?;
+    let answers = ask_compilers(&families, &functions, pool, &surroundings, progress)?;
+    let table: Vec<Vec<CostRow>> = families
+        .iter()
+        .zip(&answers)
+        .map(|(family, answers)| {
+            cost_rows(family, answers.as_ref(), &records(family.name), &functions)
+        })
+        .collect();
+    let json = Report::new(
+        flags.command_line(),
+        table.iter().flatten().collect::<Vec<&CostRow>>(),
+    );
+    let (text, checked) = if flags.check {
+        check(&table)
+    } else {
+        (cost_text(&table), Checks::NONE)
+    };
+    let page = page.map(|page| paged(flags, &table, page)).transpose()?;
+    let said = page.as_ref().map(|page| {
+        format!(
+            "{}: a page with all figures",
+            crate::physics::foreign::path(page.path())
+        )
+    });
+    let files = page.into_iter().collect();
+    let mut output = report_beside(text, &json, flags.report.json(), files)?;
+    output.remarks.splice(0..0, left_out);
+    output.remarks.extend(said);
+    output.code = ending(flags, &table, &checked);
+    Ok(output)
+}
+
+/// 1 where a check found something, 3 where something that could be measured was not and all was required.
+fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
+    let is_lacking = |row: &CostRow| {
+        let cannot = row.precision.is_half() && !row.family.half;
+        row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
+    };
+    let is_lacking = !checked.whole || table.iter().flatten().any(is_lacking);
+    match checked.differ {
+        0 if flags.require_all && is_lacking => 3,
+        // What nothing was held against is not checked.
+        0 if flags.check && checked.agree == 0 && !checked.whole => 3,
+        0 => 0,
+        _ => 1,
+    }
+}
+
+/// The functions of a request, and why some are left out.
+fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Error> {
+    let request = Request {
+        materials: flags.materials.materials()?,
+        ..Request::default()
+    };
+    let precisions = each_once(&flags.precision);
+    let is_of_effects = !flags.effect.is_empty();
+    let methods = match is_of_effects {
+        true => Vec::new(),
+        false => Choice::methods(&flags.method),
+    };
+    let subjects = request.subjects()?;
+    let left_out = subjects.left_out_lines();
+    let mut functions = functions(&methods, &subjects.materials(), &precisions)?;
+    let names_no_method = flags.method.is_empty();
+    if precisions.contains(&Precision::F32) && (is_of_effects || names_no_method) {
+        functions.extend(of_effects(flags)?);
+    }
+    if !functions.iter().any(|function| function.is_asked) {
+        return Err(RequestFault::NothingToDo {
+            work: "measure",
+            why: "no such method for these materials in this precision",
+        }
+        .into());
+    }
+    Ok((functions, left_out))
+}
+
+/// The functions of the effects, by each method that is named.
+fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
+    let usual = methods::find(USUAL_METHOD).expect("the usual method is registered");
+    let named = match flags.method.is_empty() {
+        true => vec![usual],
+        false => Choice::methods(&flags.method),
+    };
+    let (textured, methods): (Vec<_>, Vec<_>) =
+        named.into_iter().partition(|method| method.is_textured());
+    if let ([textured, ..], []) = (textured.as_slice(), methods.as_slice()) {
+        return Err(RequestFault::textured_reflectance(textured).into());
+    }
+    let effects = Choice::chosen(&flags.effect, effects::ALL.iter().copied(), |effect| {
+        effect.name
+    });
+    let mut functions = Vec::new();
+    for effect in effects {
+        for method in &methods {
+            functions.extend(functions_of_effect(effect, method)?);
+        }
+    }
+    if functions.is_empty() {
+        let why = "no function of these effects asks for R; leave --method out";
+        return Err(RequestFault::conflict(why).into());
+    }
+    Ok(functions)
+}
+
+/// Fresh counts against the record: what differs, how much, and whether all that has a compiler was compared.
+fn check(table: &[Vec<CostRow>]) -> (String, Checks) {
+    let (mut text, mut all) = (String::new(), Checks::NONE);
+    for rows in table {
+        let Some(first) = rows.first() else { continue };
+        let found = RecordComparison::new(rows, &records(first.family.name));
+        all.agree += found.agree;
+        all.differ += found.differences.len();
+        all.whole &= found.unchecked.is_none() || first.family.compiler.dialect().is_none();
+        text += &found.text(first.family.name);
+    }
+    (text, all)
+}
+
+/// What came of `--check`, all families together.
+struct Checks {
+    /// Counts that are as recorded, and that are not.
+    agree: usize,
+    differ: usize,
+    /// Whether every family was asked that has a compiler.
+    whole: bool,
+}
+
+impl Checks {
+    const NONE: Checks = Checks {
+        agree: 0,
+        differ: 0,
+        whole: true,
+    };
+}
+
+/// A family's fresh counts against its record.
+#[derive(Default)]
+struct RecordComparison {
+    agree: usize,
+    unknown: usize,
+    differences: Vec<String>,
+    unchecked: Option<String>,
+}
+
+impl RecordComparison {
+    fn new(rows: &[CostRow], record: &CostRecord) -> RecordComparison {
+        let fresh = rows
+            .iter()
+            .find(|row| row.source == Some(CostSource::Compiler));
+        let compiler = fresh.and_then(|row| row.compiler.as_deref());
+        let mut checked = RecordComparison::default();
+        match compiler {
+            _ if record.compiler.is_empty() => {
+                checked.unchecked = Some(
+                    "this program holds no record of it: run `tests/costs`, then build it again"
+                        .to_owned(),
+                );
+            }
+            None => checked.unchecked = Some(unasked(rows)),
+            Some(compiler) if compiler != record.compiler => {
+                let recorded = &record.compiler;
+                checked.unchecked = Some(format!("here is {compiler}, and recorded {recorded}"));
+            }
+            Some(_) => rows.iter().for_each(|row| checked.add(row, record)),
+        }
+        checked
+    }
+
+    fn add(&mut self, row: &CostRow, record: &CostRecord) {
+        let key = row.key();
+        let Some(hash) = record.functions.get(&key) else {
+            self.unknown += 1;
+            return;
+        };
+        let known = record.figures.get(hash);
+        if row.shader.as_ref() != Some(hash) {
+            self.differences
+                .push(format!("{key}: the shader is another one"));
+        } else if row.figures.as_ref().ok() != known {
+            let text = |figures: Option<&CostFigures>| {
+                figures.map_or("nothing".to_owned(), CostFigures::text)
+            };
+            let (now, then) = (text(row.figures.as_ref().ok()), text(known));
+            self.differences
+                .push(format!("{key}: recorded is {then}, and now it is {now}"));
+        } else {
+            self.agree += 1;
+        }
+    }
+
+    fn text(&self, family: &str) -> String {
+        if let Some(why) = &self.unchecked {
+            return format!("{family}: not checked: {why}\n");
+        }
+        let differences = self.differences.iter();
+        let lines: String = differences
+            .map(|line| format!("{family}: {line}\n"))
+            .collect();
+        let (agree, differ) = (self.agree, self.differences.len());
+        let unknown = self.unknown;
+        format!("{lines}{family}: {agree} agree, {differ} differ, {unknown} not recorded\n")
+    }
+}
+
+/// Why a family has no fresh counts.
+fn unasked(rows: &[CostRow]) -> String {
+    let why = rows.iter().find_map(|row| row.figures.as_ref().err());
+    why.cloned()
+        .unwrap_or_else(|| "its compiler is not here".to_owned())
+}
+
+/// The page, as a file that is to be written.
+fn paged(flags: &CostFlags, table: &[Vec<CostRow>], file: PathBuf) -> Result<OutputFile, Error> {
+    let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
+    Ok(OutputFile::of_report(file, page, flags.pictures.overwrite))
+}
+
+/// The rows of each family, all of the same functions in the same order.
+pub fn cost_text(families: &[Vec<CostRow>]) -> String {
+    match families {
+        [one] => format!(
+            "{}\nThe shader's figures are of a chain of evaluations, four or, in GLSL ES 1.00, one.\n{}\n",
+            table::text_table(&ALONE, &alone(one)),
+            about(one)
+        ),
+        several => {
+            let body = beside(several);
+            let sources: String = several.iter().map(|rows| about(rows) + "\n").collect();
+            format!(
+                "{body}\nIn per cent of dielectric_exact, its argument from a uniform; a + is a texture fetch.\n{sources}"
+            )
+        }
+    }
+}
+
+const ALONE: [&str; 8] = [
+    "function",
+    "an evaluation",
+    "share, %",
+    "fetches",
+    "shader's instructions",
+    "latency",
+    "inverse throughput",
+    "registers",
+];
+
+fn alone(rows: &[CostRow]) -> Vec<Vec<String>> {
+    let cells = |row: &CostRow| match &row.figures {
+        Ok(figures) => vec![
+            row.label(),
+            short(Some(figures.cost())),
+            percent(row),
+            row.fetches.to_string(),
+            short(Some(figures.shader.instructions)),
+            short(figures.shader.latency),
+            short(figures.shader.inverse_throughput),
+            short(figures.registers),
+        ],
+        Err(why) => vec![row.label(), why.clone()],
+    };
+    rows.iter().map(cells).collect()
+}
+
+fn beside(families: &[Vec<CostRow>]) -> String {
+    let names = families.iter().filter_map(|rows| rows.first());
+    let head: Vec<&str> = ["function"]
+        .into_iter()
+        .chain(names.map(|row| row.family.name))
+        .collect();
+    let count = families.first().map_or(0, Vec::len);
+    let line = |place: usize| -> Vec<String> {
+        let label = families[0][place].label();
+        let shares = families.iter().map(|rows| percent(&rows[place]));
+        [label].into_iter().chain(shares).collect()
+    };
+    let lines: Vec<Vec<String>> = (0..count).map(line).collect();
+    table::text_table(&head, &lines)
+}
+
+/// Who said it, and what it is.
+fn about(rows: &[CostRow]) -> String {
+    let Some(first) = rows.first() else {
+        return String::new();
+    };
+    let family = first.family;
+    let unknown = rows.iter().filter(|row| row.figures.is_err()).count();
+    let known = rows.iter().find(|row| row.figures.is_ok());
+    let mut about = format!(
+        "{}: {}, {}",
+        family.name, family.gpu, family.columns.measure
+    );
+    match known.map(|row| (row.source, row.compiler.as_deref())) {
+        Some((Some(CostSource::Record), Some(compiler))) => {
+            about += &format!("; recorded with {compiler}")
+        }
+        Some((_, Some(compiler))) => about += &format!("; {compiler}"),
+        _ => {}
+    }
+    if let Some(Err(why)) = rows.iter().map(|row| &row.figures).find(|one| one.is_err()) {
+        let why = why.strip_prefix("not measured: ").unwrap_or(why);
+        about += &format!("; {unknown} of {} not measured: {why}", rows.len());
+    }
+    about
+}

@@ -1,0 +1,180 @@
+//! Materials and media, as the command line names them.
+
+use core::fmt;
+
+use clap::Args;
+use thiserror::Error;
+
+use crate::cli::error::Error;
+use crate::generator::command_line::path_again;
+use crate::generator::request::source::{comma_list, is_path, read};
+use crate::generator::request::{Materials, Source};
+use crate::physics::materials::{self, ConstantIndex, IndexFault};
+use crate::physics::names::UnknownName;
+
+use crate::cli::flags::choice::Choice;
+
+/// A word that is no medium.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum NoMedium {
+    /// It is no name either.
+    #[error("{0}; a medium can be a refractive index from 1 to 10 too, such as 1.5")]
+    Unknown(#[from] UnknownName),
+    /// A number beyond its limits.
+    #[error(transparent)]
+    Index(#[from] IndexFault),
+}
+
+/// A material of the catalogue, or the path of a material file, a page or a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MaterialName {
+    word: String,
+    is_file: bool,
+}
+
+impl MaterialName {
+    /// The parser of a material's name.
+    ///
+    /// # Errors
+    /// It is no path, and the catalogue has no such material.
+    pub fn parse(word: &str) -> Result<MaterialName, UnknownName> {
+        let is_known = materials::source(word).is_some();
+        if !is_known && !is_path(word) {
+            return Err(UnknownName::new("material", word, &materials::names()));
+        }
+        Ok(MaterialName {
+            word: word.to_owned(),
+            is_file: !is_known,
+        })
+    }
+
+    /// The parser of a medium: a material's name, or a number.
+    ///
+    /// # Errors
+    /// It is no path, the catalogue has no such material, and it is no refractive index within limits.
+    pub fn parse_medium(word: &str) -> Result<MaterialName, NoMedium> {
+        match ConstantIndex::parse(word) {
+            Some(index) => Ok(MaterialName {
+                word: index?.to_string(),
+                is_file: false,
+            }),
+            None => Ok(MaterialName::parse(word)?),
+        }
+    }
+
+    /// The path, of a file.
+    pub fn path(&self) -> Option<&str> {
+        self.is_file.then_some(&self.word)
+    }
+
+    /// The material's source, read where it is a file.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn source(&self) -> Result<Source, Error> {
+        let word = self.word.clone();
+        Ok(match self.is_file {
+            false => Source::Named(word),
+            true => Source::File {
+                text: read(&word)?,
+                file: word,
+            },
+        })
+    }
+}
+
+/// As a user types it again.
+impl fmt::Display for MaterialName {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.is_file {
+            true => f.write_str(&path_again(&self.word)),
+            false => f.write_str(&self.word),
+        }
+    }
+}
+
+/// Materials, as one word lists them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MaterialList(Vec<Choice<MaterialName>>);
+
+/// The parser of a word of `--material`.
+fn material_list(list: &str) -> Result<MaterialList, UnknownName> {
+    let choice = |word: String| {
+        Ok(match word.as_str() {
+            "all" => Choice::All,
+            "none" => Choice::None,
+            name => {
+                let named = MaterialName::parse(name)?;
+                Choice::One(named.to_string(), named)
+            }
+        })
+    };
+    let choices = comma_list(list).into_iter().map(choice);
+    choices.collect::<Result<_, _>>().map(MaterialList)
+}
+
+/// Which materials.
+#[derive(Args, Clone, Debug, Default)]
+pub struct MaterialFlags {
+    /// Names, paths of material files, all, or none [default: gold, platinum, water, diamond]
+    #[arg(long, value_name = "NAME", value_parser = material_list)]
+    pub material: Vec<MaterialList>,
+}
+
+impl MaterialFlags {
+    /// The words of all lists.
+    pub fn choices(&self) -> impl Iterator<Item = &Choice<MaterialName>> {
+        self.material.iter().flat_map(|list| &list.0)
+    }
+
+    /// The materials, read where they are files.
+    ///
+    /// # Errors
+    /// `none` stands beside another name, or a file cannot be read.
+    pub fn materials(&self) -> Result<Materials, Error> {
+        if self.material.is_empty() {
+            return Ok(Materials::Default);
+        }
+        let choices: Vec<Choice<MaterialName>> = self.choices().cloned().collect();
+        if Choice::is_none(&choices, "materials")? {
+            return Ok(Materials::None);
+        }
+        let mut sources = Vec::new();
+        for choice in &choices {
+            match choice {
+                Choice::One(_, name) => sources.push(name.source()?),
+                Choice::All | Choice::None => sources.extend(Source::catalogue()),
+            }
+        }
+        Ok(Materials::These(sources))
+    }
+
+    /// The paths among them.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        let names = self.choices().filter_map(Choice::named);
+        names.filter_map(MaterialName::path)
+    }
+}
+
+/// What the light comes from.
+#[derive(Args, Clone, Debug, Default)]
+pub struct MediumFlags {
+    /// Medium on the incident side: name or file of a transparent material, or a refractive index from 1 to 10, such as 1.5 [default: air]
+    #[arg(long, value_name = "NAME", value_parser = MaterialName::parse_medium, allow_negative_numbers = true)]
+    pub medium: Option<MaterialName>,
+}
+
+impl MediumFlags {
+    /// The medium, read where it is a file; none for air.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn source(&self) -> Result<Option<Source>, Error> {
+        self.medium.as_ref().map(MaterialName::source).transpose()
+    }
+
+    /// The path, of a file.
+    pub fn path(&self) -> Option<&str> {
+        self.medium.as_ref().and_then(MaterialName::path)
+    }
+}

@@ -1,0 +1,10 @@
+//! Flags that several commands have, and how their values are read.
+
+pub mod choice;
+pub mod groups;
+pub mod material;
+pub mod named;
+pub mod output;
+pub mod precision;
+pub mod renamed;
+pub mod viewing;

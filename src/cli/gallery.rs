@@ -1,0 +1,87 @@
+//! `gallery`: the effects as a page that draws them.
+
+use crate::cli::error::Error;
+use crate::cli::flags::material::MaterialFlags;
+use crate::cli::places::{folder_or_current, replaced, try_files};
+use crate::cli::run::{Output, Progress, not_drawn};
+use crate::generator::command_line::CommandLine;
+use crate::generator::fault::RequestFault;
+use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
+use crate::generator::request::{Materials, Request};
+use crate::pictures::gallery::gallery;
+use crate::pictures::gallery::page::gallery_page;
+use clap::Args;
+use std::path::PathBuf;
+
+/// The flags of `gallery`.
+#[derive(Args, Debug)]
+#[command(
+    mut_arg("material", |arg| arg.help("Materials on the page: names, paths of material files, all [default: all]")),
+    after_help = "Example:\n  fresnel-gen gallery --out-dir gallery\n\nThe page is DIR/index.html. It holds all that it shows, asks nothing of the network, and runs from a file. A browser draws it by WebGPU, or else by WebGL 2 with the generated GLSL ES. Exit codes: 0 done, 2 wrong input."
+)]
+pub struct GalleryFlags {
+    /// Which materials.
+    #[command(flatten)]
+    pub materials: MaterialFlags,
+    /// Write index.html into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out_dir: PathBuf,
+    /// Also replace a file that fresnel-gen did not write
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+impl GalleryFlags {
+    /// The command that makes the page again, without places.
+    pub fn command_line(&self) -> CommandLine {
+        CommandLine::new("gallery").list("material", self.materials.choices())
+    }
+}
+
+/// The page in its folder.
+const PAGE: &str = "index.html";
+
+/// Writes the page.
+pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
+    let file = folder_or_current(&flags.out_dir).join(PAGE);
+    try_files(&[&file])?;
+    try_places_of_ours(std::slice::from_ref(&file), flags.overwrite)?;
+    let request = Request {
+        materials: chosen(flags)?,
+        ..Request::default()
+    };
+    let found = request.subjects()?;
+    let mut remarks = found.left_out_lines();
+    let space = request.viewing.integration.space;
+    let gallery = gallery(&found.materials(), space, progress);
+    let gallery = gallery.map_err(|fault| not_drawn(fault.to_string()))?;
+    let command: String = flags.command_line().into();
+    let page = gallery_page(&gallery, &command).map_err(not_drawn)?;
+    let old = write_outputs(&[OutputFile::of_report(&file, page, flags.overwrite)])?;
+    let (rows, methods, materials) = (
+        gallery.rows.len(),
+        gallery.methods.len(),
+        gallery.materials.len(),
+    );
+    remarks.extend(replaced(&old));
+    remarks.push(format!(
+        "{}: {rows} effects, {methods} methods, {materials} materials",
+        crate::physics::foreign::path(&file)
+    ));
+    Ok(Output {
+        remarks,
+        ..Output::default()
+    })
+}
+
+/// The materials of the page: the whole catalogue unless others are asked for.
+fn chosen(flags: &GalleryFlags) -> Result<Materials, Error> {
+    match flags.materials.materials()? {
+        Materials::Default => Ok(Materials::All),
+        Materials::None => Err(RequestFault::NoMaterial {
+            why: "a gallery shows materials; `none` leaves nothing to show",
+        }
+        .into()),
+        named => Ok(named),
+    }
+}

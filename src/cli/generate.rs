@@ -1,0 +1,538 @@
+//! `fresnel-gen` without a subcommand: generate, check, list.
+
+use crate::cli::error::Error;
+use crate::cli::flags::choice::{
+    Choice, effect_or_all, family, flavour, method_or_all, one_of, target_or_all,
+};
+use crate::cli::flags::material::{MaterialFlags, MediumFlags};
+use crate::cli::flags::output::{TreeFlags, file_only};
+use crate::cli::flags::precision::PrecisionFlags;
+use crate::cli::flags::viewing::GamutFlags;
+use crate::cli::lists::target_words;
+use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
+use crate::cli::plan_file::{material_paths, planned};
+use crate::cli::run::Output;
+use crate::cli::unsuited::unsuited;
+use crate::generator::bake::as_tables_are_seen;
+use crate::generator::emit::HeaderForm;
+use crate::generator::fault::RequestFault;
+use crate::generator::flavours::Flavour;
+use crate::generator::generate::catalogue::add_catalogue;
+use crate::generator::generate::kept::kept;
+use crate::generator::generate::tables::add_tables;
+use crate::generator::generate::{Generated, Kept, generate_beside, generate_single};
+use crate::generator::output::artifact::Artifact;
+use crate::generator::output::atlas_rows::ChangedRows;
+use crate::generator::output::lock::{Announce, Lock};
+use crate::generator::output::tree::{TreePlan, plan};
+use crate::generator::output::write::{OutputFile, write, write_outputs};
+use crate::generator::output::{check, depfile};
+use crate::generator::request::{Materials, Request};
+use crate::lab::budget::{
+    Budget, BudgetCandidate, BudgetRow, Spread, choose_within, rounded_error,
+};
+use crate::lab::cost;
+use crate::lab::cost::Family;
+use crate::language::effects::Effect;
+use crate::language::methods;
+use crate::language::methods::Method;
+use crate::language::targets::Target;
+use crate::physics::foreign::{Foreign, one_line};
+use clap::Args;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The flags of generation.
+#[derive(Args, Debug)]
+#[command(mut_arg("material", |arg| arg.help("Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond; none with -o or --effect]")))]
+pub struct GenerateFlags {
+    /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = target_or_all())]
+    pub target: Vec<Choice<&'static Target>>,
+    /// Method, see `fresnel-gen methods` [default: all; for a material: exact, fitted, two Schlick variants and table, with -o exact alone]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
+    pub method: Vec<Choice<&'static Method>>,
+    /// Effect, see `fresnel-gen effects`, or all: write its functions and nothing else, with R by --method, specialised to --material [default: all where nothing is named]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = effect_or_all(), conflicts_with = "budget")]
+    pub effect: Vec<Choice<&'static Effect>>,
+    /// Engine or renderer: write an adapter for it and nothing else, in its own folder; --target beside it writes that too
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = flavour(), conflicts_with_all = ["budget", "plan", "output"])]
+    pub flavour: Vec<&'static Flavour>,
+    /// Which materials.
+    #[command(flatten)]
+    pub materials: MaterialFlags,
+    /// The medium.
+    #[command(flatten)]
+    pub medium: MediumFlags,
+    /// How materials are looked at.
+    #[command(flatten)]
+    pub viewing: GamutFlags,
+    /// What functions compute in.
+    #[command(flatten)]
+    pub precision: PrecisionFlags,
+    /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pub matching_angle: Option<f64>,
+    /// Goes before every function's name
+    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
+    pub prefix: String,
+    /// Comments of generated files: short (what a function is, its largest error, its cost, its source, and warnings; the rest stands in manifest.json) or full
+    #[arg(long, value_name = "FORM", default_value = "short", value_parser = one_of("form of comments", HeaderForm::ALL, HeaderForm::name))]
+    pub header: HeaderForm,
+    /// Write one function per material: the cheapest whose largest error over angles and channels is at most this
+    #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
+    pub budget: Option<f64>,
+    /// GPU family whose recorded costs --budget compares: rdna2, adreno330 ... as for `cost` [default: rdna2]
+    #[arg(long, value_name = "NAME", requires = "budget", value_parser = family())]
+    pub gpu: Option<&'static Family>,
+    /// Write exactly the functions of this plan, which `fresnel-gen plan --json FILE` made
+    #[arg(long, value_name = "FILE", value_parser = file_only("--plan"), conflicts_with_all = ["method", "effect", "material", "medium", "matching_angle", "precision", "force", "budget", "space", "illuminant", "observer", "adaptation", "step", "wavelengths", "extrapolate", "gamut"])]
+    pub plan: Option<PathBuf>,
+    /// A material file that the plan may name though it lies outside of the plan's folder, or a folder of such files
+    #[arg(long, value_name = "PATH", requires = "plan")]
+    pub allow: Vec<PathBuf>,
+    /// The folder for the generated tree.
+    #[command(flatten)]
+    pub tree: TreeFlags,
+    /// Write the functions asked for into this one file and nothing else, or to stdout (`-`); one target [default: by the file's ending; wgsl for `-`]
+    #[arg(short = 'o', value_name = "FILE", conflicts_with_all = ["check", "list", "out_dir"])]
+    pub output: Option<PathBuf>,
+    /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
+    #[arg(long, conflicts_with_all = ["list", "depfile"])]
+    pub check: bool,
+    /// Write the run's outputs and inputs as a Makefile rule
+    #[arg(long, value_name = "FILE", value_parser = file_only("--depfile"), conflicts_with = "list")]
+    pub depfile: Option<PathBuf>,
+    /// What the rule of --depfile is for, as the build system names it [default: the file of -o, or all files of the folder]
+    #[arg(long, value_name = "FILE", value_parser = file_only("--depfile-target"), requires = "depfile")]
+    pub depfile_target: Option<PathBuf>,
+    /// Print the names of the files that would be written, and write nothing
+    #[arg(long)]
+    pub list: bool,
+    /// No summary on success
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Generates. `announce` hears what a person should know before the run ends.
+pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
+    let request = request(flags)?;
+    let (request, said) = match &flags.plan {
+        Some(file) => {
+            let paths = material_paths(file)?;
+            let outputs = flags.output.iter().chain(&flags.depfile);
+            refuse_read(paths.iter().map(Path::new), outputs.map(PathBuf::as_path))?;
+            (planned(file, &flags.allow, request)?, Vec::new())
+        }
+        None => chosen(flags, request)?,
+    };
+    let unsuited = match flags.quiet {
+        true => Vec::new(),
+        false => unsuited(&request)?,
+    };
+    let mut output = match &flags.output {
+        Some(file) => single(flags, &request, file)?,
+        None => tree(flags, &request, announce)?,
+    };
+    let said = said.into_iter().filter(|_| !flags.quiet);
+    output.remarks = said.chain(unsuited).chain(output.remarks).collect();
+    Ok(output)
+}
+
+/// The tree of files: listed, compared or written.
+fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<Output, Error> {
+    let out_dir = folder_or_current(&flags.tree.out_dir);
+    let changes_nothing = flags.check || flags.list;
+    let mut lock = (!changes_nothing).then(|| Lock::take(out_dir, announce));
+    // Only a run that names methods adds to what a material's file holds.
+    let kept = if flags.method.is_empty() && request.chosen.is_empty() {
+        Kept::new()
+    } else {
+        kept(out_dir, request.precision)?
+    };
+    let mut generated = generate_beside(request, &kept)?;
+    if request.names_nothing() {
+        add_catalogue(&mut generated, request)?;
+    }
+    if generated.scope.whole {
+        let viewing = as_tables_are_seen(&request.viewing, flags.viewing.gamut.is_some());
+        add_tables(&mut generated, request.medium.clone(), viewing)?;
+    }
+    if flags.list {
+        let names: Vec<String> = generated
+            .artifacts
+            .iter()
+            .map(|artifact| artifact.path.clone() + "\n")
+            .collect();
+        return Ok(Output {
+            stdout: names.concat().into_bytes(),
+            ..Output::default()
+        });
+    }
+    let plan = plan(
+        out_dir,
+        &generated.artifacts,
+        &generated.scope,
+        &generated.provenance,
+    )?;
+    match &mut lock {
+        Some(lock) => written(flags, &generated, &plan, lock),
+        None => Ok(checked(flags, &plan)),
+    }
+}
+
+/// The request with the methods that a budget chooses, where one is given, and what is said of the choice.
+fn chosen(flags: &GenerateFlags, request: Request) -> Result<(Request, Vec<String>), Error> {
+    let Some(most) = flags.budget else {
+        return Ok((request, Vec::new()));
+    };
+    let usual = || cost::find(USUAL_GPU).expect("a test names it");
+    let budget = Budget::new(most, flags.gpu.unwrap_or_else(usual))?;
+    if request.precision.is_half() {
+        let why = "--budget is of functions in single precision; leave --precision f16 out";
+        return Err(RequestFault::conflict(why).into());
+    }
+    if request.materials == Materials::None {
+        let why = "--budget chooses for materials; `none` leaves none to choose for";
+        return Err(RequestFault::NoMaterial { why }.into());
+    }
+    within(budget, request)
+}
+
+/// The request with one method for each material.
+fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Error> {
+    // A run with a budget names its materials, so that no catalogue and no tables go with it.
+    let materials = match request.materials {
+        Materials::Default => Materials::These(Materials::Default.sources()),
+        named => named,
+    };
+    let request = Request {
+        materials,
+        ..request
+    };
+    let subjects = request.subjects()?.materials();
+    let methods = request.resolved_methods()?;
+    let methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
+    let rows = choose_within(budget, methods, &subjects, &request.viewing)?;
+    let chosen = |row: &BudgetRow| (row.material.clone(), row.choice.chosen.method);
+    let request = Request {
+        chosen: rows.iter().map(chosen).collect(),
+        methods: Vec::new(),
+        ..request
+    };
+    Ok((request, rows.iter().flat_map(budget_remarks).collect()))
+}
+
+/// Whose costs decide where none is named.
+const USUAL_GPU: &str = "rdna2";
+
+fn request(flags: &GenerateFlags) -> Result<Request, Error> {
+    Ok(Request {
+        targets: target_words(&flags.target, flags.output.as_deref())?,
+        methods: flags.method.iter().map(ToString::to_string).collect(),
+        effects: flags.effect.iter().map(ToString::to_string).collect(),
+        flavours: (flags.flavour.iter())
+            .map(|flavour| flavour.name.to_owned())
+            .collect(),
+        materials: flags.materials.materials()?,
+        medium: flags.medium.source()?,
+        prefix: flags.prefix.clone(),
+        matching_angle: flags.matching_angle,
+        precision: flags.precision.precision(),
+        force: flags.precision.force,
+        chosen: BTreeMap::new(),
+        viewing: flags.viewing.conditions()?,
+        header: flags.header,
+    })
+}
+
+fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {
+    let bytes = generate_single(request)?;
+    let mut files = depfile(flags, &[file.display().to_string()])?;
+    if file != Path::new("-") {
+        files.push(OutputFile::named(file, bytes));
+        write_outputs(&files)?;
+        return Ok(Output::default());
+    }
+    write_outputs(&files)?;
+    Ok(Output {
+        stdout: bytes,
+        is_file: true,
+        ..Output::default()
+    })
+}
+
+fn checked(flags: &GenerateFlags, plan: &TreePlan) -> Output {
+    let (text, drift) = check::report(plan);
+    let mut output = Output {
+        stdout: text.into_bytes(),
+        code: u8::from(drift),
+        ..Output::default()
+    };
+    output.remarks = named(plan, flags.tree.overwrite, "to be replaced");
+    if drift && !flags.quiet {
+        output.remarks.push(
+            "the folder differs from what this run would write; run without --check to write it"
+                .into(),
+        );
+    }
+    output
+}
+
+/// What a person should know of files that stay, or that are not as this program left them.
+pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<String> {
+    let stays = plan.stays.iter();
+    let stays = stays.map(|stay| format!("left alone: {}: {}", Foreign(&stay.path), stay.why));
+    let edited = plan.edited.iter();
+    let edited = edited.map(Foreign).map(|path| {
+        format!(
+            "{replaced}: {path}, which was changed since fresnel-gen wrote it, or is in no manifest"
+        )
+    });
+    let obstacles = plan.obstacles.iter().map(|obstacle| match overwrite {
+        true => format!(
+            "{replaced}: {}, which fresnel-gen did not write",
+            Foreign(&obstacle.path)
+        ),
+        false => format!(
+            "{}: fresnel-gen did not write it; a run replaces it only with --overwrite",
+            Foreign(&obstacle.path)
+        ),
+    });
+    let dropped = plan.dropped.iter().map(|(path, names)| {
+        format!(
+            "no longer in {}: {}, which an earlier run put there; name its method to have it",
+            Foreign(path),
+            one_line(&names.join(", "))
+        )
+    });
+    let reseen = plan.reseen.iter().map(|(path, [old, new])| {
+        let [path, old, new] = [path, old, new].map(Foreign);
+        format!("{path}: other viewing conditions, so that all of its functions change: from {old} to {new}")
+    });
+    let rows = plan.rows.iter().map(ChangedRows::words);
+    stays
+        .chain(edited)
+        .chain(obstacles)
+        .chain(dropped)
+        .chain(reseen)
+        .chain(rows)
+        .collect()
+}
+
+fn written(
+    flags: &GenerateFlags,
+    generated: &Generated,
+    plan: &TreePlan,
+    lock: &mut Lock,
+) -> Result<Output, Error> {
+    let out_dir = &plan.out_dir;
+    // Files of materials first: what a build names as its own output is one of these where there is one.
+    let (of_materials, others): (Vec<&Artifact>, Vec<&Artifact>) = generated
+        .artifacts
+        .iter()
+        .partition(|artifact| artifact.material.is_some());
+    let outputs: Vec<String> = of_materials
+        .into_iter()
+        .chain(others)
+        .map(|artifact| out_dir.join(&artifact.path).display().to_string())
+        .collect();
+    refuse_within_tree(plan, flags.depfile.as_deref())?;
+    let depfile = depfile(flags, &outputs)?;
+    let counts = write(plan, &depfile, flags.tree.overwrite, lock)?;
+    let mut output = Output::default();
+    for why in generated.left_out.iter().filter(|_| !flags.quiet) {
+        output
+            .remarks
+            .push(format!("left out: {}", one_line(&why.why)));
+    }
+    for why in generated.refused.iter().filter(|_| !flags.quiet) {
+        output
+            .remarks
+            .push(format!("left out: {}", one_line(&why.to_string())));
+    }
+    for orphan in plan.orphans.iter().filter(|_| !flags.quiet) {
+        let file = Foreign(&orphan.file);
+        output
+            .remarks
+            .push(format!("removed: {file}, which is no longer generated"));
+    }
+    output
+        .remarks
+        .extend(named(plan, flags.tree.overwrite, "replaced"));
+    if !flags.quiet {
+        let folder = crate::physics::foreign::path(&out_dir);
+        output.remarks.push(format!(
+            "{folder}: {} written, {} unchanged, {} removed",
+            counts.written, counts.unchanged, counts.removed
+        ));
+        if plan.manifest.old.is_none() {
+            output
+                .remarks
+                .extend(first_steps(flags, generated, out_dir));
+        }
+    }
+    Ok(output)
+}
+
+/// After the first run in a folder: what to do next with adapters, and one of the functions.
+fn first_steps(flags: &GenerateFlags, generated: &Generated, out_dir: &Path) -> Vec<String> {
+    let artifacts = generated.artifacts.iter();
+    let pages = artifacts.filter(|artifact| artifact.path.ends_with("/README.md"));
+    let pages = pages.map(|page| {
+        let page = out_dir.join(&page.path);
+        format!(
+            "next: {} says how the host takes the files, with an example",
+            crate::physics::foreign::path(&page)
+        )
+    });
+    // What an adapter's folder holds is no function for `verify`.
+    let is_of_functions = flags.flavour.is_empty() || !flags.target.is_empty();
+    let functions = is_of_functions.then(|| first_function(flags, generated, out_dir));
+    pages.chain(functions.into_iter().flatten()).collect()
+}
+
+/// One of the functions, and what to do next with it.
+fn first_function<'g>(
+    flags: &GenerateFlags,
+    generated: &'g Generated,
+    out_dir: &Path,
+) -> Vec<String> {
+    let first = |artifact: &'g Artifact| Some((artifact, artifact.detail.functions().first()?));
+    let mut functions = generated.artifacts.iter().filter_map(first);
+    let of_material = functions
+        .clone()
+        .find(|(artifact, _)| artifact.material.is_some());
+    let Some((artifact, function)) = of_material.or_else(|| functions.next()) else {
+        return Vec::new();
+    };
+    let file = out_dir.join(&artifact.path);
+    vec![
+        format!(
+            "for example {}: {}",
+            crate::physics::foreign::path(&file),
+            function.signature
+        ),
+        next_step(flags),
+    ]
+}
+
+/// What runs the functions. What chose them, or gave the header's form, is no flag of `verify`.
+fn next_step(flags: &GenerateFlags) -> String {
+    let is_chosen = flags.plan.is_some() || flags.budget.is_some();
+    let run = if is_chosen {
+        "with its --target, --material and --method"
+    } else if flags.header != HeaderForm::default() {
+        "with the same flags, but without --header,"
+    } else {
+        "with the same flags"
+    };
+    format!("next: use it; `fresnel-gen verify` {run} runs it on this machine")
+}
+
+/// The depfile, where one is asked for. Its rule is of these outputs, unless the build system knows one of another name.
+fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>, Error> {
+    let Some(file) = &flags.depfile else {
+        return Ok(Vec::new());
+    };
+    let named = flags.depfile_target.iter();
+    let named: Vec<String> = named.map(|file| file.display().to_string()).collect();
+    let outputs = if named.is_empty() { outputs } else { &named };
+    if outputs == ["-"] {
+        let why = "--depfile with `-o -` has no file that its rule is for; name one with --depfile-target";
+        return Err(RequestFault::conflict(why).into());
+    }
+    let paths = flags.materials.paths().chain(flags.medium.path());
+    let paths = paths.chain(flags.viewing.viewing.path());
+    let mut inputs: Vec<String> = paths.map(str::to_owned).collect();
+    if let Some(plan) = &flags.plan {
+        inputs.push(plan.display().to_string());
+        inputs.extend(material_paths(plan)?);
+    }
+    if let Some(own) = outputs.iter().find(|output| inputs.contains(output)) {
+        let why = format!("--depfile-target {own} is a file that the run reads");
+        return Err(RequestFault::conflict(why).into());
+    }
+    inputs.extend(depfile::own_program());
+    let rule = depfile::depfile(outputs, &inputs)?;
+    Ok(vec![OutputFile::named(file, rule)])
+}
+
+/// A smaller error does not matter below this share of the difference between published measurements.
+const NEGLIGIBLE: f64 = 0.1;
+
+/// The remarks on a material's choice, a line each.
+pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
+    let (name, choice) = (crate::physics::foreign::Foreign(&row.material), &row.choice);
+    let mut lines = vec![format!(
+        "{name}: {} is the cheapest within {}: {} ({} on {}, as a {} function)",
+        choice.chosen.method,
+        row.budget.most,
+        error_and_cost(&choice.chosen),
+        row.budget.family.columns.measure,
+        row.budget.family.name,
+        row.form.name()
+    )];
+    lines.push(match &choice.cheaper {
+        Some(cheaper) => format!(
+            "{name}: {} is the most accurate of those that cost less: {}",
+            cheaper.method,
+            error_and_cost(cheaper)
+        ),
+        None => format!("{name}: nothing costs less"),
+    });
+    lines.extend(choice.textured.as_ref().map(|table| {
+        let figures = error_and_cost(table);
+        format!(
+            "{name}: {} is within the budget too: {figures}",
+            table.method
+        )
+    }));
+    lines.push(format!(
+        "{name}: {}",
+        measurements(choice.chosen.point.error, row.spread)
+    ));
+    lines
+}
+
+fn error_and_cost(candidate: &BudgetCandidate) -> String {
+    let fetch = match candidate.is_textured {
+        true => " and a texture fetch, which the count does not include",
+        false => "",
+    };
+    format!(
+        "error {}, cost {}{fetch}",
+        rounded_error(candidate.point.error),
+        candidate.point.cost
+    )
+}
+
+/// How well the material is known.
+fn measurements(error: f64, spread: Option<Spread>) -> String {
+    let Some(Spread { most, sources }) = spread else {
+        return "how far its measurements differ is not known: the catalogue says so only of materials with two spectra or more"
+            .to_owned();
+    };
+    let differ = format!(
+        "its {sources} measurements differ by up to {}",
+        rounded_error(most)
+    );
+    if error < NEGLIGIBLE * most {
+        format!("{differ}, more than ten times the error: a smaller error gains nothing")
+    } else {
+        differ
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smaller_error_gains_nothing_below_a_tenth_of_what_is_known() {
+        let spread = |most: f64| Some(Spread { most, sources: 3 });
+        assert!(measurements(0.0019, spread(0.02)).ends_with("gains nothing"));
+        assert!(measurements(0.002, spread(0.02)).ends_with("up to 0.02000"));
+        assert!(measurements(0.002, None).contains("not known"));
+    }
+}

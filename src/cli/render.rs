@@ -1,0 +1,352 @@
+//! `render`: an effect drawn beside its truth.
+
+use crate::cli::error::Error;
+use crate::cli::flags::choice::one_of;
+use crate::cli::flags::material::MaterialName;
+use crate::cli::flags::output::{ReportFlags, file_only};
+use crate::cli::places::try_files;
+use crate::cli::run::{Output, Progress, not_drawn, report_beside};
+use crate::generator::command_line::{CommandLine, path_again};
+use crate::generator::emit::MARK;
+use crate::generator::envelope::Report;
+use crate::generator::fault::RequestFault;
+use crate::generator::output::write::{OutputFile, try_places_of_ours};
+use crate::generator::request::loaded::load;
+use crate::generator::request::{Source, source};
+use crate::lab::gpu::{Device, Wanted};
+use crate::physics::materials::{Material, MaterialKind, Surface, ViewingConditions};
+use crate::physics::spectra::{Space, srgb_byte};
+use crate::pictures::pixels::rgb_png;
+use crate::pictures::plot::shade_bytes;
+use crate::pictures::scene::{
+    self, Difference, Display, Environment, Glass, Order, Picture, RenderRow, RenderedRow,
+    TONE_CURVES, ToneCurve,
+};
+use clap::Args;
+use glam::DVec3;
+use std::path::{Path, PathBuf};
+
+/// The flags of `render`.
+#[derive(Args, Debug)]
+#[command(after_help = after_help())]
+pub struct RenderFlags {
+    /// Which effect: see below
+    #[arg(value_name = "NAME", value_parser = one_of("picture", scene::ALL, |row: &RenderRow| row.name))]
+    pub name: &'static RenderRow,
+    /// Pixels a side of each panel, 16 to 2048
+    #[arg(long, value_name = "PIXELS", default_value_t = 512)]
+    pub size: u32,
+    /// The picture: .png as it is shown, .exr as linear radiance [default: NAME.png]
+    #[arg(short = 'o', value_name = "FILE", value_parser = file_only("-o"))]
+    pub output: Option<PathBuf>,
+    /// Brighter by so many stops, -16 to 16
+    #[arg(
+        long,
+        value_name = "STOPS",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    pub exposure: f64,
+    /// What keeps bright things apart: none, aces, reinhard
+    #[arg(long, value_name = "NAME", default_value = "none", value_parser = one_of("tone curve", TONE_CURVES, |curve| curve.name))]
+    pub tone_curve: ToneCurve,
+    /// What the body is made of: a name, or the path of a material file [default: the picture's own]
+    #[arg(long, value_name = "NAME", value_parser = MaterialName::parse)]
+    pub material: Option<MaterialName>,
+    /// What is around it: a picture twice as wide as high, HDR, EXR, PNG or JPEG [default: a sky of ours]
+    #[arg(long, value_name = "FILE")]
+    pub environment: Option<PathBuf>,
+    /// Draw with the environment clamped to white, as a picture of 8 bits is; the truth keeps its range
+    #[arg(long)]
+    pub ldr: bool,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
+}
+
+impl RenderFlags {
+    /// Where the picture goes.
+    pub fn file(&self) -> PathBuf {
+        let usual = || PathBuf::from(format!("{}.png", self.name.name));
+        self.output.clone().unwrap_or_else(usual)
+    }
+
+    /// The command that draws this again, without places of outputs.
+    pub fn command_line(&self) -> CommandLine {
+        let number = |value: f64| (value != 0.0).then_some(value);
+        let curve = self.tone_curve.name;
+        CommandLine::new("render")
+            .argument(self.name.name)
+            .number("size", self.size)
+            .list("exposure", number(self.exposure))
+            .list("tone-curve", (curve != "none").then_some(curve))
+            .list("material", &self.material)
+            .list(
+                "environment",
+                self.environment
+                    .iter()
+                    .map(|file| path_again(&file.to_string_lossy())),
+            )
+            .switch("ldr", self.ldr)
+    }
+}
+
+fn after_help() -> String {
+    let width = scene::ALL
+        .iter()
+        .map(|row| row.name.len())
+        .max()
+        .unwrap_or(0);
+    let line = |row: &RenderRow| format!("  {:width$}  {}\n", row.name, row.summary);
+    let names: String = scene::ALL.iter().map(line).collect();
+    format!(
+        "Names:\n{names}\nExamples:\n  fresnel-gen render double_refraction -o ball.png\n  fresnel-gen render double_refraction --material sf11 --size 256 --tone-curve aces --json -\n\nThe picture has three panels: what the effect draws, what a ray tracer in f64 sees, and their difference (CIEDE2000, 0 dark to 20 bright). Exit codes: 0 done, 2 wrong input, 3 something is missing here."
+    )
+}
+
+/// Pixels a side that a run may ask for, and stops.
+const SIZES: std::ops::RangeInclusive<u32> = 16..=2048;
+const STOPS: std::ops::RangeInclusive<f64> = -16.0..=16.0;
+
+/// Draws.
+pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
+    check(flags)?;
+    let file = flags.file();
+    let is_exr = is_exr(&file)?;
+    if flags.output.is_none() && try_places_of_ours(std::slice::from_ref(&file), false).is_err() {
+        let why = format!(
+            "{} lies here, and this program did not write it; name the picture's file with -o",
+            crate::physics::foreign::path(&file)
+        );
+        return Err(RequestFault::conflict(why).into());
+    }
+    let named = flags.report.json.iter().chain([&file]);
+    try_files(&named.map(|file| file.as_path()).collect::<Vec<_>>())?;
+    let material = material(flags)?;
+    let surface = Surface::new(&material, None, &ViewingConditions::default())?;
+    let environment = environment(flags.environment.as_deref())?;
+    let device = Device::open(&Wanted::default()).map_err(lacking)?;
+    let display = Display {
+        exposure: flags.exposure,
+        curve: flags.tone_curve,
+    };
+    let order = Order {
+        row: flags.name,
+        glass: &Glass::of_surface(&surface),
+        environment: &environment,
+        is_ldr: flags.ldr,
+        size: flags.size,
+        display,
+    };
+    let picture = scene::render(&device, &order, &material.name, progress).map_err(lacking)?;
+    let command: String = flags.command_line().into();
+    let bytes = match is_exr {
+        true => panels_exr(&picture),
+        false => panels_png(&picture, &display, &command),
+    };
+    let drawn = vec![OutputFile::named(&file, bytes.map_err(not_drawn)?)];
+    let adapter = device.adapter.to_string();
+    let text = render_text(&picture.row, &adapter);
+    let json = Report::new(command, vec![picture.row]).with_device(Some(adapter));
+    let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
+    output.remarks.push(format!(
+        "{}: drawn, truth, error",
+        crate::physics::foreign::path(&file)
+    ));
+    Ok(output)
+}
+
+fn check(flags: &RenderFlags) -> Result<(), Error> {
+    let out_of_range = |flag, value: String, allowed: &str| RequestFault::OutOfRange {
+        flag,
+        value,
+        allowed: allowed.to_owned(),
+    };
+    if !SIZES.contains(&flags.size) {
+        let allowed = "is 16 to 2048 pixels a side";
+        return Err(out_of_range("size", flags.size.to_string(), allowed).into());
+    }
+    if !STOPS.contains(&flags.exposure) {
+        let allowed = "is -16 to 16 stops";
+        return Err(out_of_range("exposure", flags.exposure.to_string(), allowed).into());
+    }
+    if flags.ldr && !flags.name.is_under_the_sky() {
+        let why = format!(
+            "{} has no environment to clamp; leave --ldr out",
+            flags.name.name
+        );
+        return Err(RequestFault::conflict(why).into());
+    }
+    Ok(())
+}
+
+/// Whether the file is OpenEXR; it is PNG otherwise.
+fn is_exr(file: &Path) -> Result<bool, Error> {
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    match ending.map(str::to_lowercase).as_deref() {
+        Some("exr") => Ok(true),
+        Some("png") => Ok(false),
+        _ => Err(Error::usage(format!(
+            "-o {}: the picture's name ends in .png or .exr",
+            crate::physics::foreign::path(&file)
+        ))),
+    }
+}
+
+/// What the body is made of.
+fn material(flags: &RenderFlags) -> Result<Material, Error> {
+    let own = || Ok(Source::Named(flags.name.material.to_owned()));
+    let named = flags
+        .material
+        .as_ref()
+        .map_or_else(own, |name| name.source())?;
+    let material = load(&named)?.material;
+    if flags.name.is_transparent() && material.kind != MaterialKind::Dielectric {
+        return Err(Error::usage(format!(
+            "the material `{}` is a {}; {} wants a dielectric",
+            material.name,
+            material.kind.name(),
+            flags.name.name
+        )));
+    }
+    Ok(material)
+}
+
+fn environment(file: Option<&Path>) -> Result<Environment, Error> {
+    let Some(file) = file else {
+        return Ok(scene::sky());
+    };
+    let bytes = source::picture(file)?;
+    Environment::read(&bytes, Space::Srgb)
+        .map_err(|fault| Error::usage(format!("{}: {fault}", crate::physics::foreign::path(file))))
+}
+
+fn lacking(why: impl ToString) -> Error {
+    Error::lacking(why.to_string())
+}
+
+/// The brightest colour of the error map, in CIEDE2000.
+pub const ERROR_SCALE: f64 = 20.0;
+
+/// What is known of a picture, a line each.
+pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
+    let error = |of: Difference| format!("mean {:.2}, 99th percentile {:.2}", of.mean, of.p99);
+    let mut lines = vec![
+        ("effect", row.effect.to_owned()),
+        (
+            "body",
+            format!("{} of {}, n {:.4}", row.body, row.material, row.n),
+        ),
+        (
+            "size",
+            match row.samples {
+                1 => format!("{0} x {0} pixels", row.size),
+                samples => format!("{0} x {0} pixels of {samples} samples", row.size),
+            },
+        ),
+        ("drawn by", adapter.to_owned()),
+        ("error", format!("{}: {}", row.metric, error(row.error))),
+        (
+            "own paths",
+            format!(
+                "{}, against light that goes as far as the effect follows it",
+                error(row.own_error)
+            ),
+        ),
+        ("wrong", row.wrong.to_owned()),
+    ];
+    if row.searches {
+        lines.insert(lines.len() - 1, ("search", searched(row)));
+    }
+    if let (Some(l1), Some(energy)) = (row.l1, row.energy) {
+        let light = format!("relative L1 {}, energy {}", percent(l1), percent(energy));
+        lines.insert(5, ("light", light));
+    }
+    if let Some(leaks) = row.leaks {
+        let samples = format!("{leaks} samples show what lies on the other side of the water");
+        lines.insert(lines.len() - 1, ("leaks", samples));
+    }
+    let line = |(name, value): &(&str, String)| format!("{name:11}{value}\n");
+    lines.iter().map(line).collect()
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.2} %", 100.0 * share)
+}
+
+/// What the search for the second surface came to.
+fn searched(row: &RenderedRow) -> String {
+    format!(
+        "{} hits, {} misses; {} reflected totally inside, {} in truth; {} falsely, {} missed",
+        percent(row.hits),
+        percent(row.misses),
+        percent(row.total),
+        percent(row.true_total),
+        percent(row.false_total),
+        percent(row.missed_total)
+    )
+}
+
+/// The three panels side by side as PNG, in sRGB; the map goes from 0 to [`ERROR_SCALE`].
+///
+/// # Errors
+/// The picture cannot be encoded, and why.
+pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<Vec<u8>, String> {
+    let shown = |radiance: &DVec3| display.shown(*radiance).to_array().map(srgb_byte);
+    let error = |error: &f64| shade_bytes(error / ERROR_SCALE);
+    let panels: [Vec<[u8; 3]>; 3] = [
+        picture.drawn.iter().map(shown).collect(),
+        picture.truth.iter().map(shown).collect(),
+        picture.map.iter().map(error).collect(),
+    ];
+    let size = picture.row.size;
+    let pixels = beside(&panels, size as usize).concat();
+    rgb_png(&pixels, [3 * size, size], format!("{MARK}: {about}"))
+}
+
+/// The three panels side by side as OpenEXR in binary32: radiance, radiance, and the error in all three channels.
+///
+/// # Errors
+/// The picture cannot be encoded, and why.
+pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
+    let radiance = |of: &[DVec3]| {
+        of.iter()
+            .map(|of| of.to_array().map(|v| v as f32))
+            .collect()
+    };
+    let panels: [Vec<[f32; 3]>; 3] = [
+        radiance(&picture.drawn),
+        radiance(&picture.truth),
+        picture.map.iter().map(|error| [*error as f32; 3]).collect(),
+    ];
+    let size = picture.row.size as usize;
+    let pixels = beside(&panels, size);
+    let channel = |i: usize| pixels.iter().map(|pixel| pixel[i]).collect::<Vec<f32>>();
+    let channels = exr::prelude::AnyChannels::sort(
+        ["R", "G", "B"]
+            .into_iter()
+            .enumerate()
+            .map(|(i, name)| {
+                let samples = exr::prelude::FlatSamples::F32(channel(i));
+                exr::prelude::AnyChannel::new(name, samples)
+            })
+            .collect(),
+    );
+    let image = exr::prelude::Image::from_channels((3 * size, size), channels);
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let writer = exr::prelude::WritableImage::write(&image).non_parallel();
+    writer
+        .to_buffered(&mut bytes)
+        .map_err(|why| why.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+/// The rows of squares, each beside the others.
+fn beside<T: Copy>(panels: &[Vec<T>; 3], size: usize) -> Vec<T> {
+    let row = |y: usize| {
+        panels
+            .iter()
+            .flat_map(move |panel| &panel[y * size..][..size])
+    };
+    (0..size).flat_map(row).copied().collect()
+}

@@ -1,0 +1,211 @@
+//! `materials survey`: every page of refractiveindex.info below a folder.
+
+use crate::cli::error::Error;
+use crate::cli::materials::SurveyFlags;
+use crate::cli::run::{Output, Progress, report};
+use crate::generator;
+use crate::generator::command_line::CommandLine;
+use crate::generator::envelope::Report;
+use crate::generator::fit::{
+    PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours, survey_page,
+};
+use crate::generator::request::source::{pages, read};
+use crate::physics::foreign::one_line;
+use crate::physics::materials::ViewingConditions;
+use crate::physics::spectra::Gamut;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// `fresnel-gen materials survey FOLDER`.
+pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Result<Output, Error> {
+    let viewing = ViewingConditions {
+        gamut: Gamut::Keep,
+        ..flags.viewing.conditions()?
+    };
+    let files = pages(&flags.folder)?;
+    if files.is_empty() {
+        return Err(Error::usage(format!(
+            "there is no page (.yml) below {}",
+            crate::physics::foreign::path(&flags.folder)
+        )));
+    }
+    let mut all: Vec<SurveyedPage> = Vec::with_capacity(files.len());
+    for (done, file) in files.iter().enumerate() {
+        progress(done as u64, files.len() as u64, "pages");
+        all.push(surveyed(&flags.folder, file, &viewing));
+    }
+    let rows: Vec<SurveyRow> = all.iter().map(SurveyRow::new).collect();
+    let full = Report::new(CommandLine::new("materials survey").seen_as(&viewing), rows);
+    report(survey_text(&all), &full, json)
+}
+
+/// A page by its name below the folder, so that no report depends on where that lies. One that cannot be read is refused as
+/// one that cannot be understood is.
+fn surveyed(folder: &Path, file: &str, viewing: &ViewingConditions) -> SurveyedPage {
+    let (path, named) = if file.is_empty() {
+        (folder.to_owned(), folder.display().to_string())
+    } else {
+        (folder.join(file), file.to_owned())
+    };
+    match read(&path.display().to_string()) {
+        Ok(text) => survey_page(&named, &text, viewing),
+        Err(generator::Error::Input { source, .. }) => {
+            refused(named, format!("cannot read it: {source}"))
+        }
+        Err(other) => refused(named, other.to_string()),
+    }
+}
+
+fn refused(file: String, why: String) -> SurveyedPage {
+    SurveyedPage {
+        file,
+        outcome: PageOutcome::Refused(why),
+    }
+}
+
+/// A page in a JSON report.
+#[derive(Clone, Debug, Serialize)]
+pub struct SurveyRow<'a> {
+    page: &'a str,
+    #[serde(flatten)]
+    colours: Option<ColourColumns<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
+    status: &'static str,
+    #[serde(flatten)]
+    facts: Option<FactColumns>,
+}
+
+/// The colours of a page that is seen.
+#[derive(Clone, Debug, Serialize)]
+struct ColourColumns<'a> {
+    f0: [f64; 3],
+    f82: [f64; 3],
+    by_degree: &'a [[f64; 3]],
+    extrapolated: Option<&'a str>,
+}
+
+/// What is known of a page that can be used.
+#[derive(Clone, Debug, Serialize)]
+struct FactColumns {
+    class: &'static str,
+    from_nm: f64,
+    to_nm: f64,
+    formula: u8,
+    nd: Option<f64>,
+    nd_difference: Option<f64>,
+}
+
+impl<'a> SurveyRow<'a> {
+    /// The row of a page.
+    pub fn new(surveyed: &'a SurveyedPage) -> SurveyRow<'a> {
+        let (status, colours, reason) = match &surveyed.outcome {
+            PageOutcome::Seen(_, colours) => ("seen", Some(colours), None),
+            PageOutcome::Elsewhere(_, why) => ("elsewhere", None, Some(why.as_str())),
+            PageOutcome::Refused(why) => ("refused", None, Some(why.as_str())),
+        };
+        SurveyRow {
+            page: &surveyed.file,
+            colours: colours.map(ColourColumns::new),
+            reason,
+            status,
+            facts: surveyed.facts().map(FactColumns::new),
+        }
+    }
+}
+
+impl ColourColumns<'_> {
+    fn new(colours: &VisibleColours) -> ColourColumns<'_> {
+        ColourColumns {
+            f0: colours.by_degree[0],
+            f82: colours.f82,
+            by_degree: &colours.by_degree,
+            extrapolated: colours.held.as_deref(),
+        }
+    }
+}
+
+impl FactColumns {
+    fn new(facts: &PageFacts) -> FactColumns {
+        FactColumns {
+            class: facts.class,
+            from_nm: facts.range_nm.0,
+            to_nm: facts.range_nm.1,
+            formula: facts.formula,
+            nd: facts.nd.map(|(printed, _)| printed),
+            nd_difference: facts.nd.map(|(_, difference)| difference),
+        }
+    }
+}
+
+/// The survey in words: counts, what was refused and why, how far glasses are from their makers' indices.
+pub fn survey_text(all: &[SurveyedPage]) -> String {
+    let count =
+        |wanted: fn(&PageOutcome) -> bool| all.iter().filter(|s| wanted(&s.outcome)).count();
+    let seen = count(|outcome| matches!(outcome, PageOutcome::Seen(..)));
+    let elsewhere = count(|outcome| matches!(outcome, PageOutcome::Elsewhere(..)));
+    let mut lines = vec![format!(
+        "{} pages: {seen} seen over the whole visible spectrum at {SURVEYED_ANGLES} angles, {elsewhere} known elsewhere, {} refused",
+        all.len(),
+        all.len() - seen - elsewhere
+    )];
+    lines.extend(extrapolated(all));
+    lines.extend(refusals(all));
+    lines.extend(glasses(all));
+    let lines: Vec<String> = lines.iter().map(|line| one_line(line)).collect();
+    lines.join("\n") + "\n"
+}
+
+/// How many colours rest on held ends.
+fn extrapolated(all: &[SurveyedPage]) -> Option<String> {
+    let is_held = |s: &&SurveyedPage| matches!(&s.outcome, PageOutcome::Seen(_, colours) if colours.held.is_some());
+    let count = all.iter().filter(is_held).count();
+    (count > 0).then(|| {
+        format!(
+            "of these {count} are extrapolated: beyond the measured range the last index is held"
+        )
+    })
+}
+
+/// Reasons with the number of pages, and the page where it is one alone.
+fn refusals(all: &[SurveyedPage]) -> Vec<String> {
+    let mut reasons: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for surveyed in all {
+        if let PageOutcome::Refused(why) = &surveyed.outcome {
+            let why = why
+                .split_once(": ")
+                .filter(|(line, _)| line.starts_with("line "))
+                .map_or(why.as_str(), |(_, why)| why);
+            reasons.entry(why).or_default().push(&surveyed.file);
+        }
+    }
+    let line = |(why, pages): (&str, Vec<&str>)| match pages.as_slice() {
+        [one] => format!("refused: {one}: {why}"),
+        many => format!("refused: {} pages: {why}", many.len()),
+    };
+    reasons.into_iter().map(line).collect()
+}
+
+/// How far each formula is from the indices that glass makers print.
+fn glasses(all: &[SurveyedPage]) -> Vec<String> {
+    let mut formulas: BTreeMap<u8, (usize, f64)> = BTreeMap::new();
+    for about in all.iter().filter_map(SurveyedPage::facts) {
+        if let Some((_, difference)) = about.nd {
+            let (count, most) = formulas.entry(about.formula).or_default();
+            *count += 1;
+            *most = most.max(difference.abs());
+        }
+    }
+    let name = |formula: u8| match formula {
+        0 => "tables".to_owned(),
+        number => format!("formula {number}"),
+    };
+    let line = |(formula, (count, most)): (u8, (usize, f64))| {
+        format!(
+            "index at the d line, {}: {count} pages within {most:.1e} of what the maker prints",
+            name(formula)
+        )
+    };
+    formulas.into_iter().map(line).collect()
+}
