@@ -87,6 +87,7 @@ pub struct AuditFlags {
     #[arg(long, hide = true)]
     pub worker: bool,
 }
+
 impl AuditFlags {
     /// The command that reports this again under these viewing conditions, without places.
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {

@@ -85,6 +85,7 @@ pub struct TimeFlags {
     #[arg(long, hide = true)]
     pub worker: bool,
 }
+
 impl TimeFlags {
     /// The command that reports this again, without places.
     pub fn command_line(&self) -> CommandLine {

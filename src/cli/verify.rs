@@ -113,6 +113,7 @@ pub struct VerifyFlags {
     #[arg(long, hide = true)]
     pub worker: bool,
 }
+
 impl VerifyFlags {
     /// The command that reports this again under these viewing conditions, without places.
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {

@@ -1,4 +1,7 @@
 //! From a material to files: fits, functions, tables, adapters for engines, formats of tools.
+
+// Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours, fault < error < output < request < generate
+
 pub mod bake;
 pub mod command_line;
 pub mod emit;
@@ -13,6 +16,8 @@ pub mod lut;
 pub mod output;
 pub mod reference;
 pub mod request;
+
+// Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours, fault < error < output < request < generate
 
 pub use error::Error;
 pub use generate::{Generated, generate};

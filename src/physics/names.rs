@@ -1,4 +1,4 @@
-//! Names that are not there: what is, and which of it comes nearest.
+//! Names: which are legal in every language, and for one that is not there, which come nearest.
 
 use thiserror::Error;
 
@@ -90,6 +90,27 @@ pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
         .into_iter()
         .map(|(_, other)| other.to_owned())
         .collect()
+}
+
+/// File systems allow 255 bytes, and endings follow.
+const LONGEST_NAME: usize = 200;
+
+/// What is wrong with a name, if anything: it must be legal in every language.
+pub fn identifier_fault(name: &str) -> Option<&'static str> {
+    let legal = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        Some("it must start with a letter from a to z")
+    } else if !name.chars().all(legal) {
+        Some("only letters from a to z, digits and underscores are allowed")
+    } else if name.contains("__") {
+        Some("two underscores in a row are reserved in GLSL")
+    } else if name.ends_with('_') {
+        Some("a name must not end in an underscore")
+    } else if name.len() > LONGEST_NAME {
+        Some("a name must not have more than 200 characters: files are named after functions")
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use crate::tables::costs::cost_document;
 use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::lab::cost::{
     CostBasis, CostFigures, CostRow, CostSource, CostedFunction, FAMILIES, KnownCost, cost_rows,
@@ -13,7 +14,6 @@ use fresnel_gen::lab::cost::{
 use fresnel_gen::language::effects::{self, USUAL_METHOD};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::Precision;
-use fresnel_gen::pictures::cost_markdown::cost_document;
 use fresnel_gen::pictures::cost_page::cost_page;
 
 /// The materials whose functions are recorded: those that `tests/costs` names.

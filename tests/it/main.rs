@@ -53,6 +53,7 @@ mod spectral;
 mod split_sum;
 mod stability;
 mod stated;
+mod tables;
 mod tidy;
 mod tree;
 mod verify;

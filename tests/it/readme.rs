@@ -5,19 +5,20 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use crate::tables::markdown::{
+    classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
+    targets_table,
+};
 use fresnel_gen::generator::generate::generate_single;
 use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use fresnel_gen::lab::cost::records;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ViewingConditions};
 use fresnel_gen::pictures::headline::headline;
-use fresnel_gen::pictures::markdown::{
-    classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
-    targets_table,
-};
 use fresnel_gen::pictures::material_sheet::material_sheet;
 
-use super::stated::{check_stated, stated};
+use super::stated::check_stated;
+use super::stated::stated;
 
 fn example() -> String {
     let request = Request {

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use crate::tables::stability::stability_document;
 use fresnel_gen::lab::stability::{Failure, StabilityRow, scan};
 use fresnel_gen::language::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::records;
-use fresnel_gen::pictures::stability_markdown::stability_document;
 use serde::Deserialize;
 
 /// All methods scanned, once for all tests.

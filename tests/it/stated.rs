@@ -18,7 +18,8 @@ use glam::DVec3;
 
 use super::fits::catalogue;
 use super::gamut;
-use super::readme::{page, replaced};
+use super::readme::page;
+use super::readme::replaced;
 
 /// A figure in a page: what stands before it, what after it, and what it is. Digits and points between them are replaced.
 pub struct Stated {
@@ -493,7 +494,7 @@ fn whose_a_form_is_is_said_everywhere() {
     let methods_page = page("docs/methods.md");
     for method in methods::ALL {
         let name = method.name;
-        let file = page(&format!("src/methods/{name}.rs"));
+        let file = page(&format!("src/language/methods/formulas/{name}.rs"));
         let says = file.contains("//! Source: ours");
         assert_eq!(says, method.is_ours(), "{name}: the header of its file");
         let above = method.source_in_short();

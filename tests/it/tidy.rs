@@ -134,114 +134,125 @@ fn functions_are_short() {
     assert!(median <= 10, "the median function has {median} lines");
 }
 
-/// The rooms in order, as `lib.rs` says: groups that do not import each other.
-fn rooms() -> Vec<Vec<String>> {
+/// The wings in the order of imports, as `lib.rs` has them.
+fn wings() -> Vec<String> {
     let text = fs::read_to_string(root().join("src/lib.rs")).expect("it is there");
+    let modules = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod "));
+    modules
+        .map(|line| line.trim_end_matches(';').to_owned())
+        .collect()
+}
+
+/// The rooms of a wing in the order of imports, as its `mod.rs` says: groups that do not import each other.
+fn rooms(wing: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(root().join(format!("src/{wing}/mod.rs"))).expect("a wing");
     let line = text
         .lines()
-        .find(|line| line.starts_with("// foreign < num, cite, names"))
-        .expect("the order of rooms stands in lib.rs");
+        .find_map(|line| line.strip_prefix("// Rooms: "));
+    let line = line.unwrap_or_else(|| panic!("src/{wing}/mod.rs says the order of its rooms"));
     let group = |group: &str| {
         group
             .split(',')
             .map(|room| room.trim().to_owned())
             .collect()
     };
-    line.trim_start_matches("//")
-        .split('<')
-        .map(group)
-        .collect()
+    line.split('<').map(group).collect()
 }
 
-/// The rooms that a text imports: every `crate::room`, in groups over several lines too, comments left out.
-fn imports(text: &str, all: &[String]) -> Vec<String> {
+/// What a text imports, as wing and room: every `crate::wing::room`, in groups over several lines too, comments left out.
+fn imports(text: &str) -> Vec<(String, String)> {
     let code: String = text
         .lines()
         .map(|line| line.split("//").next().unwrap_or(""))
         .collect::<Vec<_>>()
         .join(" ");
+    let word = |text: &str| -> String {
+        let letters = text.trim_start().chars();
+        letters
+            .take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect()
+    };
     let mut found = Vec::new();
     for rest in code.split("crate::").skip(1) {
-        let group = rest
+        let wing = word(rest);
+        let Some(inside) = rest.trim_start()[wing.len()..].strip_prefix("::") else {
+            continue;
+        };
+        let group = inside
             .strip_prefix('{')
-            .and_then(|rest| rest.split('}').next());
-        let named = group.map_or_else(|| vec![rest], |group| group.split(',').collect());
-        for name in named {
-            let room: String = name
-                .trim()
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || *c == '_')
-                .collect();
-            if all.contains(&room) {
-                found.push(room);
-            }
-        }
+            .and_then(|inside| inside.split('}').next());
+        let named = group.map_or_else(|| vec![inside], |group| group.split(',').collect());
+        found.extend(named.into_iter().map(|name| (wing.clone(), word(name))));
     }
     found
 }
 
 #[test]
-fn rooms_import_only_to_their_left() {
-    let rooms = rooms();
-    let all: Vec<String> = rooms.concat();
-    let rank = |room: &str| {
-        rooms
-            .iter()
-            .position(|group| group.iter().any(|other| other == room))
-    };
-    for (path, text) in sources("src") {
-        let inside = path
-            .strip_prefix(root().join("src"))
-            .expect("it lies there");
-        let room = inside
-            .components()
-            .next()
-            .expect("a path has parts")
-            .as_os_str()
-            .to_string_lossy();
-        let room = room.trim_end_matches(".rs").to_owned();
-        if ["build", "lib", "main"].contains(&&*room) {
-            continue;
-        }
-        let own = rank(&room);
-        let own = own.unwrap_or_else(|| panic!("src/lib.rs does not name `{room}` as a room"));
-        for imported in imports(&text, &all) {
-            let other = rank(&imported).expect("it is a room");
-            assert!(
-                imported == room || other < own,
-                "{}: room `{room}` imports `{imported}`, which does not stand to its left",
-                path.display()
-            );
+fn imports_run_one_way() {
+    let wings = wings();
+    let wing_rank = |name: &str| wings.iter().position(|wing| wing == name);
+    for wing in &wings {
+        let rooms = rooms(wing);
+        let rank = |room: &str| {
+            rooms
+                .iter()
+                .position(|group| group.iter().any(|other| other == room))
+        };
+        let folder = root().join("src").join(wing);
+        for (path, text) in sources(&format!("src/{wing}")) {
+            let inside = path.strip_prefix(&folder).expect("it lies there");
+            let first = inside.components().next().expect("a path has parts");
+            let room = first.as_os_str().to_string_lossy();
+            let room = room.trim_end_matches(".rs");
+            if room == "mod" {
+                continue;
+            }
+            let own = rank(room);
+            let own = own.unwrap_or_else(|| panic!("src/{wing}/mod.rs does not name `{room}`"));
+            for (other_wing, other_room) in imports(&text) {
+                let Some(other) = wing_rank(&other_wing) else {
+                    continue;
+                };
+                let is_before = if other_wing == *wing {
+                    other_room == room || rank(&other_room).is_none_or(|other| other < own)
+                } else {
+                    Some(other) < wing_rank(wing)
+                };
+                assert!(
+                    is_before,
+                    "{}: `{wing}::{room}` imports `{other_wing}::{other_room}`, which does not stand before it",
+                    path.display()
+                );
+            }
         }
     }
 }
 
 #[test]
-fn the_test_of_rooms_sees_groups_and_skips_comments() {
-    let all = ["emit".to_owned(), "num".to_owned()];
+fn the_test_of_imports_sees_groups_and_skips_comments() {
+    let pair = |wing: &str, room: &str| (wing.to_owned(), room.to_owned());
     assert_eq!(
         imports(
-            "use crate::\n    num;
-use crate::\n    emit::File;
-use crate::\n;",
-            &all
+            "use crate::\n    physics::num;\nuse crate::generator::{\n    emit::File, lut};\nuse crate::\n;"
         ),
-        ["num", "emit"]
+        [
+            pair("physics", "num"),
+            pair("generator", "emit"),
+            pair("generator", "lut")
+        ]
     );
     assert_eq!(
-        imports("// use crate::emit\nlet x = crate::num::Dd;", &all),
-        ["num"]
+        imports("// use crate::generator::emit\nlet x = crate::physics::num::Dd;"),
+        [pair("physics", "num")]
     );
 }
 
 #[test]
 fn the_truth_is_written_without_the_graph() {
-    for (path, text) in sources("src/optics") {
-        assert!(
-            !text.contains("crate::ir") && !text.contains("crate::methods"),
-            "{}",
-            path.display()
-        );
+    for (path, text) in sources("src/physics") {
+        assert!(!text.contains("crate::language"), "{}", path.display());
     }
 }
 
@@ -249,36 +260,36 @@ fn the_truth_is_written_without_the_graph() {
 fn only_the_writer_and_the_program_touch_the_machine() {
     let named = [
         "main.rs",
-        "app/write.rs",
+        "generator/output/write.rs",
         // Files that wait beside their places.
-        "app/stage.rs",
-        "app/folder.rs",
+        "generator/output/stage.rs",
+        "generator/output/folder.rs",
         // It names this program, an input of what it writes.
-        "app/depfile.rs",
+        "generator/output/depfile.rs",
         // What appears in a place while a run writes, what is removed, what stays.
-        "app/held.rs",
-        "app/removal.rs",
-        "app/stays.rs",
+        "generator/output/held.rs",
+        "generator/output/removal.rs",
+        "generator/output/stays.rs",
         // The lock on an output folder, and its waits.
-        "app/lock.rs",
-        "app/reading.rs",
-        "app/source.rs",
-        "app/tree.rs",
+        "generator/output/lock.rs",
+        "generator/output/reading.rs",
+        "generator/request/source.rs",
+        "generator/output/tree.rs",
         "build.rs",
-        "verify/machine.rs",
+        "lab/verify/machine.rs",
         // Workers: processes of this program, with a time limit.
-        "process/worker.rs",
-        "process/inbox.rs",
-        "process/tools.rs",
+        "lab/process/worker.rs",
+        "lab/process/inbox.rs",
+        "lab/process/tools.rs",
         // The folder for their temporary files.
-        "process/surroundings.rs",
+        "lab/process/surroundings.rs",
         // The clock of what is measured.
-        "overdraw/clock.rs",
-        "verify/compilers/call.rs",
+        "lab/overdraw/clock.rs",
+        "lab/verify/compilers/call.rs",
         // It asks whether a library would complain of the environment.
-        "gpu/quiet.rs",
+        "lab/gpu/quiet.rs",
         // It opens a device's node.
-        "gpu/gles_compiler.rs",
+        "lab/gpu/gles_compiler.rs",
     ];
     for (path, text) in sources("src") {
         let inside = path
@@ -318,7 +329,7 @@ fn only_leaves_are_unsafe_and_say_why() {
         "quiet",
         "vulkan_compiler",
     ]
-    .map(|leaf| format!("gpu/{leaf}.rs"));
+    .map(|leaf| format!("lab/gpu/{leaf}.rs"));
     // It looks at stdout before Rust's runtime starts.
     let mut named = leaves.to_vec();
     named.push("main/stdout.rs".to_owned());
@@ -368,7 +379,7 @@ fn a_match_over_all_operations_stands_in_two_places() {
 #[test]
 fn a_method_has_one_name_and_its_formula_first() {
     for method in methods::ALL {
-        let path = root().join(format!("src/methods/{}.rs", method.name));
+        let path = root().join(format!("src/language/methods/formulas/{}.rs", method.name));
         let text =
             fs::read_to_string(&path).unwrap_or_else(|_| panic!("{} is missing", path.display()));
         let header: String = text

@@ -10,7 +10,9 @@ use glam::{DMat3, DVec3};
 
 use super::fits::catalogue;
 use super::readme::page;
-use super::stated::{check_stated, short, stated};
+use super::stated::check_stated;
+use super::stated::short;
+use super::stated::stated;
 
 const PAGE: &str = "docs/materials.md";
 

@@ -259,7 +259,7 @@ pub(super) fn is_number(param: &Param) -> bool {
 /// A name is whole here, with its prefix, and must be free in every language: the same function has one name in all.
 pub(super) fn check_names(functions: &[Emitted]) -> Result<(), Error> {
     for emitted in functions {
-        let fault = crate::language::ir::identifier_fault(&emitted.name)
+        let fault = crate::physics::names::identifier_fault(&emitted.name)
             .map(|why| format!("`{}` is no name: {why}", emitted.name))
             .or_else(|| targets::name_fault(&emitted.name));
         if let Some(what) = fault {

@@ -18,7 +18,7 @@ pub use model::{Model, NodeError};
 pub use sheet::{Field, FieldValue, Node, Sheet};
 pub use subject::{Body, EngineMaterial};
 
-// BEGIN exchange (written by tests/lists)
+// BEGIN list (written by tests/lists)
 mod blender;
 mod filament;
 mod gltf;
@@ -38,4 +38,4 @@ pub static ALL: &[&Format] = &[
     &unreal::FORMAT,
     &usd::FORMAT,
 ];
-// END exchange
+// END list

@@ -13,7 +13,7 @@ mod view;
 pub use adapter::{Commands, Error, Fitted, FlavourFile, files};
 pub use flavour::{Flavour, FlavourPage};
 
-// BEGIN flavours (written by tests/lists)
+// BEGIN list (written by tests/lists)
 mod babylon;
 mod bevy;
 mod godot;
@@ -35,7 +35,7 @@ pub static ALL: &[&Flavour] = &[
     &unity::FLAVOUR,
     &unreal::FLAVOUR,
 ];
-// END flavours
+// END list
 
 /// The flavour of this name.
 pub fn find(name: &str) -> Option<&'static Flavour> {

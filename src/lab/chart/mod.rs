@@ -1,5 +1,6 @@
 //! Error against cost as data: every method a point, and a user's function where there is one, and the frontier of those that nothing
 //! beats in both. Pages and pictures of it stand in `report/frontier/`.
+
 mod audited;
 mod costs;
 mod curves;

@@ -17,6 +17,7 @@
 //!
 //! A software device shares the processor with all other programs. There the clock is the processor time of the process,
 //! which does not include other programs: with four busy programs on two cores, shares by timestamps are wrong by half.
+
 mod clock;
 mod drawing_device;
 mod drawing_worker;

@@ -1,10 +1,9 @@
 //! What an effect is: a plain record in a static table, with its functions.
 
-use crate::language::ir::{
-    BrokenRule, Builder, Checked, Expr, Letters, Ty, check, identifier_fault, specialise,
-};
+use crate::language::ir::{BrokenRule, Builder, Checked, Expr, Letters, Ty, check, specialise};
 use crate::language::methods::{Forms, Inputs, Method, Values};
 use crate::physics::cite::Citation;
+use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 
 /// Something that Fresnel's equations make visible, as functions that an application calls.

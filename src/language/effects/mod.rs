@@ -11,7 +11,7 @@ mod vectors;
 
 pub use effect::{Argument, BuiltEffect, Domain, Effect, EffectFunction, Reflectance};
 
-// BEGIN effects (written by tests/lists)
+// BEGIN list (written by tests/lists)
 mod caustics;
 mod coat;
 mod complex_f0;
@@ -37,7 +37,7 @@ pub static ALL: &[&Effect] = &[
     &parallax::EFFECT,
     &water::EFFECT,
 ];
-// END effects
+// END list
 
 /// The effect of this name.
 pub fn find(name: &str) -> Option<&'static Effect> {

@@ -16,6 +16,7 @@ use std::ops::Deref;
 
 use super::graph::{Function, Node, NodeId, Ty};
 use super::op::{Op, Payload, Signature};
+use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 
 /// The rules, in the order of the list above.
@@ -192,25 +193,4 @@ fn is_name_only(function: &Function, node: &Node) -> bool {
     };
     node.is_leaf()
         || node.op.info().work == 0 && !node.op.is_fetch() && node.args.iter().all(is_name)
-}
-
-/// File systems allow 255 bytes, and endings follow.
-const LONGEST_NAME: usize = 200;
-
-/// What is wrong with a name, if anything: it must be legal in every language.
-pub fn identifier_fault(name: &str) -> Option<&'static str> {
-    let legal = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        Some("it must start with a letter from a to z")
-    } else if !name.chars().all(legal) {
-        Some("only letters from a to z, digits and underscores are allowed")
-    } else if name.contains("__") {
-        Some("two underscores in a row are reserved in GLSL")
-    } else if name.ends_with('_') {
-        Some("a name must not end in an underscore")
-    } else if name.len() > LONGEST_NAME {
-        Some("a name must not have more than 200 characters: files are named after functions")
-    } else {
-        None
-    }
 }

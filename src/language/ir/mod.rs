@@ -28,7 +28,7 @@ mod text;
 mod texture;
 
 pub use build::{Builder, Expr};
-pub use check::{BrokenRule, Checked, RULES, check, check_in, identifier_fault};
+pub use check::{BrokenRule, Checked, RULES, check, check_in};
 pub use evaluate::{Column, Value, evaluate};
 pub use fold::{USED_TWICE, fold, fold_in, specialise, specialise_in};
 pub use graph::{COSINE, Function, Label, Letters, Node, NodeId, Param, Ty};

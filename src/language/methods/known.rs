@@ -3,7 +3,7 @@
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, COS_82};
 
-use super::belcour_decomposition::BELCOUR_COSINES;
+use crate::language::methods::formulas::BELCOUR_COSINES;
 
 /// cos θ at which the empirical term meets the exact law: 60 degrees.
 pub const COS_60: f64 = 0.5;

@@ -1,13 +1,14 @@
 //! The methods, one file each: a formula for reflectance with its source, inputs, domain and promised errors.
 //!
-//! To add one, write its file: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
-//! function and its limit tests. Then run `tests/lists`, which writes the list below. ARCHITECTURE.md says the next steps.
+//! To add one, write its file in `formulas`: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
+//! function and its limit tests. Then run `tests/lists`. ARCHITECTURE.md says the next steps.
 //! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 
 mod affine;
 mod by_class;
 mod class;
+mod formulas;
 mod half;
 mod input;
 mod known;
@@ -20,6 +21,9 @@ mod shape;
 pub use affine::{Affine, Basis, FittedAverage, MOST_TERMS};
 pub use by_class::{ByClass, Spread, by_class, promises_by_class};
 pub use class::Class;
+pub use formulas::{
+    ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
+};
 pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
 pub use known::KnownSurface;
@@ -30,76 +34,6 @@ pub use method::{
 pub use origin::Origin;
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
-
-// BEGIN methods (written by tests/lists)
-mod belcour_decomposition;
-mod conductor_artistic;
-mod conductor_exact;
-mod conductor_exact_metal;
-mod conductor_from_f0_f82;
-mod conductor_textbook;
-mod constant_f0;
-mod dielectric_exact;
-mod dielectric_exact_p;
-mod dielectric_exact_s;
-mod dielectric_textbook;
-mod empirical;
-mod f82_tint;
-mod fitted;
-mod fitted_dielectric;
-mod fitted_dielectric_rational;
-mod fitted_f82;
-mod fitted_f82_metal;
-mod fitted_five;
-mod fitted_rational;
-mod hoffman_f82;
-mod schlick;
-mod schlick_corrected;
-mod schlick_f90;
-mod schlick_generalised;
-mod schlick_ior;
-mod schlick_rescaled;
-mod schlick_spherical_gaussian;
-mod table;
-
-/// Every method, by name.
-#[rustfmt::skip]
-pub static ALL: &[&Method] = &[
-    &belcour_decomposition::METHOD,
-    &conductor_artistic::METHOD,
-    &conductor_exact::METHOD,
-    &conductor_exact_metal::METHOD,
-    &conductor_from_f0_f82::METHOD,
-    &conductor_textbook::METHOD,
-    &constant_f0::METHOD,
-    &dielectric_exact::METHOD,
-    &dielectric_exact_p::METHOD,
-    &dielectric_exact_s::METHOD,
-    &dielectric_textbook::METHOD,
-    &empirical::METHOD,
-    &f82_tint::METHOD,
-    &fitted::METHOD,
-    &fitted_dielectric::METHOD,
-    &fitted_dielectric_rational::METHOD,
-    &fitted_f82::METHOD,
-    &fitted_f82_metal::METHOD,
-    &fitted_five::METHOD,
-    &fitted_rational::METHOD,
-    &hoffman_f82::METHOD,
-    &schlick::METHOD,
-    &schlick_corrected::METHOD,
-    &schlick_f90::METHOD,
-    &schlick_generalised::METHOD,
-    &schlick_ior::METHOD,
-    &schlick_rescaled::METHOD,
-    &schlick_spherical_gaussian::METHOD,
-    &table::METHOD,
-];
-// END methods
-
-pub use f82_tint::schlick_82;
-pub use schlick_corrected::lambda;
-pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
 
 /// The method of this name, or of this old name.
 ///

@@ -17,7 +17,7 @@ pub use target::{
 };
 pub use wgsl::{STREAM, TARGET as WGSL};
 
-// BEGIN targets (written by tests/lists)
+// BEGIN list (written by tests/lists)
 mod gles;
 mod glsl;
 mod hlsl;
@@ -35,7 +35,7 @@ pub static ALL: &[&Target] = &[
     &spirv::TARGET,
     &wgsl::TARGET,
 ];
-// END targets
+// END list
 
 /// Why a name cannot be used in one of the languages, if it cannot.
 ///

@@ -27,7 +27,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::language::ir::identifier_fault;
+use crate::physics::names::identifier_fault;
 
 use super::decimal::short;
 use super::dispersion::DispersionCurve;

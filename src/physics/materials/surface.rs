@@ -241,6 +241,7 @@ fn extrapolated_beyond(
     };
     (outside(from, &|nm| nm < from), outside(to, &|nm| nm > to))
 }
+
 /// The materials that are spectra of this substance and can be seen so, each with its surface.
 pub fn surfaces_of<'a>(
     substance: &'a str,

@@ -1,4 +1,5 @@
 //! Error against cost: the chart as a picture, as a page, and as text. Its data stand in the room `chart`.
+
 mod html;
 mod labels;
 mod svg;

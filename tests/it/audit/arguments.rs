@@ -1,6 +1,7 @@
 //! What a function takes: the cosine, what is bound, what the material has.
 
-use super::{audit, rows};
+use super::audit;
+use super::rows;
 use crate::cli::Place;
 
 const SCHLICK: &str = "vec3 f(float c, vec3 f0, float sharp) {\n    return f0 + (1.0 - f0) * pow(clamp(1.0 - c, 0.0, 1.0), sharp);\n}\n";

@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-use super::{audit, rows, thesis};
+use super::audit;
+use super::rows;
+use super::thesis;
 use crate::cli::Place;
 
 /// What the script of a page reads.

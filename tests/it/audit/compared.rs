@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-use super::{audit, published, rows};
+use super::audit;
+use super::published;
+use super::rows;
 use crate::cli::Place;
 
 /// The row of a published formula, where its compilers are here.

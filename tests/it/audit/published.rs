@@ -3,7 +3,8 @@
 
 use serde_json::Value;
 
-use super::{audit, rows};
+use super::audit;
+use super::rows;
 use crate::cli::Place;
 
 /// The formulas, by file.

@@ -3,8 +3,9 @@
 
 use fresnel_gen::physics::optics;
 
+use super::audit;
 use super::published::place;
-use super::{audit, rows};
+use super::rows;
 use crate::bless;
 use crate::published_costs::{families, own, path, recorded};
 

@@ -4,7 +4,8 @@ use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::language::methods;
 
-use super::{audit, rows};
+use super::audit;
+use super::rows;
 use crate::cli::Place;
 use crate::subjects;
 

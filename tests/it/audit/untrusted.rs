@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::{audit, rows};
+use super::audit;
+use super::rows;
 use crate::cli::Place;
 
 const FILES: [(&str, &str); 3] = [

@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use super::{audit, rows};
+use super::audit;
+use super::rows;
 use crate::cli::Place;
 use crate::verify::tools::put_compiler;
 

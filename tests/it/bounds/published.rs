@@ -3,7 +3,10 @@
 
 use fresnel_gen::physics::num::ulp_distance;
 
-use super::{Medium, double, exact, unfused};
+use super::Medium;
+use super::double;
+use super::exact;
+use super::unfused;
 use crate::subjects;
 
 /// The angles that published figures are given for.

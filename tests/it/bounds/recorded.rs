@@ -5,7 +5,10 @@ use fresnel_gen::language::methods::{self, Method};
 use fresnel_gen::physics::records;
 use serde::Deserialize;
 
-use super::{Medium, exact, unfused, worst};
+use super::Medium;
+use super::exact;
+use super::unfused;
+use super::worst;
 
 /// The most that a function specialised to a material of the catalogue may be off, in ulp.
 const SPECIALISED: f64 = 10.0;

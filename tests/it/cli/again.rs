@@ -4,8 +4,12 @@
 use std::fs;
 use std::process::Command;
 
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
+use super::Ran;
+use super::contents;
 use super::pipelines::path_with_program;
-use super::{MY_METAL, OUT, Place, Ran, contents};
 
 const TABLE: &str = "nm,n,k\n360,1,2\n830,1.5,2.5\n";
 

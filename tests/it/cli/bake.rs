@@ -2,7 +2,9 @@
 
 use fresnel_gen::language::targets::{self, Finish};
 
-use super::{OUT, Place, contents};
+use super::OUT;
+use super::Place;
+use super::contents;
 
 #[test]
 fn files_and_report_agree() {

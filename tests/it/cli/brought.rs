@@ -1,6 +1,7 @@
 //! Materials that a user brings: pages of refractiveindex.info and tables, read, imported, surveyed, drawn.
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 /// Gold by Johnson and Christy, at a few wavelengths.
 const PAGE: &str = "# a page

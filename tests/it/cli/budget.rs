@@ -1,6 +1,8 @@
 //! `--budget` as users run it: which function is written, what is said, what is refused.
 
-use super::{MY_METAL, OUT, Place};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
 
 #[test]
 fn the_cheapest_within_the_budget_is_written_alone() {

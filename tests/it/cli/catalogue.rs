@@ -1,6 +1,7 @@
 //! The catalogue of coefficients in the output folder: who writes it, who leaves it, what becomes of it.
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 #[test]
 fn a_run_of_one_language_writes_its_part() {

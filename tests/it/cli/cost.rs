@@ -6,7 +6,8 @@ use serde_json::Value;
 
 use crate::not_checked;
 
-use super::{Place, Ran};
+use super::Place;
+use super::Ran;
 
 const KEYS: [&str; 18] = [
     "method",

@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::{MY_METAL, OUT, Place, contents};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
+use super::contents;
 
 const LINE: &str = "--target all,msl,glsl --material gold_thesis,water_thesis,my.toml";
 

@@ -8,7 +8,11 @@ use fresnel_gen::generator::output::{folder, lock};
 
 use crate::not_checked;
 
-use super::{OUT, PROGRAM, Place, Ran, contents};
+use super::OUT;
+use super::PROGRAM;
+use super::Place;
+use super::Ran;
+use super::contents;
 
 #[test]
 fn a_file_in_the_place_of_a_folder() {

@@ -1,6 +1,7 @@
 //! Effects as users ask for them: listed, shown, written alone, by another method, for a material.
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 /// The functions of the effects that the manifest lists, by file.
 fn listed(place: &Place) -> Vec<(String, Vec<String>)> {

@@ -3,7 +3,8 @@
 
 use serde_json::json;
 
-use super::{MY_METAL, Place};
+use super::MY_METAL;
+use super::Place;
 
 const SECRET: &str = "hunter2";
 

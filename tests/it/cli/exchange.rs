@@ -6,7 +6,8 @@ use std::process::Command;
 use fresnel_gen::generator::exchange;
 use serde_json::Value;
 
-use super::{Place, Ran};
+use super::Place;
+use super::Ran;
 use crate::not_checked;
 
 /// A coloured metal, a white one, two dielectrics, a semiconductor.

@@ -11,7 +11,10 @@ use fresnel_gen::generator::output::folder;
 use fresnel_gen::generator::output::lock::{self, Lock};
 use fresnel_gen::language::methods;
 
-use super::{MY_METAL, OUT, Place, contents};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
+use super::contents;
 
 /// Files that look like ours and are the user's: a shader with a pasted function, a copy, what `-o` wrote.
 #[test]

@@ -9,7 +9,8 @@ use fresnel_gen::generator::output::ours::{
 };
 use serde_json::{Value, json};
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 const MINE: &str = "mine, by hand\n";
 

@@ -1,6 +1,7 @@
 //! `--precision f16` as users run it: beside single precision, refused by name, forced.
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 #[test]
 fn both_precisions_stand_in_one_tree_whichever_was_first() {

@@ -5,7 +5,8 @@ use std::process::Command;
 use clap::{CommandFactory, Parser};
 use fresnel_gen::cli::{Cli, completions};
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 /// Lines of a help that are commands, without redirections and without what is said of them.
 fn commands(help: &str) -> Vec<&str> {

@@ -8,8 +8,10 @@ use clap::Parser;
 use fresnel_gen::cli::Cli;
 use serde_json::Value;
 
+use super::OUT;
+use super::Place;
+use super::Ran;
 use super::pipelines::path_with_program;
-use super::{OUT, Place, Ran};
 
 const FLAGS: &str = "--target wgsl --method schlick --material gold_thesis";
 

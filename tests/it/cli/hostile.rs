@@ -8,7 +8,10 @@ use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::generator::{exchange, flavours};
 use fresnel_gen::language::targets;
 
-use super::{MY_METAL, OUT, Place, Ran};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
+use super::Ran;
 
 /// A material whose index is a formula.
 fn formula(class: &str, formula: &str) -> String {

@@ -7,7 +7,9 @@ use std::time::Duration;
 
 use fresnel_gen::generator::output::{folder, lock, manifest};
 
-use super::{OUT, Place, contents};
+use super::OUT;
+use super::Place;
+use super::contents;
 
 const KILLS: usize = 24;
 

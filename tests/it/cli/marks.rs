@@ -1,6 +1,8 @@
 //! Texts as editors and other programs leave them: a mark before the first letter, another encoding, letters of another one.
 
-use super::{MY_METAL, OUT, Place};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
 
 /// A text with the mark that Notepad, Excel and .NET write before it.
 fn marked(text: &str) -> String {

@@ -4,7 +4,9 @@ use std::fs::File;
 
 use fresnel_gen::physics::materials;
 
-use super::{MY_METAL, OUT, Place};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
 
 #[test]
 fn a_users_file_becomes_functions_named_after_it() {

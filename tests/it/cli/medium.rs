@@ -4,7 +4,8 @@ use fresnel_gen::physics::materials::{
     self, ConstantIndex, Extrapolate, Surface, ViewingConditions,
 };
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 #[test]
 fn one_number_is_one_medium() {

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-use super::{PROGRAM, Place, Ran};
+use super::PROGRAM;
+use super::Place;
+use super::Ran;
 use crate::compilers::Tool;
 use crate::tree::Snapshot;
 

@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-use super::{MY_METAL, OUT, Place};
+use super::MY_METAL;
+use super::OUT;
+use super::Place;
 
 /// A sphere of this material in this light, on few pixels.
 fn sphere(material: &str, light: &str) -> String {

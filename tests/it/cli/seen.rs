@@ -1,6 +1,7 @@
 //! How materials are seen: spectra and three wavelengths, spaces, gamut, media, extrapolation, parameters.
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 /// A number of a report, by a path such as `/f0/0`.
 #[track_caller]

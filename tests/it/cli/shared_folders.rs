@@ -3,7 +3,8 @@
 use std::fs::{self, Permissions};
 use std::os::unix::fs::{PermissionsExt, lchown, symlink};
 
-use super::{OUT, Place};
+use super::OUT;
+use super::Place;
 
 const STICKY: u32 = 0o1777;
 /// Users that nobody is.

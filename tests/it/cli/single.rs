@@ -1,6 +1,7 @@
 //! `-o`: one function, to a file or to stdout, ready to be pasted.
 
-use super::{MY_METAL, Place};
+use super::MY_METAL;
+use super::Place;
 
 #[test]
 fn a_function_for_pasting_is_short_and_stands_alone() {

@@ -6,7 +6,9 @@ use std::process::Stdio;
 use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::materials;
 
-use super::{MY_METAL, Place, Ran};
+use super::MY_METAL;
+use super::Place;
+use super::Ran;
 
 #[test]
 fn json_on_stdout_stands_there_alone() {

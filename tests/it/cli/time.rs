@@ -3,7 +3,8 @@
 
 use serde_json::Value;
 
-use super::{Place, Ran};
+use super::Place;
+use super::Ran;
 use crate::not_checked;
 
 /// Small enough for a test.

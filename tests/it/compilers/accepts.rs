@@ -9,7 +9,13 @@ use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verd
 use fresnel_gen::language::targets::{self, Finish, Target, Validator};
 use fresnel_gen::physics::num::Precision;
 
-use super::{Judgement, accepted, files, joined, precision, text, tree};
+use super::Judgement;
+use super::accepted;
+use super::files;
+use super::joined;
+use super::precision;
+use super::text;
+use super::tree;
 use crate::not_checked;
 
 /// The compilers that must be there where `CI` is set.

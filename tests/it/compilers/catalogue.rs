@@ -7,7 +7,9 @@ use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::verify::compilers::{is_here, verdict};
 use fresnel_gen::language::targets::{self, Finish};
 
-use super::{Verdict, accepted, msl};
+use super::Verdict;
+use super::accepted;
+use super::msl;
 
 /// A function that reads the array by constants and one that reads it by what only a run knows.
 fn users(target: &str) -> String {

@@ -5,7 +5,12 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use super::{Judgement, Tool, files, joined, text, tree};
+use super::Judgement;
+use super::Tool;
+use super::files;
+use super::joined;
+use super::text;
+use super::tree;
 
 pub const COMPILER: Tool = Tool {
     command: "g++",

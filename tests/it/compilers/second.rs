@@ -10,7 +10,11 @@ use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
 use fresnel_gen::language::targets;
 use tempfile::TempDir;
 
-use super::{Judgement, Tool, accepted, text, tree};
+use super::Judgement;
+use super::Tool;
+use super::accepted;
+use super::text;
+use super::tree;
 use crate::not_checked;
 
 const GLSLANG: Tool = Tool {

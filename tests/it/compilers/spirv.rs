@@ -7,7 +7,10 @@ use fresnel_gen::generator::output::artifact::Artifact;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::{Judgement, Tool, accepted, files};
+use super::Judgement;
+use super::Tool;
+use super::accepted;
+use super::files;
 
 const DISASSEMBLER: Tool = Tool {
     command: "spirv-dis",

@@ -5,7 +5,8 @@ use fresnel_gen::language::ir::{Ty, Value, evaluate};
 use fresnel_gen::language::methods::{Input, InputSource, Method};
 use fresnel_gen::physics::num::{Half, Num, Precision};
 
-use super::{library, numeric};
+use super::library;
+use super::numeric;
 
 /// What is promised is of media; at the ends of ranges results are within so many times that.
 const ROOM: f64 = 3.0;

@@ -10,7 +10,8 @@ use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::optics::{self, Reflectance};
 use fresnel_gen::{Materials, Request, generate_single};
 
-use super::{at_once, vector};
+use super::at_once;
+use super::vector;
 use crate::reread::language::{Program, Term};
 use crate::samples;
 

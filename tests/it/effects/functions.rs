@@ -5,7 +5,16 @@ use std::f64::consts::PI;
 use fresnel_gen::language::ir::{CubeTexels, Filter, Texels, Value, evaluate};
 use fresnel_gen::physics::optics;
 
-use super::{add, at_once, dot, function, function_by, many, numbers, unit, vector, vectors};
+use super::add;
+use super::at_once;
+use super::dot;
+use super::function;
+use super::function_by;
+use super::many;
+use super::numbers;
+use super::unit;
+use super::vector;
+use super::vectors;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 

@@ -2,7 +2,10 @@
 
 use fresnel_gen::language::ir::evaluate;
 
-use super::{function, numbers, vector, vectors};
+use super::function;
+use super::numbers;
+use super::vector;
+use super::vectors;
 use crate::subjects;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];

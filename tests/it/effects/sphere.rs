@@ -2,7 +2,14 @@
 
 use fresnel_gen::language::ir::{Filter, Texels, Value, evaluate};
 
-use super::{add, dot, function, many, numbers, unit, vector, vectors};
+use super::add;
+use super::dot;
+use super::function;
+use super::many;
+use super::numbers;
+use super::unit;
+use super::vector;
+use super::vectors;
 
 const SIZE: usize = 512;
 

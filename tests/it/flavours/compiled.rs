@@ -8,7 +8,8 @@ use std::process::Command;
 use crate::cli::{MY_METAL, OUT, Place};
 use crate::not_checked;
 
-use super::{block, written};
+use super::block;
+use super::written;
 
 /// How a compiler takes a program that includes files of a flavour.
 struct Way {

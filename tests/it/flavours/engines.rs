@@ -12,7 +12,9 @@ use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingCondi
 use fresnel_gen::physics::optics;
 use serde_json::{Value, json};
 
-use super::host::{Host, number, shows_a_gold_sphere};
+use super::host::Host;
+use super::host::number;
+use super::host::shows_a_gold_sphere;
 use crate::catalogue::{evaluated, rows_named};
 
 const PLAYCANVAS: Host = Host {

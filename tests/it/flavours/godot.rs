@@ -5,7 +5,9 @@ use std::process::Command;
 
 use serde_json::json;
 
-use super::host::{is_installed_by_the_script, number, packages};
+use super::host::is_installed_by_the_script;
+use super::host::number;
+use super::host::packages;
 use crate::cli::{OUT, Place, Ran};
 
 /// The package that holds the engine, as `tests/run` installs it.

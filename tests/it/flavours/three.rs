@@ -2,7 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::host::{Host, at_most, number, shows_a_gold_sphere};
+use super::host::Host;
+use super::host::at_most;
+use super::host::number;
+use super::host::shows_a_gold_sphere;
 
 const THREE: Host = Host {
     flavour: "three",

@@ -12,7 +12,10 @@ use fresnel_gen::language::ir::{Checked, Value, evaluate};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::ulp_distance;
 
-use super::{device, gles, program, wgsl};
+use super::device;
+use super::gles;
+use super::program;
+use super::wgsl;
 
 /// Twice what unfused f32 may be off: a device may fuse, and divide in two steps.
 const ULP: f64 = 16.0;

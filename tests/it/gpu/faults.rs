@@ -5,7 +5,10 @@ use fresnel_gen::lab::gpu::{
     TextureShape, Uniform, Wanted, Wrap, adapters,
 };
 
-use super::{device, gles, program, wgsl};
+use super::device;
+use super::gles;
+use super::program;
+use super::wgsl;
 
 /// The log of a refusal, or nothing where there is no device.
 #[track_caller]

@@ -2,7 +2,8 @@
 
 use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 
-use super::{device, program};
+use super::device;
+use super::program;
 
 const IDENTITY: &str = "
 @group(0) @binding(1) var<uniform> first: u32;

@@ -5,7 +5,8 @@ use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::language::ir::{Value, evaluate};
 use fresnel_gen::language::methods::{self, Contract, Method};
 
-use super::{cosines, function};
+use super::cosines;
+use super::function;
 use crate::fits::catalogue;
 
 /// The methods whose form does not end at 1. The others do, to two ulp.

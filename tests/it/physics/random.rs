@@ -10,7 +10,9 @@ use fresnel_gen::physics::optics;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use super::{EXACT, run, run_in};
+use super::EXACT;
+use super::run;
+use super::run_in;
 
 /// Every library function, built once.
 static FUNCTIONS: LazyLock<BTreeMap<&str, Checked>> = LazyLock::new(|| {

@@ -5,7 +5,9 @@ use std::io::Cursor;
 use half::f16;
 use serde_json::Value;
 
-use super::{Fact, Shown, check_all};
+use super::Fact;
+use super::Shown;
+use super::check_all;
 use crate::cli::Place;
 
 pub static FACTS: &[Fact] = &[

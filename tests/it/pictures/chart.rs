@@ -3,8 +3,15 @@
 use roxmltree::{Document, Node};
 use serde_json::Value;
 
-use super::reader::{NEAR, Scale, across, attribute, numbers, upwards, words};
-use super::{Fact, check_all};
+use super::Fact;
+use super::check_all;
+use super::reader::NEAR;
+use super::reader::Scale;
+use super::reader::across;
+use super::reader::attribute;
+use super::reader::numbers;
+use super::reader::upwards;
+use super::reader::words;
 use crate::cli::Place;
 
 pub static FACTS: &[Fact] = &[

@@ -3,7 +3,8 @@
 use roxmltree::{Document, Node};
 
 use super::Fact;
-use super::reader::{colour, plots};
+use super::reader::colour;
+use super::reader::plots;
 
 pub static FACTS: &[Fact] = &[
     Fact {

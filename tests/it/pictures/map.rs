@@ -14,8 +14,16 @@ use fresnel_gen::pictures::stability_map::heat_map;
 use roxmltree::Document;
 use tempfile::TempDir;
 
-use super::reader::{Pixels, Scale, Word, across, beside, upwards, words};
-use super::{Fact, Shown, check_all};
+use super::Fact;
+use super::Shown;
+use super::check_all;
+use super::reader::Pixels;
+use super::reader::Scale;
+use super::reader::Word;
+use super::reader::across;
+use super::reader::beside;
+use super::reader::upwards;
+use super::reader::words;
 use crate::cli::Place;
 
 pub static FACTS: &[Fact] = &[

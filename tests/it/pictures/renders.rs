@@ -1,7 +1,8 @@
 //! Effects as they are drawn, beside their truth: what a physicist sees in the panels of the committed pictures.
 
+use super::Fact;
+use super::Shown;
 use super::reader::Pixels;
-use super::{Fact, Shown};
 
 pub static FACTS: &[Fact] = &[
     Fact {

@@ -1,8 +1,10 @@
 //! Errors in pictures: what a physicist sees in the reflectance of an object, and in what Schlick misses.
 
+use super::Fact;
+use super::Shown;
 use super::baked::exr_texels;
+use super::check_all;
 use super::reader::Pixels;
-use super::{Fact, Shown, check_all};
 use crate::cli::Place;
 
 pub static FACTS: &[Fact] = &[

@@ -2,8 +2,17 @@
 
 use roxmltree::{Document, Node};
 
-use super::reader::{Pixels, Plot, attribute, colour, corner, panels, plots, words};
-use super::{Fact, Shown, check_all};
+use super::Fact;
+use super::Shown;
+use super::check_all;
+use super::reader::Pixels;
+use super::reader::Plot;
+use super::reader::attribute;
+use super::reader::colour;
+use super::reader::corner;
+use super::reader::panels;
+use super::reader::plots;
+use super::reader::words;
 use crate::cli::Place;
 
 pub static FACTS: &[Fact] = &[

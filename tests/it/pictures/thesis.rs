@@ -2,8 +2,11 @@
 
 use roxmltree::Document;
 
-use super::reader::{Plot, plots};
-use super::{Fact, Shown, check_all};
+use super::Fact;
+use super::Shown;
+use super::check_all;
+use super::reader::Plot;
+use super::reader::plots;
 use crate::cli::Place;
 
 pub static FACTS: &[Fact] = &[

@@ -4,7 +4,11 @@ use fresnel_gen::lab::raster::{CUBE, Mesh, SPHERE};
 use fresnel_gen::pictures::plan::GltfScene;
 use serde_json::{Value, json};
 
-use super::gltf::{VIEW, file, glb, no_file, read_with};
+use super::gltf::VIEW;
+use super::gltf::file;
+use super::gltf::glb;
+use super::gltf::no_file;
+use super::gltf::read_with;
 
 /// Pixels of the first material in the first frame.
 fn seen(json: &Value, buffer: &[u8]) -> usize {

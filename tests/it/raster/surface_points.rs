@@ -3,7 +3,8 @@
 use fresnel_gen::lab::raster::{CUBE, Camera, RELIEF, SPHERE, draw, rotated, surface_points};
 use glam::DVec3;
 
-use super::{camera, few_cameras};
+use super::camera;
+use super::few_cameras;
 
 /// A camera with parallel rays that looks at the origin.
 fn orthographic(eye: DVec3, height: f64, size: [u32; 2]) -> Camera {

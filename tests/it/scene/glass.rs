@@ -4,7 +4,14 @@ use fresnel_gen::physics::optics;
 use fresnel_gen::pictures::scene::{self, Camera, Glass, Paths};
 use glam::DVec3;
 
-use super::{around, at, device, pictured, pictured_in, plain, row, traced};
+use super::around;
+use super::at;
+use super::device;
+use super::pictured;
+use super::pictured_in;
+use super::plain;
+use super::row;
+use super::traced;
 
 const N: f64 = 1.5;
 

@@ -7,8 +7,10 @@ use fresnel_gen::pictures::scene::{
 };
 use glam::DVec3;
 
+use super::at;
+use super::device;
 use super::one_surface::glass_of;
-use super::{at, device, pictured};
+use super::pictured;
 
 /// The share of pixels whose channels all differ by less than 3 hundredths from the truth.
 fn share_alike(picture: &Picture) -> f64 {

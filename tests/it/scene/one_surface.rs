@@ -5,7 +5,12 @@ use fresnel_gen::physics::optics;
 use fresnel_gen::pictures::scene::{Glass, Paths};
 use glam::DVec3;
 
-use super::{around, at, device, pictured, row, traced};
+use super::around;
+use super::at;
+use super::device;
+use super::pictured;
+use super::row;
+use super::traced;
 
 pub fn glass_of(material: &str) -> Glass {
     let material = materials::find(material).unwrap().unwrap();

@@ -6,7 +6,8 @@ use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::physics::records::rows;
 use fresnel_gen::pictures::scene::{self, Glass, RenderRow, sky};
 
-use super::{device, pictured};
+use super::device;
+use super::pictured;
 use crate::{bless, records};
 
 const SIZE: u32 = 128;

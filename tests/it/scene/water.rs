@@ -5,7 +5,12 @@ use fresnel_gen::physics::optics;
 use fresnel_gen::pictures::scene::{Camera, Environment, Glass, PassRow, RenderRow, View};
 use glam::DVec3;
 
-use super::{around, at, device, pictured, pictured_row, row};
+use super::around;
+use super::at;
+use super::device;
+use super::pictured;
+use super::pictured_row;
+use super::row;
 
 const N: f64 = 1.333;
 const SIZE: u32 = 128;

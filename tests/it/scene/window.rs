@@ -4,7 +4,10 @@ use fresnel_gen::physics::optics;
 use fresnel_gen::pictures::scene::{Body, Camera, Glass, Picture};
 use glam::{DVec2, DVec3};
 
-use super::{around, device, pictured, row};
+use super::around;
+use super::device;
+use super::pictured;
+use super::row;
 
 const N: f64 = 1.525;
 const SIZE: u32 = 128;

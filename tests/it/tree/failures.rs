@@ -9,7 +9,15 @@ use fresnel_gen::generator::output::scope::Scope;
 use fresnel_gen::generator::output::tree::plan;
 use tempfile::TempDir;
 
-use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
+use super::artifact;
+use super::big_tree;
+use super::names;
+use super::provenance;
+use super::put;
+use super::run;
+use super::snapshot;
+use super::whole;
+use super::write;
 
 #[test]
 fn a_manifest_that_is_not_ours_stops_the_run() {

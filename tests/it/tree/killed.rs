@@ -11,7 +11,11 @@ use fresnel_gen::generator::output::tree::plan;
 use fresnel_gen::generator::output::{folder, lock, manifest, ours};
 use tempfile::TempDir;
 
-use super::{Snapshot, big_tree, provenance, snapshot, write};
+use super::Snapshot;
+use super::big_tree;
+use super::provenance;
+use super::snapshot;
+use super::write;
 
 #[cfg(unix)]
 #[test]

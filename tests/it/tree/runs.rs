@@ -14,7 +14,14 @@ use fresnel_gen::generator::output::tree::{State, TreePlan, plan};
 use fresnel_gen::generator::output::write as writer;
 use tempfile::TempDir;
 
-use super::{artifact, provenance, put, run, silver, snapshot, whole, write};
+use super::artifact;
+use super::provenance;
+use super::put;
+use super::run;
+use super::silver;
+use super::snapshot;
+use super::whole;
+use super::write;
 
 #[test]
 fn a_second_run_writes_nothing() {

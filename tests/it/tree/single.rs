@@ -8,7 +8,8 @@ use fresnel_gen::generator::output::depfile::depfile;
 use fresnel_gen::generator::output::write::write_file;
 use tempfile::TempDir;
 
-use super::{put, snapshot};
+use super::put;
+use super::snapshot;
 
 #[test]
 fn a_single_file_is_written_if_it_differs() {

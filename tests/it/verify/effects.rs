@@ -1,6 +1,7 @@
 //! Functions of effects as `verify` runs them: on every target, in every form, and with one thing wrong.
 
-use super::command::{rows, verify};
+use super::command::rows;
+use super::command::verify;
 use crate::cli::{OUT, Place};
 
 #[test]

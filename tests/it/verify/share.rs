@@ -2,7 +2,8 @@
 
 use crate::cli::Place;
 
-use super::command::{rows, verify};
+use super::command::rows;
+use super::command::verify;
 
 #[test]
 fn how_many_numbers_were_tried_is_told_as_a_share_of_all() {

@@ -217,8 +217,7 @@ fn constant<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use super::super::text::parse;
-    use super::super::text::print;
+    use super::super::text::{parse, print};
     use super::*;
 
     #[track_caller]

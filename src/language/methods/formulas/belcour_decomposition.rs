@@ -1,0 +1,198 @@
+//! `F = F0 + (1 - F0) b1 + w2 b2 + w3 b3`: four curves that all materials share, two of them of residuals.
+//!
+//! Source: Belcour, Bati, Barla, "Bringing an Accurate Fresnel to Real-Time Rendering: a Preintegrable Decomposition",
+//! ACM SIGGRAPH 2020 Talks, <https://blog.selfshadow.com/publications/s2020-shading-course/>. The curves are there
+//! singular vectors of a thousand reflectance curves, a table; w2 and w3 are solved so that F is met at 82.64 and 64.38 degrees.
+//! Being linear it can be integrated over a spectrum, and over a lobe, once for all.
+//! Here each curve is `(1 - c) (a0 + r (a1 + r (a2 + r a3)))`, `r = 1 / (1 + 3 c)`, fitted to that table: within 8e-5 of b1, .006 of b2 and
+//! .018 of b3. w3 lies within .05 of 0 but near n = 1 (-.07 at η 1.03), so that errors stay those of the table, to .001 (η 1.333: .0018 against .0016, 1.5: .0039 against
+//! .0040, 3: .0018 against .0023).
+//! Domain: F0 from 0 to 1, weights that go with it; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+
+use crate::language::methods::affine::Affine;
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::schlick::to_white;
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, InputSource, Inputs};
+use crate::language::methods::known::{KnownSurface, each};
+use crate::language::methods::method::{
+    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+};
+use crate::language::methods::origin::Origin;
+
+/// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
+pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];
+
+/// The curves b1, b2 and b3 over 1 - c, by powers of r: least largest errors by a linear program, to seven digits.
+const CURVES: [[f64; 4]; 3] = [
+    [-0.013_613_34, -0.322_009_4, 1.603_441, -0.267_739_9],
+    [-0.727_217, 2.665_895, 4.683_322, -6.616_088],
+    [6.709_838, -48.357_06, 91.435_01, -49.805_98],
+];
+
+/// How fast r falls.
+const FALL: f64 = 3.0;
+
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const B2_WEIGHT: Input = Input::rgb(
+        "b2_weight",
+        "weight of the second curve, solved at 82.64 degrees",
+        [-1000.0, 1000.0],
+        InputSource::Material(|known| each(|i| weights_of(known, i)[0])),
+    )
+    .tried(&[0.0, -0.3, 0.2])
+    .scanned(&[-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0]);
+
+    pub const B3_WEIGHT: Input = Input::rgb(
+        "b3_weight",
+        "weight of the third curve, solved at 64.38 degrees",
+        [-1000.0, 1000.0],
+        InputSource::Material(|known| each(|i| weights_of(known, i)[1])),
+    )
+    .tried(Input::B2_WEIGHT.tried)
+    .scanned(Input::B2_WEIGHT.scanned);
+}
+
+fn weights_of(known: &KnownSurface, i: usize) -> [f64; 2] {
+    belcour_weights(known.f0[i], known.belcour.map(|seen| seen[i]))
+}
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "belcour_decomposition",
+    summary: "Belcour's four shared curves, two of them weighted",
+    formula: &[
+        "F = f0 + (1 - f0) b1 + b2_weight b2 + b3_weight b3, limited to [0, 1]",
+        "b_i = (1 - c) (a0 + r (a1 + r (a2 + r a3))), r = 1 / (1 + 3 c)",
+    ],
+    source: Citation {
+        authors: "Belcour, Bati, Barla",
+        title: "Bringing an Accurate Fresnel to Real-Time Rendering: a Preintegrable Decomposition",
+        place: "ACM SIGGRAPH 2020 Talks",
+        year: 2020,
+        link: "https://blog.selfshadow.com/publications/s2020-shading-course/",
+    },
+    origin: Origin::Adapted("the polynomials that follow its tables are fresnel-gen's"),
+    inputs: &[Input::F0, Input::B2_WEIGHT, Input::B3_WEIGHT],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "weights solved for f0; limited to [0, 1]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0043,
+                at_degrees: 87.8,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.024,
+                at_degrees: 87.3,
+            },
+        ],
+        code_ulp: 11.5,
+        code_over: Over::Metals,
+        colours: Colours::within(8e-6),
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_over(
+        0.0035,
+        Over::Metals,
+        "for what is nearly matched, where weights are large, off by .008",
+    )
+    .materials_within(0.0036),
+    build,
+    for_constants: Some(for_constants),
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "1 - f0", "b2_weight", "b3_weight"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let [b1, others] = parts(x);
+    (to_white(x.get(Input::F0), b1) + others).saturate()
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (f0, [b1, others]) = (x.get(Input::F0), parts(x));
+    (f0 + (1.0 - f0) * b1 + others).saturate()
+}
+
+/// The weight of white, and the two curves that are weighted.
+fn parts<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
+    let c = x.cosine();
+    let m = (1.0 - c).named("m", "0 at normal incidence, 1 at grazing");
+    let r = (1.0 / (1.0 + FALL * c)).named("r", "");
+    let curve = |i: usize| {
+        let [a0, a1, a2, a3] = CURVES[i];
+        let curve = m * (a0 + r * (a1 + r * (a2 + r * a3)));
+        curve.named(["b1", "b2", "b3"][i], "")
+    };
+    let second = x.get(Input::B2_WEIGHT) * curve(1);
+    let third = x.get(Input::B3_WEIGHT) * curve(2);
+    [curve(0), second + third]
+}
+
+/// The weights with which reflectance at [`BELCOUR_COSINES`] is met, for one channel: two linear equations.
+pub fn belcour_weights(f0: f64, wanted: [f64; 2]) -> [f64; 2] {
+    let [first, second] = BELCOUR_COSINES.map(curves_at);
+    let left = |wanted: f64, curves: [f64; 3]| wanted - f0 - (1.0 - f0) * curves[0];
+    let (p, q) = (left(wanted[0], first), left(wanted[1], second));
+    let whole = first[1] * second[2] - first[2] * second[1];
+    [
+        (p * second[2] - q * first[2]) / whole,
+        (q * first[1] - p * second[1]) / whole,
+    ]
+}
+
+fn curves_at(c: f64) -> [f64; 3] {
+    let r = 1.0 / (1.0 + FALL * c);
+    CURVES.map(|[a0, a1, a2, a3]| (1.0 - c) * (a0 + r * (a1 + r * (a2 + r * a3))))
+}
+
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let [second, third] = [Input::B2_WEIGHT, Input::B3_WEIGHT].map(|weight| x.get(weight));
+    vec![f0, 1.0 - f0, second, third]
+}
+
+/// What these are multiplied by, in f64.
+fn affine_weights(c: f64) -> [f64; 4] {
+    let [b1, b2, b3] = curves_at(c);
+    [1.0, b1, b2, b3]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BELCOUR_COSINES, METHOD, belcour_weights};
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_begins_at_f0_and_is_limited() {
+        check(&METHOD, 1.0, &[0.04, 0.5, 0.25], 0.04);
+        check(&METHOD, 0.5, &[0.04, 4.0, 0.0], 1.0);
+        check(&METHOD, 0.5, &[0.04, -4.0, 0.0], 0.0);
+    }
+
+    #[test]
+    fn weights_meet_what_they_are_solved_for() {
+        let wanted = [0.55, 0.21];
+        let [b2, b3] = belcour_weights(0.17, wanted);
+        for (cosine, wanted) in BELCOUR_COSINES.into_iter().zip(wanted) {
+            check(&METHOD, cosine, &[0.17, b2, b3], wanted);
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! `n = g (1-r)/(1+r) + (1-g) (1+√r)/(1-√r)`, `k² = (r (n+1)² - (n-1)²) / (1-r)`, then the exact law: reflectivity r
+//! and edge tint g in place of n and k.
+//!
+//! Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014, <https://jcgt.org/published/0003/04/03/>.
+//! k² is computed as (n_max - n)(n - 1/n_max), which is the same number: with √r (n+1) ± (n-1) factored,
+//! (1-√r)(1+√r) = 1-r goes against the divisor. Both factors are sums of positive terms, g (n_max - n_min) and
+//! (1-g)(n_max - n_min) + 2√r / (n_max (1+r)), so that nothing cancels.
+//! Domain: r in [0, 1), g in [0, 1]. r is limited to 0.999, because n_max is singular at 1: F0 above it is lowered by
+//! at most .001. Error: none where n and k give r and g; [`METHOD`]'s claims hold with both derived from n and k.
+
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+use crate::physics::num::each_channel;
+use crate::physics::optics;
+
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::conductor_exact::{
+    self, conductor, least_squared, root_or_zero,
+};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{
+    Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND,
+};
+use crate::language::methods::known::each;
+use crate::language::methods::method::{
+    Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values,
+};
+use crate::language::methods::origin::Origin;
+
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const REFLECTIVITY: Input = Input::rgb(
+        "reflectivity",
+        "reflectance at normal incidence, linear",
+        [0.0, 1.0],
+        InputSource::Material(|known| each(|i| optics::normal_incidence(known.n[i], known.k[i]))),
+    )
+    .tried(&[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0])
+    .scanned(Input::F0.scanned);
+
+    pub const EDGE_TINT: Input = Input::rgb(
+        "edge_tint",
+        "1 for the least n that the reflectivity allows, 0 for the most",
+        [0.0, 1.0],
+        InputSource::Material(|known| each(|i| edge_tint(known.n[i], known.k[i]))),
+    )
+    .tried(SHARES)
+    .scanned(SHARES_AND_BEYOND);
+}
+
+/// Gulbrandsen's g: where n lies between the most (0) and the least (1) that F0 allows.
+fn edge_tint(n: f64, k: f64) -> f64 {
+    let r = optics::normal_incidence(n, k);
+    let (most, least) = ((1.0 + r.sqrt()) / (1.0 - r.sqrt()), (1.0 - r) / (1.0 + r));
+    if most == least {
+        0.0
+    } else {
+        ((most - n) / (most - least)).clamp(0.0, 1.0)
+    }
+}
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "conductor_artistic",
+    summary: "the exact law for conductors from reflectivity and edge tint",
+    formula: &[
+        "n = g (1 - r) / (1 + r) + (1 - g) (1 + sqrt(r)) / (1 - sqrt(r)), k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r)",
+        "r = min(reflectivity, 0.999), g = edge_tint; then conductor_exact(cos_theta, n, k)",
+    ],
+    source: Citation {
+        authors: "Gulbrandsen",
+        title: "Artist Friendly Metallic Fresnel",
+        place: "Journal of Computer Graphics Techniques 3(4), 64-72",
+        year: 2014,
+        link: "https://jcgt.org/published/0003/04/03/",
+    },
+    origin: Origin::Published,
+    inputs: &[Input::REFLECTIVITY, Input::EDGE_TINT],
+    forms: Forms::Colour,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Metals,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }],
+        code_ulp: 9.5,
+        code_over: Over::Metals,
+        colours: Some(Colours {
+            max_abs: 3e-6,
+            ends: &[(
+                "reflectivity",
+                Range {
+                    least: 0.001,
+                    most: 1.0,
+                },
+            )],
+            beyond: "below, where n is next to 1, digits go as those of n - 1 do",
+        }),
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::Specialised(
+        "the square of n_max = (1 + sqrt(r))^2 / (1 - r) overflows where r is above 0.984, as silver's red is",
+    ),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: Some(solved),
+    shape: None,
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let r = x
+        .get(Input::REFLECTIVITY)
+        .at_least(least_squared(x.precision()))
+        .at_most(0.999)
+        .named("facing", "n_max is singular at 1");
+    let g = x.get(Input::EDGE_TINT).saturate().named("edge", "");
+    let r_more = (1.0 + r).named("r_more", "");
+    let lack = (1.0 - r).named("lack", "");
+    let least = (lack / r_more).named("n_min", "the least n that r allows");
+    let root = r.sqrt().named("root", "");
+    let more = (1.0 + root).named("root_more", "");
+    let most = (more.squared() / lack).named("n_max", "the most, where k = 0");
+    let span = (most - least).named("span", "");
+    let above = ((1.0 - g) * span).named("above", "n - n_min");
+    let n = (least + above).named("n", "");
+    let gap = 2.0 * root / (most * r_more);
+    let k2 = g * span * (above + gap);
+    let k2 = k2.named("k2", "(n_max - n)(n - 1 / n_max), in positive terms");
+    let k = root_or_zero(x.precision(), k2).named("k", "0 where k2 is 0, by any arithmetic");
+    conductor(x.precision(), x.cosine(), n, k)
+}
+
+/// n and k in f64.
+fn solved(values: &Values) -> Option<(&'static Method, Values)> {
+    let index = |i: usize| {
+        let r = values["reflectivity"][i].clamp(0.0, 0.999);
+        let g = values["edge_tint"][i].clamp(0.0, 1.0);
+        let (least, most) = ((1.0 - r) / (1.0 + r), (1.0 + r.sqrt()).powi(2) / (1.0 - r));
+        let above = (1.0 - g) * (most - least);
+        let gap = 2.0 * r.sqrt() / (most * (1.0 + r));
+        (least + above, (g * (most - least) * (above + gap)).sqrt())
+    };
+    let index = each_channel(index);
+    Some(conductor_exact::with(
+        index.map(|(n, _)| n),
+        index.map(|(_, k)| k),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_meets_the_reflectivity_whatever_the_tint() {
+        for g in [0.0, 0.3, 1.0] {
+            check(&METHOD, 1.0, &[0.7, g], 0.7);
+            check(&METHOD, 0.0, &[0.7, g], 1.0);
+        }
+    }
+
+    #[test]
+    fn an_edge_tint_of_zero_is_a_dielectric() {
+        check(
+            &METHOD,
+            0.5,
+            &[0.04, 0.0],
+            crate::physics::optics::dielectric(1.5, 0.5).unpolarised(),
+        );
+    }
+}

@@ -1,0 +1,260 @@
+//! `F = R_s x / (x + u s²)`, with `s² = 1-c²`, `τ = (n-1)(n+1)-k²`, `t = τ+c²`, `r = √(t²+4n²k²)`, `u = 2ac`,
+//! `x = r c²+s⁴`: the exact law for conductors, in a form that stays stable where k → 0 and at grazing.
+//!
+//! Source: the a, b form of Glassner, "Principles of Digital Image Synthesis", 1995,
+//! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>, rearranged so that no
+//! difference of nearly equal numbers is left: a² = ½(r+t) cancels where t < 0, so there a = nk / √(½(r-t));
+//! where t ≥ 0, R_s = ((a-c)²+b²) / ((a+c)²+b²) takes (a-c)² as T²/E with T = τ+b² = a²-c² and E = (a+c)².
+//! Merging R_s and R_p into one quotient gives F without adding the two.
+//! In half precision it is F = (1 - 2u/(r+c²+u)) (1 - us²/(x+us²)): only the absolute error counts there, so that no branch
+//! is needed, and where F is near 1 little is subtracted. r is the larger of |t| and 2nk times √(1+ratio²), since t²
+//! overflows for k ≥ 16.
+//! Domain: n from 0.001 to 1e9, k from 0 to 1e9 (from 3e9 on 4n²k² overflows); k = 0 is the dielectric; n = 1, k = 0 gives 0.
+//! Error: none in the model; the code error is [`METHOD`]'s claim.
+
+use std::collections::BTreeMap;
+
+use crate::language::ir::{Expr, USED_TWICE};
+use crate::physics::num::Precision;
+
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
+use crate::language::methods::formulas::dielectric_exact;
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Contract, Forms, Light, Method, Over, Values,
+};
+use crate::language::methods::origin::Origin;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "conductor_exact",
+    summary: "the exact law for conductors, stable at small k and at grazing",
+    formula: &[
+        "t = (n - 1)(n + 1) - k^2 + c^2, r = sqrt(t^2 + 4 n^2 k^2), a^2 = (r + t) / 2, u = 2 a c",
+        "R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, s^2 = 1 - c^2, F = R_s x / (x + u s^2)",
+    ],
+    source: GLASSNER_1995,
+    origin: Origin::Published,
+    inputs: &[Input::N, Input::K],
+    forms: Forms::Colour,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n = k = 3e9 on it overflows",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0,
+                at_degrees: 0.0,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0,
+                at_degrees: 0.0,
+            },
+        ],
+        code_ulp: 7.5,
+        code_over: Over::Wide,
+        colours: None,
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_but(0.0015, "for n below 1 with k near 0 see dielectric_exact")
+        .ending(&[("n", 180.0), ("k", 180.0)]),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: Some(plain),
+    replacement: Some(clear),
+    shape: None,
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    conductor(x.precision(), x.cosine(), x.get(Input::N), x.get(Input::K))
+}
+
+/// Below this k, well above n = 1, the square of k is all that counts of it: a reflectance changes by less than 1e-11.
+/// Indices found from colours have as much by rounding.
+const CLEAR: f64 = 1e-6;
+const WELL_ABOVE: f64 = 1.2;
+
+/// What a root is of at the least in single precision: near the smallest normal f32.
+const SMALLEST: f64 = 1e-37;
+
+/// What does not absorb is a dielectric, whose law is shorter.
+fn clear(values: &Values) -> Option<(&'static Method, Values)> {
+    let (n, k) = (values["n"], values["k"]);
+    let is_clear = |i: usize| k[i] == 0.0 || k[i] <= CLEAR && n[i] >= WELL_ABOVE;
+    (0..3).all(is_clear).then(|| {
+        (
+            &dielectric_exact::METHOD,
+            BTreeMap::from([("eta".to_owned(), values["n"])]),
+        )
+    })
+}
+
+/// With constants at hand the general law is as cheap, and right for any k.
+pub(super) fn as_it_is(values: &Values) -> Option<(&'static Method, Values)> {
+    Some((&METHOD, values.clone()))
+}
+
+/// This method with these constants.
+pub(super) fn with(n: [f64; 3], k: [f64; 3]) -> (&'static Method, Values) {
+    (
+        &METHOD,
+        BTreeMap::from([("n".to_owned(), n), ("k".to_owned(), k)]),
+    )
+}
+
+/// The exact law, for methods that find n and k in their own way.
+pub(super) fn conductor<'b>(
+    precision: Precision,
+    c: Expr<'b>,
+    n: Expr<'b>,
+    k: Expr<'b>,
+) -> Expr<'b> {
+    if precision.is_half() {
+        half(c, n, k)
+    } else {
+        single(c, n, k)
+    }
+}
+
+/// The steps that all forms share.
+struct Steps<'b> {
+    c2: Expr<'b>,
+    s2: Expr<'b>,
+    tau: Expr<'b>,
+    nk: Expr<'b>,
+    /// τ + c², whose sign says which of a and b is the larger.
+    t: Expr<'b>,
+}
+
+fn steps<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Steps<'b> {
+    let c2 = c.squared().named("c2", "");
+    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
+    let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
+    let nk = (n * k).named("nk", "");
+    let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+    Steps { c2, s2, tau, nk, t }
+}
+
+/// `R_s x / (x + u s²)`, in single precision. Fused products and quotients by reciprocals could bring it above 1 by two units in the
+/// last place; the limit costs nothing on GPUs.
+fn merged<'b>(r_s: Expr<'b>, r: Expr<'b>, u: Expr<'b>, c2: Expr<'b>, s2: Expr<'b>) -> Expr<'b> {
+    let x = (r * c2 + s2.squared()).named("x", "");
+    (r_s * (x / (x + u * s2).at_least(1e-37))).saturate()
+}
+
+/// What a root is of at the least in code of this precision.
+pub(super) fn least_squared(precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => SMALLEST,
+        Precision::F16 => precision.smallest(),
+    }
+}
+
+/// √x that is 0 at 0 where a compiler has `x / √x` for it, too.
+pub(super) fn root_or_zero(precision: Precision, x: Expr<'_>) -> Expr<'_> {
+    x * x.at_least(least_squared(precision)).inverse_sqrt()
+}
+
+fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let zero = c.builder().number(0.0);
+    let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
+    // Where t rounds to 0 and the square of n k underflows (k below 1e-19), r and the larger would be 0: roots that compilers
+    // take as x / sqrt(x) would be NaN, and a quotient anything.
+    let r = (t.squared() + 4.0 * nk.squared())
+        .at_least(SMALLEST)
+        .sqrt()
+        .named("r", "a^2 + b^2");
+
+    let larger2 = (0.5 * (r + t.abs())).named("larger2", USED_TWICE);
+    let larger = larger2.sqrt().named("larger", "the larger of a and b");
+    let smaller = (nk / larger).named("smaller", "the other one, since a b = n k");
+    let a = t
+        .choose_below(zero, smaller, larger)
+        .named("a", "no cancellation on either side of t = 0");
+    let u = (2.0 * a * c).named("u", "");
+
+    let sum = (r + c2).named("sum", "");
+    let metal = ((sum - u) / (sum + u)).named("r_s_metal", "R_s where t < 0");
+    let b2 = smaller.squared().named("b2", "");
+    let gap = (tau + b2).named("gap", "a^2 - c^2");
+    let e = (gap + 2.0 * c * (a + c)).named("e", "(a + c)^2");
+    let gap2 = (gap * (gap / e.at_least(1e-37))).named("gap2", "(a - c)^2, as gap^2 / e");
+    let glass = (gap2 + b2) / (e + b2).at_least(1e-37);
+    let glass = glass.named("r_s_glass", "R_s where t >= 0");
+    let r_s = t.choose_below(zero, metal, glass).named("r_s", "");
+
+    merged(r_s, r, u, c2, s2)
+}
+
+fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let tiny = Precision::F16.smallest();
+    let number = |value: f64| c.builder().number(value);
+    let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
+
+    let (size, twice) = (t.abs().named("size", ""), (2.0 * nk).named("nk2", ""));
+    let most = size.max(twice).named("most", "");
+    let ratio = size.min(twice) / most.at_least(tiny);
+    let ratio = ratio.named("ratio", "up to 1, where t^2 would overflow");
+    let r = (most * (1.0 + ratio.squared()).sqrt()).named("r", "a^2 + b^2");
+    let larger = (0.5 * (r + size)).sqrt();
+    let larger = larger.named("larger", "the larger of a and b");
+    let smaller = (nk / larger.at_least(tiny)).named("smaller", "the other one, since a b = n k");
+    let a = t.choose_below(number(0.0), smaller, larger).named("a", "");
+    let u = (2.0 * a * c).named("u", "");
+
+    let lost_s = 2.0 * u / (r + c2 + u).at_least(tiny);
+    let lost_s = lost_s.named("lost_s", "1 - R_s");
+    let us2 = (u * s2).named("us2", "");
+    let lost = us2 / (r * c2 + s2.squared() + us2).at_least(tiny);
+    let lost = lost.named("lost", "1 - F / R_s");
+    let f = ((1.0 - lost_s) * (1.0 - lost)).saturate();
+    let f = f.named(
+        "f",
+        "where next to nothing is reflected, rounding must not make it negative",
+    );
+    let apart = (tau.abs() + nk).named("apart", "0 where there is no interface");
+    apart.choose_below(number(tiny), number(0.0), f)
+}
+
+/// Where neither t < 0 nor a small reflectance makes a difference of nearly equal numbers: a as it stands in the books.
+fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
+    let Steps { c2, s2, nk, t, .. } = steps(c, n, k);
+    let r = (t.squared() + 4.0 * nk.squared()).sqrt();
+    let r = r.named("r", "a^2 + b^2");
+    let a = (0.5 * (r + t).at_least(SMALLEST)).sqrt().named("a", "");
+    let u = (2.0 * a * c).named("u", "");
+    let sum = (r + c2).named("sum", "");
+    let r_s = ((sum - u) / (sum + u)).named("r_s", "R_s");
+    merged(r_s, r, u, c2, s2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::{check, value};
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(&METHOD, 1.0, &[0.23, 3.94], 16.1165 / 17.0365);
+        check(&METHOD, 0.0, &[0.23, 3.94], 1.0);
+        check(&METHOD, 1.0, &[1.5, 0.0], 0.04);
+        check(&METHOD, 0.0, &[1.0001, 1e-300], 1.0);
+    }
+
+    #[test]
+    fn without_absorption_it_is_the_dielectric() {
+        use crate::language::methods::formulas::dielectric_exact::METHOD as DIELECTRIC;
+        for (c, eta) in [(0.3, 1.5), (0.01, 2.4), (0.9, 0.7), (0.5, 0.7), (0.0, 1.0)] {
+            check(&METHOD, c, &[eta, 0.0], value(&DIELECTRIC, c, &[eta]));
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! `F = R_s x / (x + u s²)`, with `s² = 1-c²`, `t = k²-n²+s²`, `r = √(t²+4n²k²)`, `u = 2ac`, `a = nk/b`, `b² = ½(r+t)`,
+//! `R_s = (r+c²-u)/(r+c²+u)`, `x = r c²+s⁴`: the exact law for metals, with n and k at run time.
+//!
+//! Source: the a, b form of Glassner, "Principles of Digital Image Synthesis", 1995,
+//! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>. `conductor_exact` serves any k: it computes a in two
+//! orders and chooses between them. A metal needs one: with t of k²-n²+s², b keeps its digits as long as k is not small beside n, and a
+//! follows from a b = n k. That halves the cost.
+//! Domain: n from 0.001, k from n / 4, both up to 1e9. With less k it loses digits, and fails as k → 0, where all is reflected: for
+//! semiconductors and glass take `conductor_exact`.
+//! Error: none in the model; the code error is [`METHOD`]'s claim.
+
+use crate::language::ir::Expr;
+
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::conductor_exact;
+use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use crate::language::methods::origin::Origin;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "conductor_exact_metal",
+    summary: "the exact law for metals, at half the cost; not for small k",
+    formula: &[
+        "t = k^2 - n^2 + s^2, r = sqrt(t^2 + 4 n^2 k^2), u = 2 c n k / sqrt((r + t) / 2), s^2 = 1 - c^2",
+        "R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, F = R_s x / (x + u s^2)",
+    ],
+    source: GLASSNER_1995,
+    origin: Origin::Published,
+    inputs: &[Input::N, Input::K],
+    forms: Forms::Colour,
+    class: Class::Metal,
+    light: Light::Unpolarised,
+    domain: "k of n / 4 and more; with less it loses digits, and near k = 0 it is wrong: there conductor_exact serves",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Metals,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }],
+        code_ulp: 0.0,
+        code_over: Over::Metals,
+        colours: None,
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::Specialised("t squared overflows for k of 16 and more"),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: Some(conductor_exact::as_it_is),
+    shape: None,
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
+    let smallest = conductor_exact::least_squared(x.precision());
+    let c2 = c.squared().named("c2", "");
+    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
+    let t = (k.squared() + s2 - n.squared()).named("t", "k^2 - n^2 + sin^2 theta");
+    let twice = (2.0 * n * k).named("nk2", "");
+    // Added, not compared: a GPU adds with the product. Compilers have x / sqrt(x) for a root, which is NaN at 0.
+    let r = (t.squared() + (twice.squared() + smallest)).sqrt();
+    let r = r.named("r", "a^2 + b^2, above 0");
+    let b2 = (r + t).at_least(smallest).named("b2", "2 b^2");
+    let u = std::f64::consts::SQRT_2 * c * (twice * b2.inverse_sqrt());
+    let u = u.named("u", "2 a c, since a b = n k");
+    let sum = (r + c2).named("sum", "");
+    let r_s = (1.0 - 2.0 * u / (sum + u))
+        .named("r_s", "R_s, without a difference that rounds twice near 1");
+    let whole = (r * c2 + s2.squared()).named("x", "");
+    (r_s * (whole / (whole + u * s2))).saturate()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{METHOD, conductor_exact};
+    use crate::language::methods::limits::{check, value};
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(&METHOD, 1.0, &[0.23, 3.94], 16.1165 / 17.0365);
+        check(&METHOD, 0.0, &[0.23, 3.94], 1.0);
+    }
+
+    /// Silver, platinum, tungsten, and the end of the domain.
+    #[test]
+    fn it_is_the_law_for_conductors() {
+        for (n, k) in [(0.13, 3.2), (2.3, 4.1), (3.5, 2.7), (4.0, 1.0)] {
+            for c in [0.0, 0.02, 0.3, 0.7, 1.0] {
+                check(
+                    &METHOD,
+                    c,
+                    &[n, k],
+                    value(&conductor_exact::METHOD, c, &[n, k]),
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! `F = F0`: one reflectance for every angle, no Fresnel at all.
+//!
+//! Source: Hoffman, "Background: Physics and Math of Shading", SIGGRAPH course, 2013,
+//! <https://blog.selfshadow.com/publications/s2013-shading-course/>, which takes F(0°) as a material's characteristic
+//! reflectance, since F stays close to it at most angles; Schlick's formula without its angular term.
+//! Domain: F0 ≥ 0; above 1 it is taken as it is. Error: 1 - F0 at 90 degrees; see [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+
+use crate::language::methods::affine::Affine;
+use crate::language::methods::class::Class;
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+};
+use crate::language::methods::origin::Origin;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "constant_f0",
+    summary: "F0 at every angle: no Fresnel at all",
+    formula: &["F = F0"],
+    source: Citation {
+        authors: "Hoffman",
+        title: "Background: Physics and Math of Shading",
+        place: "SIGGRAPH course Physically Based Shading in Theory and Practice",
+        year: 2013,
+        link: "https://blog.selfshadow.com/publications/s2013-shading-course/",
+    },
+    origin: Origin::Published,
+    inputs: &[Input::F0],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "the result is f0, also above 1 and at 90 degrees, where the law reflects everything",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.983,
+                at_degrees: 90.0,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.714,
+                at_degrees: 90.0,
+            },
+        ],
+        code_ulp: 0.0,
+        code_over: Over::Wide,
+        colours: Colours::within(0.0),
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within(0.0),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: None,
+    affine: Some(Affine {
+        numbers: &["f0"],
+        build: |x| vec![x.get(Input::F0)],
+        weights: |_| [1.0, 0.0, 0.0, 0.0],
+    }),
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    x.get(Input::F0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_is_f0_at_every_angle() {
+        check(&METHOD, 1.0, &[0.04], 0.04);
+        check(&METHOD, 0.0, &[0.04], 0.04);
+        check(&METHOD, -3.0, &[1.05], 1.05);
+    }
+
+    #[test]
+    fn it_computes_nothing() {
+        let function = METHOD.function(false).expect("it is well formed");
+        assert_eq!(function.work(), 0);
+    }
+}

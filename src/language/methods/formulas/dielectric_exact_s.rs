@@ -1,0 +1,69 @@
+//! `F_s = (τ / u²)²`: the exact law for dielectrics and light polarised across the plane of incidence.
+//!
+//! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
+//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number. Error: none in the model.
+
+use crate::language::ir::Expr;
+
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use crate::language::methods::origin::Origin;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "dielectric_exact_s",
+    summary: "the exact law for dielectrics, s-polarised light",
+    formula: &[
+        "t = (eta - 1)(eta + 1), u = sqrt(t + c^2) + c, F = (t / u^2)^2; 1 where t + c^2 < 0",
+    ],
+    source: COOK_TORRANCE_1982,
+    origin: Origin::Published,
+    inputs: &[Input::ETA],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    light: Light::S,
+    domain: "on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for the number next to its cosine, where rounding decides: 0.998 or more",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }],
+        code_ulp: 0.0,
+        code_over: Over::Wide,
+        colours: None,
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: None,
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let steps = steps(x);
+    steps.reflected(steps.s())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_meets_its_limits() {
+        check(&METHOD, 1.0, &[1.5], 0.04);
+        check(&METHOD, 0.0, &[1.5], 1.0);
+        check(&METHOD, 0.5, &[1.0], 0.0);
+        check(&METHOD, 0.5, &[0.5], 1.0);
+    }
+}

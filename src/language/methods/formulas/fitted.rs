@@ -1,0 +1,106 @@
+//! `F = c0 + b (c1 + b (c2 + b c3))`, `b = 2^(-6.5 cos θ)`: four coefficients a channel.
+//!
+//! Source: ours, by the exchange of Stiefel, "Über diskrete und lineare Tschebyscheff-Approximationen", 1959,
+//! <https://doi.org/10.1007/BF01386369>. The coefficients minimise the largest error over all angles (`fit`),
+//! for whatever F is: a spectrum seen in any space. Being linear they can be blended, filtered and interpolated as colours are.
+//! The base and its 6.5 are what a search found for metals and semiconductors.
+//! In half precision rounding alone is off by about .001, the floor of the type: coefficients are rounded in the fit, so that
+//! the others make up for each (`fit --precision f16`), and the formula loses at most what is promised.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+
+use crate::language::methods::by_class::ByClass;
+use crate::language::methods::class::Class;
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use crate::language::methods::origin::Origin;
+use crate::language::methods::shape::{Factor, Shape};
+
+/// Where the exchange comes from that finds the coefficients of all fitted methods.
+pub const STIEFEL_1959: Citation = Citation {
+    authors: "Stiefel",
+    title: "Ueber diskrete und lineare Tschebyscheff-Approximationen",
+    place: "Numerische Mathematik 1, 1-28",
+    year: 1959,
+    link: "https://doi.org/10.1007/BF01386369",
+};
+
+/// What half precision asks of whoever calls them, and where it fails.
+pub(super) const FLOOR: &str = "take coefficients that were fitted for half precision; near n = 1 large ones cancel, and up to .01 is lost, of five terms .1";
+
+/// The shape; of all a in steps of a half, 6.5 has the least 90th percentile over metals and semiconductors.
+const SHAPE: Shape = Shape {
+    factors: &[Factor::Exponential(6.5); 3],
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted",
+    summary: "four coefficients fitted to a metal or semiconductor",
+    formula: &["F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]"],
+    source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "limited to [0, 1]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0038,
+                at_degrees: 53.9,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0085,
+                at_degrees: 81.5,
+            },
+        ],
+        code_ulp: 0.0,
+        code_over: Over::Metals,
+        colours: None,
+        by_class: &[
+            ByClass::of_class("metal", [0.0020, 0.0030], [0.0019, 0.0118], 0.0032),
+            ByClass::of_class("semiconductor", [0.0040, 0.0052], [0.0036, 0.0066], 0.0064),
+            ByClass::of_class("dielectric", [0.0036, 0.0038], [0.0030, 0.0037], 0.0038),
+        ],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: Some(SHAPE),
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_is_the_sum_at_grazing_and_limited() {
+        check(&METHOD, 0.0, &[0.5, 0.25, 0.125, 0.0625], 0.9375);
+        check(&METHOD, 0.0, &[0.5, 0.5, 0.5, 0.5], 1.0);
+        check(&METHOD, 0.0, &[-0.5, 0.0, 0.0, 0.0], 0.0);
+        check(
+            &METHOD,
+            2.0 / 6.5,
+            &[0.5, 1.0, 1.0, 1.0],
+            0.5 + 0.25 + 0.0625 + 0.015625,
+        );
+    }
+}

@@ -1,0 +1,85 @@
+//! `F = c0 + w (c1 + w (c2 + c c3))`, `w = (1 - c)² / (1 + 4c)`: four coefficients a channel for dielectrics, with a division.
+//!
+//! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. The search over
+//! nests of cheap factors (`fit --search --terms 4`) found the shape for dielectrics.
+//! Beside [`fitted_dielectric`](crate::language::methods::formulas::fitted_dielectric) it errs less, and costs less where a division is cheap, as on phones; more on GCN.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+
+use crate::language::methods::by_class::ByClass;
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use crate::language::methods::origin::Origin;
+use crate::language::methods::shape::{Factor, Shape};
+
+/// The shape.
+const SHAPE: Shape = Shape {
+    factors: &[Factor::Bent(4.0), Factor::Bent(4.0), Factor::Cosine],
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted_dielectric_rational",
+    summary: "four coefficients fitted to a dielectric of n 1.2 or more, with a division",
+    formula: &["F = c0 + w (c1 + w (c2 + c c3)), w = (1 - c)^2 / (1 + 4 c), limited to [0, 1]"],
+    source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    light: Light::Unpolarised,
+    domain: "limited to [0, 1]",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.0011,
+            at_degrees: 59.2,
+        }],
+        code_ulp: 7.0,
+        code_over: Over::Dielectrics,
+        colours: None,
+        by_class: &[ByClass::of_class(
+            "dielectric",
+            [0.0004, 0.0009],
+            [0.0004, 0.0005],
+            0.0009,
+        )],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_over(0.0025, Over::Dielectrics, FLOOR).materials_within(0.0025),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: Some(SHAPE),
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_begins_at_c0_and_ends_without_c3() {
+        check(&METHOD, 1.0, &[0.04, 0.5, 0.25, 0.125], 0.04);
+        check(&METHOD, 0.0, &[0.04, 0.5, 0.25, 0.125], 0.79);
+        // w is 1/12.
+        check(
+            &METHOD,
+            0.5,
+            &[0.25, 0.6, 1.2, 2.4],
+            0.25 + (0.6 + 2.4 / 12.0) / 12.0,
+        );
+    }
+}

@@ -1,0 +1,95 @@
+//! `F = c0 + b (c1 + q (c2 + b (c3 + c c4)))`, `b = 2^(-11 c)`, `q = c² + .094`, c = cos θ: five coefficients a channel.
+//!
+//! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>: one
+//! coefficient more, a quarter of the error. The nest and its constants are what a search among products of
+//! cheap factors found for Adreno 330, where it costs no more than four coefficients do. Coefficients reach some hundreds and
+//! cancel: single precision has digits enough, half has not.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+
+use crate::language::methods::by_class::ByClass;
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use crate::language::methods::origin::Origin;
+use crate::language::methods::shape::{Factor, Shape};
+
+/// The shape.
+const SHAPE: Shape = Shape {
+    factors: &[
+        Factor::Exponential(11.0),
+        Factor::Square(0.094),
+        Factor::Exponential(11.0),
+        Factor::Cosine,
+    ],
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted_five",
+    summary: "five coefficients fitted to a metal or semiconductor",
+    formula: &[
+        "F = c0 + b (c1 + q (c2 + b (c3 + c c4))), limited to [0, 1]",
+        "b = 2^(-11 c), q = c^2 + 0.094",
+    ],
+    source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
+    inputs: &Input::COEFFICIENTS,
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "limited to [0, 1]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0016,
+                at_degrees: 74.4,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0023,
+                at_degrees: 23.8,
+            },
+        ],
+        code_ulp: 8.0,
+        code_over: Over::Metals,
+        colours: None,
+        by_class: &[
+            ByClass::of_class("metal", [0.0006, 0.0011], [0.0006, 0.0071], 0.0012),
+            ByClass::of_class("semiconductor", [0.0005, 0.0005], [0.0006, 0.0008], 0.0008),
+            ByClass::of_class("dielectric", [0.0015, 0.0015], [0.0013, 0.0015], 0.0015),
+        ],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(0.0026),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: Some(SHAPE),
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_begins_near_c0_and_ends_at_a_sum() {
+        // 2^-11 of what is within the brackets is left at normal incidence.
+        check(&METHOD, 1.0, &[0.5, 0.0, 0.0, 0.0, 0.0], 0.5);
+        check(&METHOD, 1.0, &[0.0, 1024.0, 0.0, 0.0, 0.0], 0.5);
+        check(&METHOD, 0.0, &[0.5, 0.25, 0.0, 0.0, 7.0], 0.75);
+    }
+}

@@ -1,0 +1,95 @@
+//! `F = c0 + a (c1 + r (c2 + q c3))`, `r = 1 / (c + .144)`, `q = √r`, `a = 1 / (c² + .112) - q`, c = cos θ: four coefficients a
+//! channel, without an exponential.
+//!
+//! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. The nest and
+//! its constants are what a search among products of cheap factors found for Mali-G72, where an exponential is dear: half a
+//! bundle above Schlick. On others [`fitted`](crate::language::methods::formulas::fitted) is cheaper, and no worse.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+
+use crate::language::methods::by_class::ByClass;
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use crate::language::methods::origin::Origin;
+use crate::language::methods::shape::{Factor, Shape};
+
+/// The shape.
+const SHAPE: Shape = Shape {
+    factors: &[
+        Factor::Peak(0.112, 0.144),
+        Factor::Reciprocal(0.144),
+        Factor::Root(0.144),
+    ],
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted_rational",
+    summary: "four coefficients fitted to a metal or semiconductor, without an exponential",
+    formula: &[
+        "F = c0 + a (c1 + r (c2 + q c3)), limited to [0, 1]",
+        "r = 1 / (c + 0.144), q = sqrt(r), a = 1 / (c^2 + 0.112) - q",
+    ],
+    source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "limited to [0, 1]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0034,
+                at_degrees: 48.4,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0098,
+                at_degrees: 64.8,
+            },
+        ],
+        code_ulp: 8.5,
+        code_over: Over::Metals,
+        colours: None,
+        by_class: &[
+            ByClass::of_class("metal", [0.0022, 0.0036], [0.0023, 0.0100], 0.0037),
+            ByClass::of_class("semiconductor", [0.0027, 0.0039], [0.0026, 0.0056], 0.0054),
+            ByClass::of_class("dielectric", [0.0030, 0.0033], [0.0030, 0.0033], 0.0033),
+        ],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(0.003),
+    build,
+    for_constants: None,
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: Some(SHAPE),
+    affine: None,
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_is_c0_and_what_its_factors_add() {
+        check(&METHOD, 1.0, &[0.5, 0.0, 0.0, 0.0], 0.5);
+        // a is 1/.112 - 1/√.144 at grazing.
+        let a = 1.0 / 0.112 - 1.0 / 0.144_f64.sqrt();
+        check(&METHOD, 0.0, &[0.25, 0.5 / a, 0.0, 0.0], 0.75);
+        check(&METHOD, 0.0, &[0.25, 0.0, 0.5 * 0.144 / a, 0.0], 0.75);
+    }
+}

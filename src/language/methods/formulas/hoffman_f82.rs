@@ -1,0 +1,139 @@
+//! `F = F_S(c) - b c (1-c)⁶`, `b = (F_S(1/7) - F82) / (1/7 (6/7)⁶)`, F_S being Schlick's approximation: the curve goes
+//! through F82 at 81.79 degrees, where the term c (1-c)⁶ has its maximum.
+//!
+//! Source: Hoffman, "Fresnel Equations Considered Harmful", MAM workshop, 2019,
+//! <https://renderwonk.com/publications/mam2019/>.
+//! 1 / (1/7 (6/7)⁶) = 7⁷/6⁶ and F_S(1/7) = F0 + (1 - F0) (6/7)⁵, both exact.
+//! Domain: F0, F82 ≥ 0; limited to [0, 1]. Error: [`METHOD`]'s claims.
+
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+
+use crate::language::methods::affine::Affine;
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::schlick::{grazing_power, grazing_weight};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+};
+use crate::language::methods::origin::Origin;
+
+/// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
+const PEAK: f64 = 823_543.0 / 46_656.0;
+/// (6/7)⁵, Schlick's weight at cos θ = 1/7.
+pub(super) const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
+
+/// Hoffman 2019.
+pub(super) const HOFFMAN_2019: Citation = Citation {
+    authors: "Hoffman",
+    title: "Fresnel Equations Considered Harmful",
+    place: "Eurographics Workshop on Material Appearance Modeling",
+    year: 2019,
+    link: "https://renderwonk.com/publications/mam2019/",
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "hoffman_f82",
+    summary: "Schlick's approximation corrected to the reflectance at 81.79 degrees",
+    formula: &[
+        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, limited to [0, 1]",
+        "b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)",
+    ],
+    source: HOFFMAN_2019,
+    origin: Origin::Published,
+    inputs: &[Input::F0, Input::F82],
+    forms: Forms::Colour,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "the result is limited to [0, 1], of f0 above 1 too",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0341,
+                at_degrees: 67.8,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0837,
+                at_degrees: 87.3,
+            },
+        ],
+        code_ulp: 6.0,
+        code_over: Over::Wide,
+        colours: Colours::within(5e-7),
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within(0.0017),
+    build,
+    for_constants: Some(for_constants),
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 7776 / 16807)"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let m5 = grazing_weight(x);
+    let b = (PEAK * dip(x.cosine(), m5)).named("b", "the weight of f82: 1 at 81.79 degrees");
+    let a =
+        (m5 - WEIGHT_82 * b).named("a", "the weight of white: 1 at grazing, 0 at 81.79 degrees");
+    between(x, a, b)
+}
+
+/// `F0 (1 - a - b) + F82 b + a`, limited to [0, 1]: what is affine in F0 and F82 and leaves white white. The weights are numbers that
+/// channels share.
+pub(super) fn between<'b>(x: &Inputs<'b>, a: Expr<'b>, b: Expr<'b>) -> Expr<'b> {
+    let rest = (1.0 - a - b).named("kept", "the weight of f0");
+    let bare = x.get(Input::F0) * rest + (x.get(Input::F82) * b + a);
+    bare.saturate()
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    let rise = (1.0 - f0).named("rise", "");
+    let b = (PEAK * (f0 + rise * WEIGHT_82 - f82)).named("b", "the depth of the dip");
+    let m5 = grazing_weight(x);
+    let bare = (f0 + rise * m5 - b * dip(x.cosine(), m5)).named("bare", "Schlick less the dip");
+    bare.saturate()
+}
+
+/// `c (1-c)⁶`, from the fifth power that is there already.
+pub(super) fn dip<'b>(c: Expr<'b>, m5: Expr<'b>) -> Expr<'b> {
+    c * (m5 * (1.0 - c))
+}
+
+/// F0, the rise to white, and how far F82 lies from Schlick's value.
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let rise = (1.0 - f0).named("rise", "");
+    vec![f0, rise, x.get(Input::F82) - (f0 + WEIGHT_82 * rise)]
+}
+
+/// What these are multiplied by in f64; the last is 1 at 81.79 degrees.
+pub(super) fn affine_weights(c: f64) -> [f64; 4] {
+    let m5 = grazing_power(c);
+    [1.0, m5, PEAK * c * (1.0 - c) * m5, 0.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_meets_f0_f82_and_one() {
+        check(&METHOD, 1.0, &[0.6, 0.7], 0.6);
+        check(&METHOD, 1.0 / 7.0, &[0.6, 0.7], 0.7);
+        check(&METHOD, 0.0, &[0.6, 0.7], 1.0);
+    }
+}

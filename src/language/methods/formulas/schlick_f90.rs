@@ -1,0 +1,104 @@
+//! `F = F0 + (F90 - F0) (1 - cos θ)⁵`: Schlick's approximation with the reflectance at 90 degrees as an input.
+//!
+//! Source: Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering", SIGGRAPH course, 2014,
+//! <https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/>.
+//! Domain: F0 ≥ 0, F90 in [0, 1]; engines lower F90 for surfaces that are darker than any material, as occlusion.
+//! Error: that of `schlick` where F90 = 1.
+
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+
+use crate::language::methods::affine::Affine;
+use crate::language::methods::class::Class;
+use crate::language::methods::formulas::schlick::{affine_weights, grazing_weight};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+};
+use crate::language::methods::origin::Origin;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_f90",
+    summary: "Schlick's approximation between F0 and F90",
+    formula: &["F = F0 + (F90 - F0) (1 - cos_theta)^5"],
+    source: Citation {
+        authors: "Lagarde, de Rousiers",
+        title: "Moving Frostbite to Physically Based Rendering",
+        place: "SIGGRAPH course",
+        year: 2014,
+        link: "https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/",
+    },
+    origin: Origin::Published,
+    inputs: &[Input::F0, Input::F90],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0841,
+                at_degrees: 84.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.278,
+                at_degrees: 84.5,
+            },
+        ],
+        code_ulp: 5.0,
+        code_over: Over::Wide,
+        colours: Colours::within(3e-7),
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::within(0.0013),
+    build,
+    for_constants: Some(for_constants),
+    coefficients: None,
+    plain: None,
+    replacement: None,
+    shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "f90 - f0"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    to_f90(x, grazing_weight(x))
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let f0 = x.get(Input::F0);
+    f0 + (x.get(Input::F90) - f0) * grazing_weight(x)
+}
+
+/// `F0 + (F90 - F0) w` as `F0 (1 - w) + F90 w`: both factors are one number for three channels.
+pub(super) fn to_f90<'b>(x: &Inputs<'b>, weight: Expr<'b>) -> Expr<'b> {
+    let end = (x.get(Input::F90) * weight).named("end", "");
+    x.get(Input::F0) * (1.0 - weight).named("kept", "the weight of f0") + end
+}
+
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    vec![f0, x.get(Input::F90) - f0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::METHOD;
+    use crate::language::methods::limits::check;
+
+    #[test]
+    fn it_meets_f0_and_f90() {
+        check(&METHOD, 1.0, &[0.04, 0.5], 0.04);
+        check(&METHOD, 0.0, &[0.04, 0.5], 0.5);
+        check(&METHOD, 2.0, &[1.1, 1.0], 1.1);
+    }
+}
