@@ -54,9 +54,10 @@ fn work() -> ExitCode {
     match outcome {
         Ok(output) => {
             output.remarks.iter().for_each(|remark| say(remark));
-            let stdout = match output.is_file {
-                true => output.stdout,
-                false => legible(&String::from_utf8_lossy(&output.stdout)).into_bytes(),
+            let stdout = if output.is_file {
+                output.stdout
+            } else {
+                legible(&String::from_utf8_lossy(&output.stdout)).into_bytes()
             };
             ExitCode::from(printed(&stdout, output.code))
         }
@@ -170,9 +171,10 @@ fn printed(bytes: &[u8], code: u8) -> u8 {
     }
     let mut out = io::stdout().lock();
     let open = stdout::check().and_then(|()| out.write_all(bytes));
-    match is_failure(&open.and_then(|()| out.flush())) {
-        true => 2,
-        false => code,
+    if is_failure(&open.and_then(|()| out.flush())) {
+        2
+    } else {
+        code
     }
 }
 

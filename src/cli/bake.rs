@@ -6,8 +6,8 @@ use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{ReportFlags, TreeFlags};
 use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::generate::named;
+use crate::cli::output::{Output, Progress, reported};
 use crate::cli::places::{folder_or_current, refuse_within_tree, try_places};
-use crate::cli::run::{Output, Progress, reported};
 use crate::generator::bake::{
     ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest,
     TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
@@ -201,9 +201,10 @@ fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Resul
         layout,
         size: flags.size.unwrap_or(SPLIT_SUM_SIZE),
         axes: flags.split_sum_axes()?,
-        formats: match flags.format.is_empty() {
-            true => Vec::new(),
-            false => formats(flags),
+        formats: if flags.format.is_empty() {
+            Vec::new()
+        } else {
+            formats(flags)
         },
     };
     try_places(flags.report.json(), None)?;

@@ -2,7 +2,7 @@
 
 use crate::cli::error::Error;
 use crate::cli::materials::CoatFlags;
-use crate::cli::run::{Output, report};
+use crate::cli::output::{Output, report};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
 use crate::generator::fit::CoatedRow;

@@ -1,6 +1,6 @@
 //! Completion scripts of shells, with the names that flags take.
 
-use crate::cli::command_line::Cli;
+use crate::cli::Cli;
 use crate::generator::emit::HeaderForm;
 use crate::lab::cost::FAMILIES;
 use crate::language::{effects, methods, targets};

@@ -7,8 +7,8 @@ use crate::cli::flags::choice::{
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
 use crate::cli::flags::precision::each_once;
+use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
 use crate::cli::places::try_places;
-use crate::cli::run::{Output, Progress, check_limit, not_drawn, report_beside};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
 use crate::generator::fault::RequestFault;
@@ -170,9 +170,10 @@ fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Er
     };
     let precisions = each_once(&flags.precision);
     let is_of_effects = !flags.effect.is_empty();
-    let methods = match is_of_effects {
-        true => Vec::new(),
-        false => Choice::methods(&flags.method),
+    let methods = if is_of_effects {
+        Vec::new()
+    } else {
+        Choice::methods(&flags.method)
     };
     let subjects = request.subjects()?;
     let left_out = subjects.left_out_lines();
@@ -194,9 +195,10 @@ fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Er
 /// The functions of the effects, by each method that is named.
 fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
     let usual = methods::find(USUAL_METHOD).expect("the usual method is registered");
-    let named = match flags.method.is_empty() {
-        true => vec![usual],
-        false => Choice::methods(&flags.method),
+    let named = if flags.method.is_empty() {
+        vec![usual]
+    } else {
+        Choice::methods(&flags.method)
     };
     let (textured, methods): (Vec<_>, Vec<_>) =
         named.into_iter().partition(|method| method.is_textured());

@@ -1,8 +1,8 @@
 //! What `fresnel-gen` alone says in a folder that holds no tree of ours: what people want first.
 
 use crate::cli::generate::GenerateFlags;
+use crate::cli::output::Output;
 use crate::cli::places::folder_or_current;
-use crate::cli::run::Output;
 use crate::generator::output::{folder, manifest};
 
 const FIRST: &str = "\

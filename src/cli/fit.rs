@@ -5,8 +5,8 @@ use crate::cli::flags::choice::{family, one_of, precision};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{GamutFlags, colour};
+use crate::cli::output::{Output, Progress, report};
 use crate::cli::places::try_places;
-use crate::cli::run::{Output, Progress, report};
 use crate::cli::search;
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{Missed, missed};
@@ -160,9 +160,10 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
         },
         space: flags.gamut.viewing.space.unwrap_or_default(),
         // Forms are compared by what they can follow. Where one is limited does not count.
-        gamut: match flags.search {
-            true => Gamut::Keep,
-            false => flags.gamut.gamut.unwrap_or_default(),
+        gamut: if flags.search {
+            Gamut::Keep
+        } else {
+            flags.gamut.gamut.unwrap_or_default()
         },
     })
 }
@@ -191,9 +192,10 @@ fn forms(flags: &FitFlags) -> Vec<Form> {
 
 /// The materials that are meant, as they are seen, with what was left out; a search is of all unless some are named.
 pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<String>), Error> {
-    let materials = match flags.search && flags.materials.material.is_empty() {
-        true => Materials::All,
-        false => flags.materials.materials()?,
+    let materials = if flags.search && flags.materials.material.is_empty() {
+        Materials::All
+    } else {
+        flags.materials.materials()?
     };
     if materials == Materials::None {
         return Err(RequestFault::NoMaterial {

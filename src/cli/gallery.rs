@@ -2,8 +2,8 @@
 
 use crate::cli::error::Error;
 use crate::cli::flags::material::MaterialFlags;
+use crate::cli::output::{Output, Progress, not_drawn};
 use crate::cli::places::{folder_or_current, replaced, try_files};
-use crate::cli::run::{Output, Progress, not_drawn};
 use crate::generator::command_line::CommandLine;
 use crate::generator::fault::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};

@@ -9,9 +9,9 @@ use crate::cli::flags::output::{TreeFlags, file_only};
 use crate::cli::flags::precision::PrecisionFlags;
 use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::lists::target_words;
+use crate::cli::output::Output;
 use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
 use crate::cli::plan_file::{material_paths, planned};
-use crate::cli::run::Output;
 use crate::cli::unsuited::unsuited;
 use crate::generator::bake::as_tables_are_seen;
 use crate::generator::emit::HeaderForm;
@@ -126,9 +126,10 @@ pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
         }
         None => chosen(flags, request)?,
     };
-    let unsuited = match flags.quiet {
-        true => Vec::new(),
-        false => unsuited(&request)?,
+    let unsuited = if flags.quiet {
+        Vec::new()
+    } else {
+        unsuited(&request)?
     };
     let mut output = match &flags.output {
         Some(file) => single(flags, &request, file)?,
@@ -289,15 +290,18 @@ pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<Str
             "{replaced}: {path}, which was changed since fresnel-gen wrote it, or is in no manifest"
         )
     });
-    let obstacles = plan.obstacles.iter().map(|obstacle| match overwrite {
-        true => format!(
-            "{replaced}: {}, which fresnel-gen did not write",
-            Foreign(&obstacle.path)
-        ),
-        false => format!(
-            "{}: fresnel-gen did not write it; a run replaces it only with --overwrite",
-            Foreign(&obstacle.path)
-        ),
+    let obstacles = plan.obstacles.iter().map(|obstacle| {
+        if overwrite {
+            format!(
+                "{replaced}: {}, which fresnel-gen did not write",
+                Foreign(&obstacle.path)
+            )
+        } else {
+            format!(
+                "{}: fresnel-gen did not write it; a run replaces it only with --overwrite",
+                Foreign(&obstacle.path)
+            )
+        }
     });
     let dropped = plan.dropped.iter().map(|(path, names)| {
         format!(
@@ -496,9 +500,10 @@ pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
 }
 
 fn error_and_cost(candidate: &BudgetCandidate) -> String {
-    let fetch = match candidate.is_textured {
-        true => " and a texture fetch, which the count does not include",
-        false => "",
+    let fetch = if candidate.is_textured {
+        " and a texture fetch, which the count does not include"
+    } else {
+        ""
     };
     format!(
         "error {}, cost {}{fetch}",

@@ -3,7 +3,7 @@
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, one_of};
 use crate::cli::flags::output::ReportFlags;
-use crate::cli::run::{Output, report};
+use crate::cli::output::{Output, report};
 use crate::generator::emit;
 use crate::generator::envelope::{Report, SCHEMA};
 use crate::generator::fault::RequestFault;
@@ -263,9 +263,10 @@ fn effect_text(effect: &Effect) -> String {
                 domain,
             } = argument;
             lines.push(
-                match domain.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
-                    true => format!("  {name}: {meaning} (error stated for {domain})"),
-                    false => format!("  {name}: {meaning}"),
+                if domain.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+                    format!("  {name}: {meaning} (error stated for {domain})")
+                } else {
+                    format!("  {name}: {meaning}")
                 },
             );
         }

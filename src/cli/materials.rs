@@ -5,7 +5,7 @@ use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::{MaterialName, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
-use crate::cli::run::{Output, Progress, not_drawn, png, report, reported};
+use crate::cli::output::{Output, Progress, not_drawn, png, report, reported};
 use crate::cli::{coated, import, params, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};

@@ -2,8 +2,8 @@
 
 use crate::cli::error::Error;
 use crate::cli::flags::output::{CheckReportFlags, ReportFlags, file_only};
+use crate::cli::output::Output;
 use crate::cli::places::try_places;
-use crate::cli::run::Output;
 use crate::cli::verify::whole_report;
 use crate::generator::request::source;
 use crate::lab::verify::merge::{merged, parsed};

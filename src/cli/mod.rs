@@ -1,10 +1,15 @@
 //! The program: one file a command, with its flags, what it does, and its text.
+//!
+//! [`run`] takes the parsed command line and gives an [`Output`]; `main.rs` alone prints it.
+//! A command computes nothing: what it shows comes from the wings below, as typed rows, which it prints as text or as JSON.
+//! Flags that several commands have stand in `flags`, where outputs may lie in `places.rs`, exit codes in `error.rs`.
+//! It imports all wings, and is left out without the feature `cli`.
+//! Start with [`Command`], which lists the commands, and open the file of the one that you look for.
 
 mod audit;
 mod bake;
 mod chart;
 mod coated;
-mod command_line;
 mod completions;
 mod cost;
 mod error;
@@ -19,6 +24,7 @@ mod legible;
 mod lists;
 mod materials;
 mod merge;
+mod output;
 mod params;
 mod places;
 mod plan;
@@ -26,7 +32,6 @@ mod plan_file;
 mod plan_input;
 mod render;
 mod reproduce;
-mod run;
 mod scene_error;
 mod search;
 mod stability;
@@ -35,10 +40,197 @@ mod time;
 mod unsuited;
 mod verify;
 
-pub use command_line::{Cli, Command};
+use std::path::{Path, PathBuf};
+
+use clap::{Parser, Subcommand};
+
+use crate::cli::flags::groups;
+use crate::cli::flags::material::MaterialName;
+use crate::cli::flags::named::NamedFiles;
+use crate::cli::places::refuse_clashes;
+use crate::generator::output::lock::Announce;
+
 pub use completions::completions;
 pub use error::Error;
 pub use first_help::first_help;
 pub use flags::renamed::with_names_of_today;
 pub use legible::legible;
-pub use run::{Output, Progress, run};
+pub use output::{Output, Progress};
+
+/// What stands at the end of the help, of the program's and of `generate`'s.
+const EXAMPLES: &str = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 a check could not be made on this machine (a driver or a compiler is missing, or failed).";
+
+/// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
+///
+/// Without a subcommand, flags are those of `generate`: it writes shaders for every target, method and material asked for.
+#[derive(Debug, Parser)]
+#[command(
+    name = "fresnel-gen",
+    version,
+    args_conflicts_with_subcommands = true,
+    mut_args(groups::in_group),
+    mut_subcommands(groups::with_groups),
+    after_help = EXAMPLES
+)]
+pub struct Cli {
+    /// What to do; generation where nothing is named.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The flags of generation.
+    #[command(flatten)]
+    pub generate: generate::GenerateFlags,
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Write shaders: the same as flags without a subcommand
+    #[command(after_help = EXAMPLES)]
+    Generate(Box<generate::GenerateFlags>),
+    /// List the methods, or show one with formula, source, domain and promised errors
+    #[command(after_help = "Example:\n  fresnel-gen methods show schlick_corrected")]
+    Methods(lists::MethodsFlags),
+    /// List the materials, show one, compute its parameters, import more
+    #[command(
+        after_help = "Examples:\n  fresnel-gen materials list --class metal\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials show gold --svg gold.svg\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
+    )]
+    Materials(Box<materials::MaterialsFlags>),
+    /// List the effects, or show one with its functions, their arguments, and where it must be wrong
+    #[command(after_help = "Example:\n  fresnel-gen effects show interior")]
+    Effects(lists::EffectsFlags),
+    /// List the targets, or show one with its validators
+    #[command(after_help = "Example:\n  fresnel-gen targets show gles")]
+    Targets(lists::TargetsFlags),
+    /// Bake reflectance into lookup tables: EXR, PNG, KTX2, arrays, with the error of the filtered lookup
+    #[command(
+        after_help = "Examples:\n  fresnel-gen bake --material gold --format exr-half,ktx2 --target wgsl\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -\n  fresnel-gen bake --dfg --method fitted --format exr-half"
+    )]
+    Bake(Box<bake::BakeFlags>),
+    /// Run the generated functions of every target and compare the results with f64 on the CPU
+    Verify(Box<verify::VerifyFlags>),
+    /// Put the reports of the shards of one `verify` together, as the report of a whole run
+    Merge(merge::MergeFlags),
+    /// Show where methods fail: regions of NaN, of lost digits, and of large error against the exact law
+    Stability(stability::StabilityFlags),
+    /// Show what functions cost, by Mesa's GPU compilers; recorded figures replace a missing compiler
+    Cost(Box<cost::CostFlags>),
+    /// Measure the time of functions on this machine's device, by overdraw, and as a share of the exact law's time
+    Time(time::TimeFlags),
+    /// Fit coefficients: of materials, or of an artist's two colours
+    Fit(Box<fit::FitFlags>),
+    /// Chart error against cost: one point per method, and the Pareto frontier
+    Chart(chart::ChartFlags),
+    /// Measure your own function (WGSL, GLSL, HLSL or Slang) against a material's exact reflectance and compare it with our methods
+    Audit(Box<audit::AuditFlags>),
+    /// Recompute the tables, figures and claims of the thesis (Štetić-Kozić 2014) and print both side by side
+    Reproduce(reproduce::ReproduceFlags),
+    /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
+    Render(render::RenderFlags),
+    /// Measure the error of methods in pictures of an object: of the angles that a camera sees
+    SceneError(Box<scene_error::SceneErrorFlags>),
+    /// Choose for each material of a scene the cheapest function whose error nobody sees in its pictures
+    Plan(Box<plan::PlanFlags>),
+    /// Write a page that draws every effect live, beside the exact law, with the functions to copy
+    Gallery(gallery::GalleryFlags),
+    /// Write a completion script for a shell to stdout
+    #[command(
+        after_help = "Examples:\n  fresnel-gen completions bash > ~/.local/share/bash-completion/completions/fresnel-gen\n  fresnel-gen completions fish > ~/.config/fish/completions/fresnel-gen.fish"
+    )]
+    Completions(completions::CompletionsFlags),
+}
+
+impl Cli {
+    /// The files that it names.
+    pub fn named_files(&self) -> NamedFiles<'_> {
+        let mut named = NamedFiles::default();
+        let Some(command) = &self.command else {
+            named.generation(&self.generate);
+            return named;
+        };
+        match command {
+            Command::Generate(flags) => named.generation(flags),
+            Command::Completions(_) => {}
+            Command::Methods(flags) => named.write(&flags.report.json),
+            Command::Effects(flags) => named.write(&flags.report.json),
+            Command::Targets(flags) => named.write(&flags.report.json),
+            Command::Materials(flags) => named.materials(flags),
+            Command::Bake(flags) => {
+                named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+                named.write(&flags.report.json);
+            }
+            Command::Verify(flags) => {
+                named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+                named.write(flags.report.files());
+            }
+            Command::Merge(flags) => named.merge(flags),
+            Command::Audit(flags) => {
+                named.inputs.extend(flags.file.iter().map(Path::new));
+                named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+                named.write(flags.report.files());
+            }
+            Command::Fit(flags) => {
+                named.seen(&flags.materials, &flags.medium, &flags.gamut.viewing);
+                named.write(&flags.report.json);
+            }
+            Command::Cost(flags) => named.report(&flags.materials, &flags.report),
+            Command::Time(flags) => named.report(&flags.materials, &flags.report),
+            Command::Chart(flags) => named.report(&flags.materials, &flags.report),
+            Command::Stability(flags) => named.report(&flags.materials, &flags.report),
+            Command::Reproduce(flags) => named.write(&flags.report.json),
+            Command::Gallery(flags) => named.inputs.extend(flags.materials.paths().map(Path::new)),
+            Command::Render(flags) => {
+                let material = flags.material.iter().filter_map(MaterialName::path);
+                named.inputs.extend(material.map(Path::new));
+                named.inputs.extend(flags.environment.as_deref());
+                named.write(flags.report.json.iter().chain(&flags.output));
+            }
+            Command::Plan(flags) => {
+                named.inputs.extend(flags.inputs().map(PathBuf::as_path));
+                named.write(&flags.report.json);
+            }
+            Command::SceneError(flags) => {
+                named.inputs.extend(flags.mesh.as_deref());
+                named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+                named.write(&flags.report.json);
+            }
+        }
+        named
+    }
+}
+
+/// Runs what the command line asks for.
+///
+/// `progress` hears how far long work is; `announce` hears what a person should know before the run ends.
+///
+/// # Errors
+/// Flags contradict each other or name what does not exist, a file cannot be read or written, or something needed is missing.
+pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
+    refuse_clashes(&cli.named_files())?;
+    match &cli.command {
+        None => generate::run(&cli.generate, announce),
+        Some(Command::Generate(flags)) => generate::run(flags, announce),
+        Some(Command::Completions(flags)) => Ok(Output {
+            stdout: completions(flags.shell).into_bytes(),
+            is_file: true,
+            ..Output::default()
+        }),
+        Some(Command::Methods(listing)) => lists::methods(listing),
+        Some(Command::Materials(listing)) => materials::run(listing, progress),
+        Some(Command::Effects(listing)) => lists::effects(listing),
+        Some(Command::Targets(listing)) => lists::targets(listing),
+        Some(Command::Bake(flags)) => bake::run(flags, progress, announce),
+        Some(Command::Verify(flags)) => verify::run(flags, progress),
+        Some(Command::Merge(flags)) => merge::run(flags),
+        Some(Command::Cost(flags)) => cost::run(flags, progress),
+        Some(Command::Time(flags)) => time::run(flags, progress),
+        Some(Command::Audit(flags)) => audit::run(flags, progress),
+        Some(Command::Render(flags)) => render::run(flags, progress),
+        Some(Command::Chart(flags)) => chart::run(flags, progress),
+        Some(Command::Fit(flags)) => fit::run(flags, progress),
+        Some(Command::Gallery(flags)) => gallery::run(flags, progress),
+        Some(Command::Stability(flags)) => stability::run(flags, progress),
+        Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
+        Some(Command::Plan(flags)) => plan::run(flags, progress),
+        Some(Command::SceneError(flags)) => scene_error::run(flags, progress),
+    }
+}

@@ -2,8 +2,8 @@
 
 use crate::cli::error::Error;
 use crate::cli::materials::{ParamsFlags, SeenFlags, medium};
+use crate::cli::output::{Output, report};
 use crate::cli::places::replaced;
-use crate::cli::run::{Output, report};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::SCHEMA;
 use crate::generator::exchange::{EngineMaterial, Format};

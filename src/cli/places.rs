@@ -128,9 +128,10 @@ pub fn try_files(files: &[&Path]) -> Result<(), Error> {
 
 /// An output folder as it is named; the current folder where its name is empty.
 pub fn folder_or_current(out_dir: &Path) -> &Path {
-    match out_dir.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => out_dir,
+    if out_dir.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        out_dir
     }
 }
 

@@ -3,9 +3,9 @@
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, family, in_any_case, method_or_all, one_of, precision};
 use crate::cli::flags::output::{PictureFlags, ReportFlags, file_only};
+use crate::cli::output::{Output, Progress, not_drawn, report_beside};
 use crate::cli::places::{refuse_read, try_places};
 use crate::cli::plan_input::{PlanInput, plan_input};
-use crate::cli::run::{Output, Progress, not_drawn, report_beside};
 use crate::cli::scene_error::size;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::fault::RequestFault;
@@ -338,9 +338,10 @@ fn request(
     viewing: &ViewingConditions,
     display: Display,
 ) -> Result<PlanRequest, Error> {
-    let methods = match flags.method.is_empty() {
-        true => methods::ALL.to_vec(),
-        false => Choice::methods(&flags.method),
+    let methods = if flags.method.is_empty() {
+        methods::ALL.to_vec()
+    } else {
+        Choice::methods(&flags.method)
     };
     Ok(PlanRequest {
         budget: flags.budget(),

@@ -61,9 +61,10 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
     viewing.integration.space = space(&plan)?;
     Ok(Request {
         methods: library.into_iter().collect(),
-        materials: match sources.is_empty() {
-            true => Materials::None,
-            false => Materials::These(sources),
+        materials: if sources.is_empty() {
+            Materials::None
+        } else {
+            Materials::These(sources)
         },
         chosen,
         viewing,
@@ -150,11 +151,12 @@ fn space(plan: &PlanFile) -> Result<Space, Error> {
 /// The one precision of a plan.
 fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
     let first = plan.rows[0].precision;
-    match plan.rows.iter().all(|row| row.precision == first) {
-        true => Ok(first),
-        false => Err(Error::usage(format!(
+    if plan.rows.iter().all(|row| row.precision == first) {
+        Ok(first)
+    } else {
+        Err(Error::usage(format!(
             "{}: its functions compute in different precisions; a plan has one",
             crate::physics::foreign::path(&file)
-        ))),
+        )))
     }
 }

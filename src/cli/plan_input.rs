@@ -242,14 +242,13 @@ fn loaded(
 ) -> Result<(Vec<PlannedMaterial>, Vec<usize>), Error> {
     let (mut planned, mut places): (Vec<PlannedMaterial>, Vec<usize>) = (Vec::new(), Vec::new());
     for (index, one) in mapped.iter().enumerate() {
-        let word = match source::is_path(&one.material) {
-            true => {
-                let path = naming.path(&one.material);
-                let path = path
-                    .map_err(|why| fault(index, format!("`{}`: {why}", Foreign(&one.material))))?;
-                path.display().to_string()
-            }
-            false => one.material.clone(),
+        let word = if source::is_path(&one.material) {
+            let path = naming.path(&one.material);
+            let path =
+                path.map_err(|why| fault(index, format!("`{}`: {why}", Foreign(&one.material))))?;
+            path.display().to_string()
+        } else {
+            one.material.clone()
         };
         let is_it = |known: &PlannedMaterial| {
             let are_paths = [&word, &known.argument].map(|word| source::is_path(word)) == [true; 2];

@@ -4,8 +4,8 @@ use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::MaterialName;
 use crate::cli::flags::output::{ReportFlags, file_only};
+use crate::cli::output::{Output, Progress, not_drawn, report_beside};
 use crate::cli::places::try_files;
-use crate::cli::run::{Output, Progress, not_drawn, report_beside};
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
@@ -140,9 +140,10 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     };
     let picture = scene::render(&device, &order, &material.name, progress).map_err(lacking)?;
     let command: String = flags.command_line().into();
-    let bytes = match is_exr {
-        true => panels_exr(&picture),
-        false => panels_png(&picture, &display, &command),
+    let bytes = if is_exr {
+        panels_exr(&picture)
+    } else {
+        panels_png(&picture, &display, &command)
     };
     let drawn = vec![OutputFile::named(&file, bytes.map_err(not_drawn)?)];
     let adapter = device.adapter.to_string();

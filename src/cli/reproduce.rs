@@ -2,7 +2,7 @@
 
 use crate::cli::error::Error;
 use crate::cli::flags::output::{ReportFlags, TreeFlags};
-use crate::cli::run::{Output, Progress, report_beside};
+use crate::cli::output::{Output, Progress, report_beside};
 use crate::generator::envelope::Report;
 use crate::generator::output::write::OutputFile;
 use crate::lab::reproduce::{

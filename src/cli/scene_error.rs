@@ -5,8 +5,8 @@ use crate::cli::flags::choice::{Choice, method_or_all, one_of};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{PictureFlags, ReportFlags, file_only};
 use crate::cli::flags::viewing::{GamutFlags, numbers};
+use crate::cli::output::{Output, Progress, not_drawn, report_beside};
 use crate::cli::places::try_places;
-use crate::cli::run::{Output, Progress, not_drawn, report_beside};
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
@@ -429,9 +429,12 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
             errors.by_luminance,
         ]
     });
-    let error = |error: f64| match error.is_nan() {
-        true => "not defined".to_owned(),
-        false => format!("{error:.3}"),
+    let error = |error: f64| {
+        if error.is_nan() {
+            "not defined".to_owned()
+        } else {
+            format!("{error:.3}")
+        }
     };
     let angle = libm::acos(row.worst_cos).to_degrees();
     let names = [row.material.clone(), row.method.clone()].into_iter();

@@ -2,8 +2,8 @@
 
 use crate::cli::error::Error;
 use crate::cli::fit::{FitFlags, subjects};
+use crate::cli::output::{Output, Progress, report};
 use crate::cli::places::try_places;
-use crate::cli::run::{Output, Progress, report};
 use crate::generator::envelope::Report;
 use crate::generator::fit::{
     Candidate, ErrorQuantiles, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search,

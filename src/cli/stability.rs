@@ -4,8 +4,8 @@ use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, one_or_all, precision};
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
+use crate::cli::output::{Output, Progress, not_drawn, png, report_beside};
 use crate::cli::places::try_places;
-use crate::cli::run::{Output, Progress, not_drawn, png, report_beside};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
 use crate::generator::fault::RequestFault;
@@ -122,9 +122,12 @@ fn methods_of(
     let numeric = methods::ALL.iter().copied();
     let numeric = numeric.filter(|method| !method.is_textured());
     let chosen = Choice::chosen(words, numeric, |method| method.name);
-    let refusal = |method: &Method| match is_library {
-        true => method.half.library_refusal(),
-        false => method.half.refusal(),
+    let refusal = |method: &Method| {
+        if is_library {
+            method.half.library_refusal()
+        } else {
+            method.half.refusal()
+        }
     };
     if !Choice::is_all(words) || !precision.is_half() {
         return (chosen, Vec::new());

@@ -2,7 +2,7 @@
 
 use crate::cli::error::Error;
 use crate::cli::materials::SurveyFlags;
-use crate::cli::run::{Output, Progress, report};
+use crate::cli::output::{Output, Progress, report};
 use crate::generator;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;

@@ -31,9 +31,10 @@ impl CommandLine {
         if words.is_empty() {
             return self;
         }
-        let separator = match words.iter().any(|word| word.contains(',')) {
-            true => format!(" --{name} "),
-            false => ",".to_owned(),
+        let separator = if words.iter().any(|word| word.contains(',')) {
+            format!(" --{name} ")
+        } else {
+            ",".to_owned()
         };
         CommandLine(format!("{} --{name} {}", self.0, words.join(&separator)))
     }
@@ -47,9 +48,10 @@ impl CommandLine {
     /// A flag without a value, where it is set.
     #[must_use]
     pub fn switch(self, name: &str, is_set: bool) -> CommandLine {
-        match is_set {
-            true => CommandLine(format!("{} --{name}", self.0)),
-            false => self,
+        if is_set {
+            CommandLine(format!("{} --{name}", self.0))
+        } else {
+            self
         }
     }
 
@@ -102,15 +104,17 @@ fn printed(byte: u8) -> String {
 /// this machine. It is no name of a list and no flag: `gold` is a material of the catalogue, and `./gold` a file.
 pub fn path_again(path: &str) -> String {
     let is_of_windows = cfg!(windows) && (path.contains(':') || path.starts_with('\\'));
-    let typed = match path.starts_with('/') || is_of_windows {
-        true => last_part(path),
-        false => path,
+    let typed = if path.starts_with('/') || is_of_windows {
+        last_part(path)
+    } else {
+        path
     };
     let bare = typed.trim_start_matches("./").trim_start_matches('/');
     let is_name = !bare.contains(['.', '/']);
-    match bare.starts_with('-') || is_name && bare != typed || is_name && typed != path {
-        true => format!("./{bare}"),
-        false => bare.to_owned(),
+    if bare.starts_with('-') || is_name && bare != typed || is_name && typed != path {
+        format!("./{bare}")
+    } else {
+        bare.to_owned()
     }
 }
 

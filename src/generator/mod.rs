@@ -1,4 +1,10 @@
-//! From a material to files: fits, functions, tables, adapters for engines, formats of tools.
+//! From a request to files.
+//!
+//! It fits coefficients to materials, folds constants into graphs, prints them into pages, and bakes tables, adapters and
+//! parameters for engines. [`generate()`] is pure: it gives files in memory, which [`output`] compares with a folder or writes there.
+//! This is what a build script uses, so that no graphics stack and no command line is needed up to here.
+//! It imports physics and language.
+//! Start with [`generate()`] and follow a request through it.
 
 // Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours, fault < error < output < request < generate
 
@@ -16,8 +22,6 @@ pub mod lut;
 pub mod output;
 pub mod reference;
 pub mod request;
-
-// Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours, fault < error < output < request < generate
 
 pub use error::Error;
 pub use generate::{Generated, generate};

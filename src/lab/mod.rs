@@ -1,4 +1,9 @@
-//! What is measured of functions: on graphics stacks, by compilers, by overdraw, where they fail, what they cost.
+//! What is measured of functions: their errors on graphics stacks, their cost, their time, and where they fail.
+//!
+//! Whatever may hang or crash runs in a process of its own ([`process`]), and what a machine lacks is reported as not checked.
+//! Errors of code ([`verify`]) and errors of models (`fit`, in the generator) are different types and are never added.
+//! It imports physics, language and generator, and is left out without the feature `lab`.
+//! Start with [`verify`], which runs what was generated, or with [`cost`].
 
 // Rooms: gpu, process, raster < verify, cost < overdraw, stability < audit, budget, reproduce < chart
 

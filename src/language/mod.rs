@@ -1,4 +1,9 @@
-//! What functions are written in: the graph, the methods, the effects, and the targets that print them.
+//! What functions are written in, and the functions themselves.
+//!
+//! A method of Fresnel reflectance, or an effect, is written once with operators and builds a graph ([`ir`]).
+//! What a graph means is its evaluation; a target says how it is spelled in a language.
+//! It imports physics.
+//! Start with `methods/formulas/schlick.rs`, which is a method whole, and then read the header of [`ir`].
 
 // Rooms: ir < methods, targets < effects
 

@@ -6,9 +6,10 @@ use std::io;
 /// # Errors
 /// Nothing takes what is written to stdout.
 pub fn check() -> io::Result<()> {
-    match at_start::was_closed() {
-        true => Err(io::Error::other("it is closed")),
-        false => Ok(()),
+    if at_start::was_closed() {
+        Err(io::Error::other("it is closed"))
+    } else {
+        Ok(())
     }
 }
 

@@ -1,4 +1,10 @@
-//! Scenes that show what functions do, and plans for a scene's materials.
+//! What people look at: scenes, plots, pages, and the plan of a scene.
+//!
+//! [`scene`] draws effects with the functions that users import, beside a ray tracer that shares nothing with them.
+//! [`plan`] takes for each material of a scene the cheapest function whose error nobody sees.
+//! All else draws rows of the lab or spectra of physics, and computes nothing of its own.
+//! It imports all wings but the command line, and is left out without the feature `pictures`.
+//! Start with [`plot`], which every curve goes through, or with [`plan`].
 
 // Rooms: plot, table, html, pixels, png < cost_page, figure_chart, frontier, headline, material_sheet, stability_map, scene < gallery, plan
 

@@ -270,9 +270,10 @@ fn means_over_the_hemisphere_are_the_functions_own() {
         let fits = |subject: &&MaterialInMedium| {
             let n = subject.effective.channels.n[1];
             let transparent = subject.effective.channels.is_transparent();
-            match transparent {
-                true => n >= LEAST_N,
-                false => method.class == methods::Class::Any,
+            if transparent {
+                n >= LEAST_N
+            } else {
+                method.class == methods::Class::Any
             }
         };
         for subject in catalogue().iter().filter(fits) {

@@ -237,9 +237,10 @@ fn lamps_image_and_compensation_together_reflect_no_more_than_one() {
         let method = methods::find(name).unwrap();
         surfaces.push(Surface::new(method, "white", &white()));
         for material in &materials {
-            let own = match method.is_fitted() {
-                true => gamut::fitted(material, method, Gamut::Clip),
-                false => values_for_material(material, method),
+            let own = if method.is_fitted() {
+                gamut::fitted(material, method, Gamut::Clip)
+            } else {
+                values_for_material(material, method)
             };
             surfaces.push(Surface::new(method, &material.name, &own));
         }

@@ -74,7 +74,7 @@ mod tests {
     use clap::CommandFactory;
 
     use super::*;
-    use crate::cli::command_line::Cli;
+    use crate::cli::Cli;
 
     #[test]
     fn every_flag_of_generation_stands_under_a_heading() {

@@ -73,12 +73,13 @@ impl MaterialName {
     /// The file cannot be read.
     pub fn source(&self) -> Result<Source, Error> {
         let word = self.word.clone();
-        Ok(match self.is_file {
-            false => Source::Named(word),
-            true => Source::File {
+        Ok(if self.is_file {
+            Source::File {
                 text: read(&word)?,
                 file: word,
-            },
+            }
+        } else {
+            Source::Named(word)
         })
     }
 }
@@ -86,9 +87,10 @@ impl MaterialName {
 /// As a user types it again.
 impl fmt::Display for MaterialName {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self.is_file {
-            true => f.write_str(&path_again(&self.word)),
-            false => f.write_str(&self.word),
+        if self.is_file {
+            f.write_str(&path_again(&self.word))
+        } else {
+            f.write_str(&self.word)
         }
     }
 }

@@ -72,9 +72,10 @@ impl SplitSumRequest {
             let formats = DEFAULT_FORMATS.into_iter();
             formats.filter(|format| self.refusal(*format).is_none())
         };
-        match self.formats.is_empty() {
-            true => usual().collect(),
-            false => self.formats.clone(),
+        if self.formats.is_empty() {
+            usual().collect()
+        } else {
+            self.formats.clone()
         }
     }
 
@@ -228,9 +229,12 @@ impl Told<'_> {
             SplitSumLayout::Unreal => "f0 red + green".to_owned(),
             SplitSumLayout::Terms => {
                 let numbers = self.design.basis.numbers().into_iter().enumerate();
-                let term = |(i, number): (usize, &str)| match number.contains(' ') {
-                    true => format!("({number}) T{i}"),
-                    false => format!("{number} T{i}"),
+                let term = |(i, number): (usize, &str)| {
+                    if number.contains(' ') {
+                        format!("({number}) T{i}")
+                    } else {
+                        format!("{number} T{i}")
+                    }
                 };
                 numbers.map(term).collect::<Vec<_>>().join(" + ")
             }

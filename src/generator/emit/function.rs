@@ -202,9 +202,10 @@ pub fn specialised_graph(
     bounds: &Bounds,
 ) -> Result<Specialised, Error> {
     if !subject.is_described_by(method) {
-        let serves = match method.is_fitted() {
-            true => subject.fitted_method().unwrap_or("fitted_five"),
-            false => subject.exact_method(),
+        let serves = if method.is_fitted() {
+            subject.fitted_method().unwrap_or("fitted_five")
+        } else {
+            subject.exact_method()
         };
         let what = format!("it describes {}; {serves} serves it", method.class.media());
         return Err(refused(method, subject, &what));

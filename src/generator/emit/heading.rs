@@ -44,9 +44,10 @@ impl HeaderForm {
             .lines()
             .take(6)
             .find(|line| line.contains("Regenerate: "));
-        match command.is_some_and(|line| line.contains(" --header full")) {
-            true => HeaderForm::Full,
-            false => HeaderForm::Short,
+        if command.is_some_and(|line| line.contains(" --header full")) {
+            HeaderForm::Full
+        } else {
+            HeaderForm::Short
         }
     }
 }

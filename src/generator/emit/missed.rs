@@ -36,9 +36,10 @@ pub struct MissedDetail {
 impl Missed {
     /// In words, for headers and reports.
     pub fn words(&self) -> String {
-        let serves = match self.serves.name == self.method.name {
-            true => "no other errs less".to_owned(),
-            false => format!("{} errs by {}", self.serves.name, rounded_up(self.error)),
+        let serves = if self.serves.name == self.method.name {
+            "no other errs less".to_owned()
+        } else {
+            format!("{} errs by {}", self.serves.name, rounded_up(self.error))
         };
         format!(
             "{} errs more here than for nine of ten {} ({}); {serves}",

@@ -65,9 +65,10 @@ fn of_method(emitted: &Emitted) -> Notes {
             Contract::Kept => None,
             Contract::Exempt(why) => Some(why),
         },
-        promises: match is_specialised {
-            true => Vec::new(),
-            false => promises_in(emitted.precision, method),
+        promises: if is_specialised {
+            Vec::new()
+        } else {
+            promises_in(emitted.precision, method)
         },
         mean: average::mean_line(emitted).or_else(|| average::coefficients_line(emitted)),
         table: table_line(emitted),

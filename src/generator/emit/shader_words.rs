@@ -104,9 +104,10 @@ pub fn tokens(bare: &str) -> Vec<Token<'_>> {
     for (number, line) in bare.lines().enumerate() {
         let (mut rest, mut column) = (line, 1);
         while let Some(first) = rest.chars().next() {
-            let length = match is_name_part(first) {
-                true => rest.find(|c| !is_name_part(c)).unwrap_or(rest.len()),
-                false => first.len_utf8(),
+            let length = if is_name_part(first) {
+                rest.find(|c| !is_name_part(c)).unwrap_or(rest.len())
+            } else {
+                first.len_utf8()
             };
             let (text, after) = rest.split_at(length);
             if !first.is_whitespace() {

@@ -115,9 +115,10 @@ fn xml_name(name: &str) -> String {
         .chars()
         .map(|c| if is_kept(c) { c } else { '_' })
         .collect();
-    match kept.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
-        true => kept,
-        false => format!("_{kept}"),
+    if kept.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
+        kept
+    } else {
+        format!("_{kept}")
     }
 }
 

@@ -100,9 +100,10 @@ fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
         input(document, field);
     }
     document.close();
-    let surface = match is_surface {
-        true => name,
-        false => surface_of(document, &name),
+    let surface = if is_surface {
+        name
+    } else {
+        surface_of(document, &name)
     };
     let of_material = format!("{surface}_material");
     document.open(

@@ -115,9 +115,10 @@ pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<
     let (before, after) = (error(whole), error(capped));
     let [red, green, blue] = whole;
     let (before, after) = (rounded_up(before), rounded_up(after));
-    let price = match before == after {
-        true => format!("the error stays {after}"),
-        false => format!("the error is {after} in place of {before}"),
+    let price = if before == after {
+        format!("the error stays {after}")
+    } else {
+        format!("the error is {after} in place of {before}")
     };
     let remark =
         format!("{field}: the F82 tint ({red:?}, {green:?}, {blue:?}) is limited to 1: {price}");

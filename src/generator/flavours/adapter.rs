@@ -58,9 +58,10 @@ pub fn files(
     example: Fitted,
     commands: &Commands,
 ) -> Result<Vec<FlavourFile>, Error> {
-    let shown = match flavour.is_by_material() {
-        true => example,
-        false => materials,
+    let shown = if flavour.is_by_material() {
+        example
+    } else {
+        materials
     };
     let shared = view(flavour, shown.rows, shown.reference, &commands.all)?;
     let mut files = Vec::new();

@@ -33,9 +33,10 @@ pub fn wanted(
 ) -> Result<WantedEffects, Error> {
     if request.effects.is_empty() {
         return Ok(WantedEffects {
-            effects: match request.names_nothing() {
-                true => effects::ALL.to_vec(),
-                false => Vec::new(),
+            effects: if request.names_nothing() {
+                effects::ALL.to_vec()
+            } else {
+                Vec::new()
             },
             method: None,
         });
@@ -72,10 +73,7 @@ impl Run<'_> {
         let is_named = self.is_of_effects() && !self.subjects.is_empty();
         let subjects = self.subjects.iter().filter(|_| is_named);
         let named: Vec<_> = subjects.map(|(subject, _)| Some(subject)).collect();
-        match is_named {
-            true => named,
-            false => vec![None],
-        }
+        if is_named { named } else { vec![None] }
     }
 
     /// The functions of an effect, with what they were asked for.

@@ -44,9 +44,10 @@ pub fn check(
             .collect();
         languages.sort_unstable();
         languages.dedup();
-        let languages = match languages.is_empty() {
-            true => "no target's language".to_owned(),
-            false => languages.join(" and "),
+        let languages = if languages.is_empty() {
+            "no target's language".to_owned()
+        } else {
+            languages.join(" and ")
         };
         let why = format!(
             "--flavour {names} is written in {languages}, and --target is {}; leave --target out",
@@ -136,11 +137,12 @@ impl Run<'_> {
         example: Fitted,
     ) -> Result<Vec<FlavourFile>, Error> {
         let commands = Commands {
-            all: match flavour.is_by_material() {
-                true => CommandLine::new("fresnel-gen")
+            all: if flavour.is_by_material() {
+                CommandLine::new("fresnel-gen")
                     .list("flavour", [flavour.name])
-                    .into(),
-                false => self.adapter_command(flavour, &|_| true),
+                    .into()
+            } else {
+                self.adapter_command(flavour, &|_| true)
             },
             of_material: &|name| self.adapter_command(flavour, &|one| one.name == name),
         };

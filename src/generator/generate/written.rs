@@ -12,9 +12,10 @@ type Named<'a> = Option<&'a [&'static Method]>;
 
 /// The methods of library files: where each material's function is chosen only those that are named.
 pub fn library_methods(request: &Request, named: Named) -> Vec<&'static Method> {
-    let all = match request.chosen.is_empty() {
-        true => methods::ALL,
-        false => &[],
+    let all = if request.chosen.is_empty() {
+        methods::ALL
+    } else {
+        &[]
     };
     let mut methods = named.unwrap_or(all).to_vec();
     methods.retain(|method| request.refusal(method, true).is_none());

@@ -124,9 +124,10 @@ fn check_terms(basis: &Basis) -> Result<(), Error> {
     if terms > TERMS {
         return Err(Error::Terms { terms });
     }
-    match term_range(basis)[1] <= MOST_TERM {
-        true => Ok(()),
-        false => Err(Error::Range),
+    if term_range(basis)[1] <= MOST_TERM {
+        Ok(())
+    } else {
+        Err(Error::Range)
     }
 }
 

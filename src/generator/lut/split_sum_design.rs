@@ -170,17 +170,21 @@ impl SplitSumDesign {
 
     /// What turns the place on an axis of so many texels into u: u = scale place + offset.
     pub fn half_texel(&self, texels: usize) -> (f64, f64) {
-        match self.ends_are_centres() {
-            true => super::axis::TableAxis::half_texel(texels),
-            false => (1.0, 0.0),
+        if self.ends_are_centres() {
+            super::axis::TableAxis::half_texel(texels)
+        } else {
+            (1.0, 0.0)
         }
     }
 
     /// The cosine and the roughness at a texel, or between some.
     pub fn at(&self, column: f64, row: f64) -> (f64, f64) {
-        let place = |texel: f64, texels: usize| match self.ends_are_centres() {
-            true => texel / (texels - 1) as f64,
-            false => (texel + 0.5) / texels as f64,
+        let place = |texel: f64, texels: usize| {
+            if self.ends_are_centres() {
+                texel / (texels - 1) as f64
+            } else {
+                (texel + 0.5) / texels as f64
+            }
         };
         (
             self.cosine.value(place(column, self.width)),
@@ -192,9 +196,10 @@ impl SplitSumDesign {
     pub fn texel(&self, cos_v: f64, roughness: f64) -> (f64, f64) {
         let texel = |place: f64, texels: usize| {
             let last = (texels - 1) as f64;
-            match self.ends_are_centres() {
-                true => place * last,
-                false => (place * texels as f64 - 0.5).clamp(0.0, last),
+            if self.ends_are_centres() {
+                place * last
+            } else {
+                (place * texels as f64 - 0.5).clamp(0.0, last)
             }
         };
         (

@@ -24,12 +24,13 @@ impl ChangedRows {
     pub fn words(&self) -> String {
         let lost = self.old.iter().filter(|name| !self.new.contains(name));
         let lost: Vec<String> = lost.map(|name| Foreign(name).to_string()).collect();
-        let lost = match lost.is_empty() {
-            true => "its rows have other numbers than before".to_owned(),
-            false => format!(
+        let lost = if lost.is_empty() {
+            "its rows have other numbers than before".to_owned()
+        } else {
+            format!(
                 "rows that an earlier run put there leave it: {}",
                 lost.join(", ")
-            ),
+            )
         };
         let files: Vec<String> = self
             .files

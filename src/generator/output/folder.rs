@@ -179,9 +179,10 @@ fn is_planted(_folder: &Path, _link: &Path) -> bool {
 
 /// `on_link` hears of each link that is followed: its folder, without links, and the link.
 fn resolved_within(path: &Path, links: u32, on_link: &mut dyn FnMut(&Path, &Path)) -> PathBuf {
-    let mut whole = match path.is_absolute() {
-        true => PathBuf::new(),
-        false => fs::canonicalize(".").unwrap_or_default(),
+    let mut whole = if path.is_absolute() {
+        PathBuf::new()
+    } else {
+        fs::canonicalize(".").unwrap_or_default()
     };
     for part in path.components() {
         match part {

@@ -66,9 +66,10 @@ pub fn put(temporary: TempPath, place: &Path, before: &Before) -> Placing {
     match temporary.persist_noclobber(place) {
         Ok(()) => Placing::Done,
         Err(fault) if fault.error.kind() == ErrorKind::AlreadyExists => {
-            match before.allows(place) {
-                true => replaced(fault.path, place),
-                false => Placing::Taken,
+            if before.allows(place) {
+                replaced(fault.path, place)
+            } else {
+                Placing::Taken
             }
         }
         // A file system that can neither rename so nor link: the look right before has to do.

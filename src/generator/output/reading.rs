@@ -36,9 +36,10 @@ fn check(said: &fs::Metadata, largest: u64) -> io::Result<()> {
     if !said.is_file() {
         return Err(io::Error::other("it is not an ordinary file"));
     }
-    match said.len() > largest {
-        true => Err(too_large(said.len().to_string(), largest)),
-        false => Ok(()),
+    if said.len() > largest {
+        Err(too_large(said.len().to_string(), largest))
+    } else {
+        Ok(())
     }
 }
 

@@ -102,9 +102,10 @@ fn staged_file<'a>(
     Pending {
         path: plan.out_dir.join(&file.path),
         bytes,
-        before: match overwrite {
-            true => Before::Anything,
-            false => Before::seen(file.old.as_deref()),
+        before: if overwrite {
+            Before::Anything
+        } else {
+            Before::seen(file.old.as_deref())
         },
     }
 }
@@ -266,9 +267,10 @@ impl<'a> StagedOutputs<'a> {
                         try_places_of_ours(std::slice::from_ref(path), overwrite)?;
                         replaced.push(path.clone());
                     }
-                    let before = match overwrite {
-                        true => Before::Anything,
-                        false => Before::seen(old.as_deref()),
+                    let before = if overwrite {
+                        Before::Anything
+                    } else {
+                        Before::seen(old.as_deref())
                     };
                     let path = path.clone();
                     pending.push(Pending {

@@ -63,8 +63,9 @@ fn constant(word: &str) -> Result<Loaded, Error> {
 /// name is made of that.
 fn argument(file: &str, page: &str) -> String {
     let is_absolute = Path::new(file).is_absolute();
-    match is_absolute && !page.is_empty() && file.replace('\\', "/").ends_with(page) {
-        true => page.to_owned(),
-        false => path_again(file),
+    if is_absolute && !page.is_empty() && file.replace('\\', "/").ends_with(page) {
+        page.to_owned()
+    } else {
+        path_again(file)
     }
 }

@@ -287,9 +287,10 @@ impl Request {
     /// Why this method is not written in the request's precision, if it is not: its library function, or any.
     #[doc(hidden)]
     pub fn refusal(&self, method: &Method, library: bool) -> Option<&'static str> {
-        let refused = match library {
-            true => method.half.library_refusal(),
-            false => method.half.refusal(),
+        let refused = if library {
+            method.half.library_refusal()
+        } else {
+            method.half.refusal()
         };
         refused.filter(|_| self.precision.is_half() && !self.force)
     }

@@ -21,12 +21,11 @@ pub fn admitted(
 ) -> Result<Preprocessed, Error> {
     let told = |found: Option<TextFault>| found.map_or(Ok(()), |fault| Err(error(file, fault)));
     told(no_text(text))?;
-    let joined = match language.has_preprocessor() {
-        true => {
-            told(ambiguous(text))?;
-            joined_comments(&joined_lines(text))
-        }
-        false => text.to_owned(),
+    let joined = if language.has_preprocessor() {
+        told(ambiguous(text))?;
+        joined_comments(&joined_lines(text))
+    } else {
+        text.to_owned()
     };
     let live = preprocessed(&bare(&joined, false), language, defines);
     let live = live.map_err(|fault| error(file, fault))?;

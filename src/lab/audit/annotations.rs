@@ -38,9 +38,10 @@ pub fn without_annotations(code: &str) -> String {
         });
         kept.collect::<String>() + "\n"
     };
-    match spans.is_empty() {
-        true => code.to_owned(),
-        false => code.lines().enumerate().map(line).collect(),
+    if spans.is_empty() {
+        code.to_owned()
+    } else {
+        code.lines().enumerate().map(line).collect()
     }
 }
 

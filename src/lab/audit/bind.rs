@@ -110,9 +110,10 @@ impl BoundArgument {
     /// What was filled in, for people.
     fn filled(&self) -> Option<String> {
         let quantity = self.quantity?;
-        let meaning = match plain(&self.name) == plain(quantity.name) {
-            true => String::new(),
-            false => format!(" ({})", quantity.name),
+        let meaning = if plain(&self.name) == plain(quantity.name) {
+            String::new()
+        } else {
+            format!(" ({})", quantity.name)
         };
         Some(format!("{}{meaning} = {}", self.name, numbers(self.value)))
     }
@@ -125,9 +126,10 @@ impl BoundArgument {
     /// How many numbers a material takes for it.
     fn numbers(&self) -> usize {
         let known = self.meaning().map_or(1, |quantity| quantity.numbers());
-        match self.is_rgb || self.is_split() {
-            true => 3,
-            false => known,
+        if self.is_rgb || self.is_split() {
+            3
+        } else {
+            known
         }
     }
 }
@@ -172,9 +174,10 @@ pub fn bind(
     for (param, meanings) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
         let has_default = own.is_none() && defaults.iter().any(|one| one.name == param.name);
-        values.push(match has_default {
-            true => None,
-            false => bound_argument(&function, (param, meanings), own, subject)?,
+        values.push(if has_default {
+            None
+        } else {
+            bound_argument(&function, (param, meanings), own, subject)?
         });
     }
     let (place, form, words) = checked_cosine(

@@ -54,11 +54,12 @@ fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFun
         let paths: Vec<String> = found.iter().map(FoundFunction::path).collect();
         let mut all: Vec<&str> = paths.iter().map(String::as_str).collect();
         all.dedup();
-        return Err(match all.is_empty() {
-            true => Error::NoFunction {
+        return Err(if all.is_empty() {
+            Error::NoFunction {
                 file: file.to_owned(),
-            },
-            false => UnknownName::new("function", name, &all).into(),
+            }
+        } else {
+            UnknownName::new("function", name, &all).into()
         });
     }
     let Some(line) = line else {
@@ -66,14 +67,15 @@ fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFun
     };
     let is_there = |found: &&FoundFunction| line.parse() == Ok(found.line);
     let there: Vec<FoundFunction> = of_name.iter().filter(is_there).cloned().collect();
-    match there.is_empty() {
-        false => Ok(there),
-        true => Err(Error::NoFunctionInLine {
+    if there.is_empty() {
+        Err(Error::NoFunctionInLine {
             file: file.to_owned(),
             name: name.to_owned(),
             line: line.to_owned(),
             lines: of_name.iter().map(|found| found.line.to_string()).collect(),
-        }),
+        })
+    } else {
+        Ok(there)
     }
 }
 

@@ -103,9 +103,10 @@ fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
         Some(same) => format!("it errs and costs as much as {}", same.method),
         None => "every method of ours with as few inputs errs more or costs more".to_owned(),
     };
-    match own.fails {
-        true => format!("on the frontier by error and cost alone, for a check fails: {why}"),
-        false => format!("on the frontier: {why}"),
+    if own.fails {
+        format!("on the frontier by error and cost alone, for a check fails: {why}")
+    } else {
+        format!("on the frontier: {why}")
     }
 }
 

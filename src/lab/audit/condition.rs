@@ -140,9 +140,10 @@ fn expanded(
         all.extend(expanded(&body, macros, within)?);
         within.pop();
     }
-    match all.len() > MOST_WORDS {
-        true => Err("its macros are too many".to_owned()),
-        false => Ok(all),
+    if all.len() > MOST_WORDS {
+        Err("its macros are too many".to_owned())
+    } else {
+        Ok(all)
     }
 }
 
@@ -235,9 +236,10 @@ impl Expression<'_> {
             "~" => Ok(!self.unary(depth + 1)?),
             "(" => {
                 let value = self.choice(depth + 1)?;
-                match self.takes(")") {
-                    true => Ok(value),
-                    false => Err("a bracket is not closed".to_owned()),
+                if self.takes(")") {
+                    Ok(value)
+                } else {
+                    Err("a bracket is not closed".to_owned())
                 }
             }
             word if word.starts_with(|c: char| c.is_alphabetic() || c == '_') => Ok(0),

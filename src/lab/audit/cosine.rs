@@ -283,9 +283,10 @@ impl CosineArgument {
     /// What an argument of this name is taken as, where the name does not say so.
     pub fn words(&self, form: CosineForm, name: &str) -> Option<String> {
         let says = form == Cosine && !self.is_alone && is_named(name);
-        let alone = match self.is_alone {
-            true => ": no other number is without a value",
-            false => "",
+        let alone = if self.is_alone {
+            ": no other number is without a value"
+        } else {
+            ""
         };
         (!says).then(|| format!("{}{alone}", form.words()))
     }

@@ -97,9 +97,10 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
         });
         if let Some(fault) = fault {
             let words = format!("at cos_theta = {} it {fault}: {}", edge.name, shown(*rgb));
-            let list = match edge.counts {
-                true => &mut edges.findings,
-                false => &mut edges.remarks,
+            let list = if edge.counts {
+                &mut edges.findings
+            } else {
+                &mut edges.remarks
             };
             list.push(words);
         }

@@ -241,9 +241,10 @@ impl MissingArgument {
     fn words(&self) -> String {
         let meaning = self.quantity.filter(|quantity| *quantity != self.name);
         let meaning = meaning.map_or(String::new(), |quantity| format!(" ({quantity})"));
-        let why = match self.is_one_of_three {
-            true => ", which is one number here and differs between the channels",
-            false => "",
+        let why = if self.is_one_of_three {
+            ", which is one number here and differs between the channels"
+        } else {
+            ""
         };
         let from = self.line.map_or(String::new(), |line| {
             format!(", which it reads from outside (line {line})")
@@ -275,9 +276,10 @@ impl Error {
 
 fn of_commas(word: &str) -> String {
     let value = word.split_once('=').map_or("", |(_, value)| value.trim());
-    match has_decimal_commas(value) {
-        true => format!("; {POINT_NOT_COMMA}"),
-        false => String::new(),
+    if has_decimal_commas(value) {
+        format!("; {POINT_NOT_COMMA}")
+    } else {
+        String::new()
     }
 }
 
@@ -298,9 +300,10 @@ fn unbound(material: &str, missing: &[MissingArgument], cosine: MissingCosine) -
     let is_known = missing
         .first()
         .is_some_and(|first| first.quantity.is_some() || first.line.is_some());
-    let like = match is_known {
-        true => String::new(),
-        false => offered(&nearest_names(first, &quantity::names())),
+    let like = if is_known {
+        String::new()
+    } else {
+        offered(&nearest_names(first, &quantity::names()))
     };
     let cosine = match cosine {
         MissingCosine::Known => String::new(),

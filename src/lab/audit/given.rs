@@ -51,9 +51,12 @@ impl Given {
         let number = |text: &str| {
             let read = text.trim().parse::<f32>().ok();
             let read = read.filter(|value| value.is_finite());
-            let fault = || match is_word(text) {
-                true => ValueFault::NoQuantity(quantity::unknown(text.trim())),
-                false => ValueFault::NoNumber(text.to_owned()),
+            let fault = || {
+                if is_word(text) {
+                    ValueFault::NoQuantity(quantity::unknown(text.trim()))
+                } else {
+                    ValueFault::NoNumber(text.to_owned())
+                }
             };
             read.ok_or_else(|| wrong(fault()))
         };

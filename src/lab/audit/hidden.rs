@@ -29,9 +29,10 @@ pub struct HiddenInput {
 impl HiddenInput {
     /// How many numbers it is.
     pub fn shape(&self) -> NumberShape {
-        match self.is_rgb {
-            true => NumberShape::Rgb,
-            false => NumberShape::Scalar,
+        if self.is_rgb {
+            NumberShape::Rgb
+        } else {
+            NumberShape::Scalar
         }
     }
 
@@ -166,9 +167,10 @@ impl<'a> DeclaredTypes<'a> {
                 Ok(())
             }
             _ => {
-                let what = match variable.is_array {
-                    true => format!("an array of {ty}"),
-                    false => ty,
+                let what = if variable.is_array {
+                    format!("an array of {ty}")
+                } else {
+                    ty
                 };
                 Err((
                     walk.line,

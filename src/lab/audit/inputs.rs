@@ -253,9 +253,10 @@ impl Inputs<'_> {
             .enumerate()
             .map(|(number, line)| {
                 let begin = if number == 0 { first.column - 1 } else { 0 };
-                let end = match number + first.line == last.line {
-                    true => last_end - 1,
-                    false => usize::MAX,
+                let end = if number + first.line == last.line {
+                    last_end - 1
+                } else {
+                    usize::MAX
                 };
                 line.chars().take(end).skip(begin).collect()
             })

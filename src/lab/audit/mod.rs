@@ -137,9 +137,10 @@ impl Audit {
             );
         }
         let is_accepted = |row: &AuditRow| row.checked.accepted == Some(true);
-        Ok(match desktop.rows.iter().all(is_accepted) {
-            true => desktop,
-            false => found,
+        Ok(if desktop.rows.iter().all(is_accepted) {
+            desktop
+        } else {
+            found
         })
     }
 

@@ -124,9 +124,10 @@ pub fn functions_of(
             let close = behind(tokens, part.head_end) - 1;
             let from = part.head_end + 1;
             let inside = &tokens[from.min(close)..close];
-            let all = match has_body {
-                true => parts(inside, names, language),
-                false => Vec::new(),
+            let all = if has_body {
+                parts(inside, names, language)
+            } else {
+                Vec::new()
             };
             let member = |one: Part| {
                 let head = &inside[one.start..one.head_end];
@@ -207,9 +208,10 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
     }
     let head_end = head_end.min(tokens.len());
     let has_body = tokens.get(head_end).is_some_and(|token| token.text == "{");
-    let mut end = match has_body {
-        true => behind(tokens, head_end),
-        false => (head_end + 1).min(tokens.len()),
+    let mut end = if has_body {
+        behind(tokens, head_end)
+    } else {
+        (head_end + 1).min(tokens.len())
     };
     let head = names.replaced(&tokens[start..head_end]);
     let kind = match function(&head, language) {
@@ -314,15 +316,14 @@ fn with_body(
     let is_block = ["uniform", "buffer", "in", "out"]
         .into_iter()
         .any(|word| place(word).is_some());
-    match language.is_glsl() && is_block {
-        true => {
-            let instance = tokens[(close + 1).min(end)..end]
-                .iter()
-                .find(|token| token.is_word());
-            let instance = instance.map(|token| token.text.to_owned());
-            PartKind::Block(last_word(head), inside(), instance)
-        }
-        false => PartKind::Other,
+    if language.is_glsl() && is_block {
+        let instance = tokens[(close + 1).min(end)..end]
+            .iter()
+            .find(|token| token.is_word());
+        let instance = instance.map(|token| token.text.to_owned());
+        PartKind::Block(last_word(head), inside(), instance)
+    } else {
+        PartKind::Other
     }
 }
 

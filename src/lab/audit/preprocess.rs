@@ -41,14 +41,15 @@ impl Define {
             && !value.contains("//")
             && !value.contains("/*");
         let is_name = matches!(tokens(name).as_slice(), [one] if one.is_word() && one.text == name);
-        match is_name && is_free && is_text {
-            true => Ok(Define {
+        if is_name && is_free && is_text {
+            Ok(Define {
                 name: name.to_owned(),
                 value: value.to_owned(),
-            }),
-            false => Err(Error::Define {
+            })
+        } else {
+            Err(Error::Define {
                 word: word.to_owned(),
-            }),
+            })
         }
     }
 }

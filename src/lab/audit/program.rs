@@ -56,15 +56,14 @@ impl AuditProgram {
 
     /// The program whose cost is counted: a function of one channel is called once, for one channel.
     pub fn measured(language: Language, slice: &Slice, bound: &Bound) -> AuditProgram {
-        match bound.is_one_channel() {
-            true => {
-                let wrapper = |params: &[Param]| one_channel(language, bound, params);
-                AuditProgram {
-                    is_scalar: true,
-                    ..AuditProgram::around(language, slice, &bound.first_channel(), false, wrapper)
-                }
+        if bound.is_one_channel() {
+            let wrapper = |params: &[Param]| one_channel(language, bound, params);
+            AuditProgram {
+                is_scalar: true,
+                ..AuditProgram::around(language, slice, &bound.first_channel(), false, wrapper)
             }
-            false => AuditProgram::new(language, slice, bound, false),
+        } else {
+            AuditProgram::new(language, slice, bound, false)
         }
     }
 
@@ -82,16 +81,20 @@ impl AuditProgram {
         wrapper: impl Fn(&[Param]) -> String,
     ) -> AuditProgram {
         let mut params = vec![param("cos_theta", Ty::Scalar)];
-        let ty = |argument: &BoundArgument| match argument.is_rgb || argument.is_split() {
-            true => Ty::Rgb,
-            false => Ty::Scalar,
+        let ty = |argument: &BoundArgument| {
+            if argument.is_rgb || argument.is_split() {
+                Ty::Rgb
+            } else {
+                Ty::Scalar
+            }
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
         let wrapper = defaults(bound) + &without_macros(slice, language) + &wrapper(&params);
-        let counter = match counts {
-            true => counter(language),
-            false => String::new(),
+        let counter = if counts {
+            counter(language)
+        } else {
+            String::new()
         };
         let Slice { before, text, .. } = slice;
         let text = match language {
@@ -281,9 +284,12 @@ struct CallText {
 /// The call of theirs for a channel.
 fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
     let function = &bound.function;
-    let value = |i: usize, argument: &BoundArgument| match argument.is_split() {
-        true => format!("fg_a{i}.{channel}"),
-        false => format!("fg_a{i}"),
+    let value = |i: usize, argument: &BoundArgument| {
+        if argument.is_split() {
+            format!("fg_a{i}.{channel}")
+        } else {
+            format!("fg_a{i}")
+        }
     };
     let others: Vec<String> = bound
         .arguments

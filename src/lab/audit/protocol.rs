@@ -77,9 +77,10 @@ impl UniformBits {
         let value = self.bits.map(f32::from_bits);
         Uniform {
             name: self.name.clone(),
-            value: match self.is_rgb {
-                true => Argument::Rgb(value),
-                false => Argument::Scalar(value[0]),
+            value: if self.is_rgb {
+                Argument::Rgb(value)
+            } else {
+                Argument::Scalar(value[0])
             },
         }
     }

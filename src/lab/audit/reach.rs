@@ -83,9 +83,10 @@ pub fn reached(
             PartKind::Type(..) => has_members,
             _ => false,
         };
-        let mut own: Vec<Own> = match has_code {
-            true => locals(&words, language),
-            false => Vec::new(),
+        let mut own: Vec<Own> = if has_code {
+            locals(&words, language)
+        } else {
+            Vec::new()
         };
         if !matches!(part.kind, PartKind::Function(_) | PartKind::MacroCall(_)) {
             own.extend(part.names().into_iter().map(Own::everywhere));
@@ -200,9 +201,10 @@ impl<'a> Own<'a> {
     fn declared(words: &[&Token<'a>], at: usize, language: Language) -> Own<'a> {
         // The value of `float x = x + 1.0;` reads the outer x in GLSL and WGSL, and its own in HLSL and Slang.
         let is_own_in_value = matches!(language, Language::Hlsl | Language::Slang);
-        let from = match is_own_in_value {
-            true => at,
-            false => value_end(words, at),
+        let from = if is_own_in_value {
+            at
+        } else {
+            value_end(words, at)
         };
         Own {
             name: words[at].text,

@@ -303,9 +303,10 @@ impl Audited<'_> {
             }
             Err(Trouble::Absent(_)) => {}
         }
-        let status = match reasons.is_empty() {
-            true => Status::Pass,
-            false => Status::Fail,
+        let status = if reasons.is_empty() {
+            Status::Pass
+        } else {
+            Status::Fail
         };
         (status, reasons)
     }

@@ -128,9 +128,10 @@ pub fn c_variables(
             at = behind(part, at + 1);
         }
     }
-    let storage = match is_member {
-        true => Storage::Input,
-        false => c_storage(&qualifiers, language),
+    let storage = if is_member {
+        Storage::Input
+    } else {
+        c_storage(&qualifiers, language)
     };
     let (mut found, mut ty) = (Vec::new(), String::new());
     let mut from = at;

@@ -31,9 +31,10 @@ impl Checked {
     ) -> Checked {
         let refuses = |(_, verdict): &(String, Verdict)| matches!(verdict, Verdict::No(_));
         let accepts = |(_, verdict): &(String, Verdict)| *verdict == Verdict::Yes;
-        let accepted = match verdicts.iter().any(refuses) {
-            true => Some(false),
-            false => verdicts.iter().any(accepts).then_some(true),
+        let accepted = if verdicts.iter().any(refuses) {
+            Some(false)
+        } else {
+            verdicts.iter().any(accepts).then_some(true)
         };
         let ran = ran.as_ref().ok();
         Checked {
@@ -49,13 +50,19 @@ impl Checked {
     /// In words, for a function that has this status.
     pub fn words(&self, status: Status) -> String {
         let parts = [
-            self.accepted.map(|accepted| match accepted {
-                true => "compilers accept it".to_owned(),
-                false => "a compiler refuses it".to_owned(),
+            self.accepted.map(|accepted| {
+                if accepted {
+                    "compilers accept it".to_owned()
+                } else {
+                    "a compiler refuses it".to_owned()
+                }
             }),
-            self.within_range.map(|within| match within {
-                true => "all results are reflectances".to_owned(),
-                false => "a result is no reflectance".to_owned(),
+            self.within_range.map(|within| {
+                if within {
+                    "all results are reflectances".to_owned()
+                } else {
+                    "a result is no reflectance".to_owned()
+                }
             }),
             self.error_words(),
         ];

@@ -85,9 +85,10 @@ impl fmt::Display for NoFunction {
 
 /// An error rounded up, or with two digits where it is below 1e-4.
 pub fn rounded_error(error: f64) -> String {
-    match error < 1e-4 {
-        true => format!("{error:.1e}"),
-        false => rounded_up(error),
+    if error < 1e-4 {
+        format!("{error:.1e}")
+    } else {
+        rounded_up(error)
     }
 }
 

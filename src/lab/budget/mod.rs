@@ -103,9 +103,10 @@ pub fn choose_within(
 fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static Method>, Error> {
     methods
         .retain(|method| method.light == Light::Unpolarised && method.contract == Contract::Kept);
-    match methods.is_empty() {
-        true => Err(Error::NoMethod),
-        false => Ok(methods),
+    if methods.is_empty() {
+        Err(Error::NoMethod)
+    } else {
+        Ok(methods)
     }
 }
 

@@ -87,9 +87,10 @@ fn entry_errors(
     let curve = FitCurve::new(|c| subject.reference.at(c));
     let one = |entry: &ChartEntry| match entry.method() {
         Some(method) if subject.is_described_by(method) => {
-            let inputs = match entry.is_best {
-                true => InputChoice::Best,
-                false => InputChoice::Intended,
+            let inputs = if entry.is_best {
+                InputChoice::Best
+            } else {
+                InputChoice::Intended
             };
             MethodErrors::new(method, inputs, subject, &curve, space)
         }

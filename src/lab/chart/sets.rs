@@ -101,9 +101,10 @@ fn together(statistic: &str, own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) ->
             .map(|(subject, errors)| (&*subject.material.substance, errors[place]));
         let described = all.filter(|(_, errors)| errors.max_abs.is_some());
         let described: Vec<(&str, MethodErrors)> = described.collect();
-        match ALL_BUT * (own.len() - described.len()) <= own.len() {
-            true => taken(&described),
-            false => MethodErrors::default(),
+        if ALL_BUT * (own.len() - described.len()) <= own.len() {
+            taken(&described)
+        } else {
+            MethodErrors::default()
         }
     };
     (0..entries).map(entry).collect()

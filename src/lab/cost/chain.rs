@@ -68,9 +68,10 @@ impl Chain<'_> {
             member.replace("{name}", &param.name)
         };
         let members: String = uniforms(self.params).map(member).collect();
-        let block = match members.is_empty() {
-            true => members,
-            false => language.block.replace("{members}", &members),
+        let block = if members.is_empty() {
+            members
+        } else {
+            language.block.replace("{members}", &members)
         };
         let reads = |ty| self.params.iter().any(|param| param.ty == ty);
         let texture = match (reads(Ty::Texture), reads(Ty::Cube)) {

@@ -133,9 +133,10 @@ impl Probe {
     /// The fragment shader in WGSL.
     pub fn wgsl(&self, evaluations: usize) -> String {
         let spelling = WGSL.spelling_in(self.precision);
-        let enable = match self.precision.is_half() {
-            true => "enable f16;\n",
-            false => "",
+        let enable = if self.precision.is_half() {
+            "enable f16;\n"
+        } else {
+            ""
         };
         let language = ChainLanguage {
             spelling,

@@ -125,9 +125,10 @@ impl<'a> CompilerSession<'a> {
         let empty = self.empty(function)?;
         let chains = self.both(function.chains(self.dialect).map(FragmentShader::Text))?;
         let figures = self.net_figures(&chains, &empty)?;
-        Ok(match function.graph.computes_nothing() {
-            true => figures.of_nothing(),
-            false => figures,
+        Ok(if function.graph.computes_nothing() {
+            figures.of_nothing()
+        } else {
+            figures
         })
     }
 

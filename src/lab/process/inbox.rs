@@ -96,9 +96,10 @@ fn watch(work: &Receiver<LineEvent>) {
 fn end() -> ! {
     use rustix::process::{Signal, getpgrp, getpid, kill_process, kill_process_group};
     // A worker that was not started by a supervisor may share its group with others.
-    let _ = match getpgrp() == getpid() {
-        true => kill_process_group(getpid(), Signal::KILL),
-        false => kill_process(getpid(), Signal::KILL),
+    let _ = if getpgrp() == getpid() {
+        kill_process_group(getpid(), Signal::KILL)
+    } else {
+        kill_process(getpid(), Signal::KILL)
     };
     std::process::abort()
 }

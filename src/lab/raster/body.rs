@@ -66,9 +66,10 @@ fn faces() -> impl Iterator<Item = [DVec3; 3]> {
     (0..6).map(move |face| {
         let out = axes[face % 3];
         let (along, across) = (axes[(face + 1) % 3], axes[(face + 2) % 3]);
-        match face < 3 {
-            true => [out, along, across],
-            false => [-out, across, along],
+        if face < 3 {
+            [out, along, across]
+        } else {
+            [-out, across, along]
         }
     })
 }
@@ -116,9 +117,12 @@ fn bumped(d: DVec3) -> Vertex {
 /// The unit direction of a place on a face, with steps of equal angle along its middles.
 fn direction([out, along, across]: [DVec3; 3], u: f64, v: f64) -> DVec3 {
     // tan(π/4) is rounded below 1: faces would not meet where pixels' centres lie on their seams.
-    let warped = |w: f64| match w.abs() == 1.0 {
-        true => w,
-        false => libm::tan(w * std::f64::consts::FRAC_PI_4),
+    let warped = |w: f64| {
+        if w.abs() == 1.0 {
+            w
+        } else {
+            libm::tan(w * std::f64::consts::FRAC_PI_4)
+        }
     };
     (out + warped(u) * along + warped(v) * across).normalize()
 }

@@ -197,9 +197,10 @@ fn enter(mesh: &mut Mesh, object: &tobj::Mesh) -> Result<(), usize> {
     };
     let first = mesh.vertices.len() as u32;
     // Where only some corners have a normal, nothing says which.
-    let normals: &[f64] = match object.normals.len() == object.positions.len() {
-        true => &object.normals,
-        false => &[],
+    let normals: &[f64] = if object.normals.len() == object.positions.len() {
+        &object.normals
+    } else {
+        &[]
     };
     let corners = (0..object.positions.len() / 3).map(|at| Vertex {
         position: three(&object.positions, at),
@@ -354,9 +355,12 @@ fn check_numbers<'a>(
 ) -> Result<(), String> {
     let mut count = 0;
     for (at, word) in words.enumerate() {
-        let number: f64 = word.parse().map_err(|_| match word.contains(',') {
-            true => format!("`{word}` is not a number, which has a point and no comma"),
-            false => format!("`{word}` is not a number"),
+        let number: f64 = word.parse().map_err(|_| {
+            if word.contains(',') {
+                format!("`{word}` is not a number, which has a point and no comma")
+            } else {
+                format!("`{word}` is not a number")
+            }
         })?;
         // NaN is within no limits.
         if !(-FARTHEST..=FARTHEST).contains(&number) {
@@ -367,9 +371,10 @@ fn check_numbers<'a>(
         }
         count += 1;
     }
-    match count < least {
-        true => Err(format!("`{what}` has {count} numbers; it wants {least}")),
-        false => Ok(()),
+    if count < least {
+        Err(format!("`{what}` has {count} numbers; it wants {least}"))
+    } else {
+        Ok(())
     }
 }
 

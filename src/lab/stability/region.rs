@@ -219,9 +219,10 @@ impl Region {
         let inequalities: Vec<String> = ranges
             .filter_map(|(range, axis)| inequality(axis, range))
             .collect();
-        match inequalities.is_empty() {
-            true => "everywhere".to_owned(),
-            false => inequalities.join(", "),
+        if inequalities.is_empty() {
+            "everywhere".to_owned()
+        } else {
+            inequalities.join(", ")
         }
     }
 

@@ -6,9 +6,10 @@ const HEAD: std::ops::Range<usize> = WORD..3 * WORD;
 
 /// In what a module differs.
 pub fn of_modules(found: &[u8], today: &[u8]) -> &'static str {
-    match found.get(HEAD) == today.get(HEAD) {
-        true => "its instructions differ",
-        false => "its head differs: the version of SPIR-V, or the program that wrote it",
+    if found.get(HEAD) == today.get(HEAD) {
+        "its instructions differ"
+    } else {
+        "its head differs: the version of SPIR-V, or the program that wrote it"
     }
 }
 

@@ -170,9 +170,10 @@ pub(super) fn texels(params: &[Param]) -> Vec<[f32; 4]> {
             .map(|at| {
                 let (x, y) = (place(at % TEXELS), place(at / TEXELS));
                 let squared = 1.0 - x * x - y * y;
-                match squared > 0.0 {
-                    true => [half(x), half(y), half(-squared.sqrt()), 1.0],
-                    false => [0.0; 4],
+                if squared > 0.0 {
+                    [half(x), half(y), half(-squared.sqrt()), 1.0]
+                } else {
+                    [0.0; 4]
                 }
             })
             .collect(),

@@ -130,9 +130,10 @@ impl EffectTrial {
                 let least = values.clone().fold(f64::INFINITY, f64::min);
                 let most = values.fold(f64::NEG_INFINITY, f64::max);
                 let got = f64::from(got[i]);
-                match got.is_finite() {
-                    true => (least - got).max(got - most).max(0.0),
-                    false => f64::INFINITY,
+                if got.is_finite() {
+                    (least - got).max(got - most).max(0.0)
+                } else {
+                    f64::INFINITY
                 }
             });
             let largest = all[0].iter().fold(1.0, |most, x| f64::max(most, x.abs()));

@@ -41,10 +41,7 @@ impl Call<'_> {
     }
 
     fn ty(&self) -> Ty {
-        match self.is_scalar {
-            true => Ty::Scalar,
-            false => Ty::Rgb,
-        }
+        if self.is_scalar { Ty::Scalar } else { Ty::Rgb }
     }
 
     /// Whether it reads a texture.
@@ -97,13 +94,15 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
             member.replace("{name}", &param.name)
         })
         .collect();
-    let block = match members.is_empty() {
-        true => String::new(),
-        false => harness.block.replace("{members}", &members),
+    let block = if members.is_empty() {
+        String::new()
+    } else {
+        harness.block.replace("{members}", &members)
     };
-    let texture = match call.is_textured() {
-        true => harness.texture,
-        false => "",
+    let texture = if call.is_textured() {
+        harness.texture
+    } else {
+        ""
     };
     let converted = |ty: Ty, value: String, precision: Precision| match call.precision {
         Precision::F16 if harness.converts => {
@@ -117,9 +116,10 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
         converted(param.ty, value, Precision::F16)
     });
     let value = converted(call.ty(), value, Precision::F32);
-    let value = match call.is_scalar {
-        true => harness.splat.replace("{value}", &value),
-        false => value,
+    let value = if call.is_scalar {
+        harness.splat.replace("{value}", &value)
+    } else {
+        value
     };
     let after = harness.after.replace("{block}", &block);
     let after = after
@@ -132,9 +132,10 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
 
 /// A vertex shader of a WGSL file, with the values of the arguments in it: naga makes GLSL ES of that.
 pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
-    let texture = match call.is_textured() {
-        true => STREAM.texture,
-        false => "",
+    let texture = if call.is_textured() {
+        STREAM.texture
+    } else {
+        ""
     };
     let value = call.call_text("fg_cosine", "fg_table, fg_sampler", |param| {
         let place = call.numbers().position(|other| other.name == param.name);

@@ -273,9 +273,10 @@ fn json_fault(file: &Path, why: &serde_json::Error) -> Error {
         words = words.replace(&format!("expected {rust}"), "expected a whole number");
     }
     let words = shown(words.split(" at line ").next().unwrap_or_default());
-    let kind = match why.is_data() {
-        true => "this is no shard's report",
-        false => "this cannot be read as JSON",
+    let kind = if why.is_data() {
+        "this is no shard's report"
+    } else {
+        "this cannot be read as JSON"
     };
     Error::File(FileFault {
         file: file.display().to_string(),

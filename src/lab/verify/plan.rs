@@ -64,9 +64,10 @@ impl PlannedFile {
 
     /// Why it has no row, where it has none. A function of an effect and one of a material have one always.
     pub fn why_no_row(&self) -> &'static str {
-        match self.functions.is_empty() {
-            true => "it holds no function that was asked for",
-            false => "its functions describe none of the materials that are run",
+        if self.functions.is_empty() {
+            "it holds no function that was asked for"
+        } else {
+            "its functions describe none of the materials that are run"
         }
     }
 

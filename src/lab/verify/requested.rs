@@ -27,9 +27,10 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
         methods: held_methods(request, &meant, &shipped, &kept)?,
         full_headers: full_headers(&meant, &shipped)?,
     };
-    let exact = match is_as_meant(&meant, &held) {
-        true => meant.files.clone(),
-        false => generate_meant(request, &kept, &held)?.files,
+    let exact = if is_as_meant(&meant, &held) {
+        meant.files.clone()
+    } else {
+        generate_meant(request, &kept, &held)?.files
     };
     let mut files: Vec<PlannedFile> = Vec::new();
     for (meant, exact) in meant.files.into_iter().zip(exact) {
@@ -51,9 +52,10 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
         .collect();
     let mut places = shipped.files();
     places.extend(pages.iter().map(|page| folder.join(page)));
-    let unasked = match request.names_nothing() {
-        true => shipped.others(&request.targets, &pages),
-        false => Vec::new(),
+    let unasked = if request.names_nothing() {
+        shipped.others(&request.targets, &pages)
+    } else {
+        Vec::new()
     };
     Ok(VerifyPlan {
         places,

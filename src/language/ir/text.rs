@@ -99,9 +99,10 @@ pub fn parse(text: &str) -> Result<Function, ParseError> {
         .next()
         .ok_or_else(|| fault(1, "an empty text; expected `fn name(...) -> type`"))?;
     let (name, params, ty) = parse_head(line, head)?;
-    let letters = match head.contains("vec3") {
-        true => Letters::Xyz,
-        false => Letters::Rgb,
+    let letters = if head.contains("vec3") {
+        Letters::Xyz
+    } else {
+        Letters::Rgb
     };
     let mut parser = Parser {
         known: BTreeMap::new(),

@@ -40,11 +40,12 @@ impl ConstantIndex {
     pub fn parse(word: &str) -> Option<Result<ConstantIndex, IndexFault>> {
         let index: f64 = word.parse().ok()?;
         let is_allowed = (LEAST_INDEX..=GREATEST_INDEX).contains(&index);
-        Some(match is_allowed {
-            true => Ok(ConstantIndex(index)),
-            false => Err(IndexFault {
+        Some(if is_allowed {
+            Ok(ConstantIndex(index))
+        } else {
+            Err(IndexFault {
                 given: word.to_owned(),
-            }),
+            })
         })
     }
 

@@ -17,9 +17,12 @@ impl Material {
     /// Reference and link with this between them; none where neither is given.
     pub fn source_words(&self, between: &str) -> Option<String> {
         // A full stop of its own ends no sentence here.
-        let reference = given(&self.reference).map(|text| match between.starts_with('.') {
-            true => text.trim_end_matches('.'),
-            false => text,
+        let reference = given(&self.reference).map(|text| {
+            if between.starts_with('.') {
+                text.trim_end_matches('.')
+            } else {
+                text
+            }
         });
         let parts: Vec<&str> = reference.into_iter().chain(given(&self.link)).collect();
         (!parts.is_empty()).then(|| parts.join(between))

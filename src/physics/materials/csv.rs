@@ -210,9 +210,10 @@ impl Line<'_> {
             .text
             .trim_start_matches(['"', ' ', '+', '-', '.'])
             .starts_with(|c: char| c.is_ascii_digit());
-        let what = match is_row {
-            true => format!("`{found}` stands before any header, which names the unit; {ALLOWED}"),
-            false => format!("`{found}` is no header that is understood; {ALLOWED}"),
+        let what = if is_row {
+            format!("`{found}` stands before any header, which names the unit; {ALLOWED}")
+        } else {
+            format!("`{found}` is no header that is understood; {ALLOWED}")
         };
         self.fault(0, what)
     }

@@ -179,9 +179,10 @@ fn point_fault((nm, value): (f64, f64), (name, low, high): Column) -> Option<Str
     if !(shortest..=longest).contains(&nm) {
         return Some(format!(
             "a wavelength is {nm:e} nm; it must lie between {shortest} and {longest}{}",
-            match nm < shortest {
-                true => "; are these micrometres, in a column named nm?",
-                false => "; are these nanometres, in a column named um?",
+            if nm < shortest {
+                "; are these micrometres, in a column named nm?"
+            } else {
+                "; are these nanometres, in a column named um?"
             }
         ));
     }

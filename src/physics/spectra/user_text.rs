@@ -42,9 +42,10 @@ pub fn user_text(bytes: Vec<u8>) -> Result<String, TextFault> {
 /// The bytes are UTF-16, or no text.
 pub fn mesh_text(bytes: Vec<u8>) -> Result<String, TextFault> {
     let bytes = without_mark(&bytes)?;
-    match bytes.contains(&0) {
-        true => Err(TextFault::here("a NUL byte: the file is not UTF-8 text")),
-        false => Ok(with_line_feeds(String::from_utf8_lossy(bytes).into_owned())),
+    if bytes.contains(&0) {
+        Err(TextFault::here("a NUL byte: the file is not UTF-8 text"))
+    } else {
+        Ok(with_line_feeds(String::from_utf8_lossy(bytes).into_owned()))
     }
 }
 
@@ -59,9 +60,10 @@ pub fn without_mark(bytes: &[u8]) -> Result<&[u8], TextFault> {
 
 /// Where lines end with CR alone, as Excel writes them for old Macs, LF in its place.
 fn with_line_feeds(text: String) -> String {
-    match text.contains('\n') {
-        true => text,
-        false => text.replace('\r', "\n"),
+    if text.contains('\n') {
+        text
+    } else {
+        text.replace('\r', "\n")
     }
 }
 

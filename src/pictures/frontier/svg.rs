@@ -179,10 +179,7 @@ fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
 
 /// Blue where the form is ours.
 fn colour(point: &ChartPoint) -> &'static str {
-    match point.entry.is_ours() {
-        true => OURS,
-        false => THEIRS,
-    }
+    if point.entry.is_ours() { OURS } else { THEIRS }
 }
 
 fn dot(point: &ChartPoint, plane: &Plane) -> String {

@@ -97,20 +97,22 @@ pub fn lowered(
         kept += &rest[..from];
         first.get_or_insert(kept.len());
         rest = &rest[to..];
-        match CALLS.contains(&name) {
-            true => program.calls = true,
-            false => program.functions.push(name.to_owned()),
+        if CALLS.contains(&name) {
+            program.calls = true
+        } else {
+            program.functions.push(name.to_owned())
         }
     }
     kept += rest;
     let (before, after) = kept.split_at(first.unwrap_or(kept.len()));
     (program.before, program.after) = (before.to_owned(), after.to_owned());
     let knows_frame = program.before.contains(&format!(" {FRAGMENT_FRAME};"));
-    match program.calls && !knows_frame {
-        true => Err(LoweringFault(format!(
+    if program.calls && !knows_frame {
+        Err(LoweringFault(format!(
             "{entry} calls a method, and has no {FRAGMENT_FRAME}"
-        ))),
-        false => Ok(program),
+        )))
+    } else {
+        Ok(program)
     }
 }
 
@@ -126,9 +128,10 @@ fn translated(
         .map(|point| point.stage);
     let stage = stage.ok_or_else(|| LoweringFault(format!("the module has no {entry}")))?;
     debug_assert!(stage == ShaderStage::Vertex || stage == ShaderStage::Fragment);
-    let flags = match is_off_screen {
-        true => glsl::WriterFlags::ADJUST_COORDINATE_SPACE,
-        false => glsl::WriterFlags::empty(),
+    let flags = if is_off_screen {
+        glsl::WriterFlags::ADJUST_COORDINATE_SPACE
+    } else {
+        glsl::WriterFlags::empty()
     };
     let options = glsl::Options {
         version: glsl::Version::new_gles(300),

@@ -144,9 +144,12 @@ pub fn own_indices() -> Vec<OwnIndex> {
 }
 
 fn own_index(transparent: bool, n: [f64; 3], k: [f64; 3]) -> OwnIndex {
-    let describes = |method: &&Method| match transparent {
-        true => method.class != Class::Metal,
-        false => method.class == Class::Any && !method.is_fitted(),
+    let describes = |method: &&Method| {
+        if transparent {
+            method.class != Class::Metal
+        } else {
+            method.class == Class::Any && !method.is_fitted()
+        }
     };
     let methods: Vec<&Method> = shown().filter(describes).collect();
     let at = |[first, step, _]: [f64; 3], i: usize| first + step * i as f64;

@@ -83,16 +83,15 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
     for (slot, table) in reduced_tables(&body) {
         let name = format!("{} {slot:?}", row.body.name());
         let [width, height] = table.size();
-        let packed = match is_opaque(&table) {
-            true => {
-                let colours = table.texels().iter().map(|[r, g, b, _]| [*r, *g, *b]);
-                shared(name, [width, height], colours)
-            }
-            false => texture(
+        let packed = if is_opaque(&table) {
+            let colours = table.texels().iter().map(|[r, g, b, _]| [*r, *g, *b]);
+            shared(name, [width, height], colours)
+        } else {
+            texture(
                 name,
                 [width, height, 1],
                 halves(table.texels().iter().copied()),
-            ),
+            )
         };
         all.insert(slot, packed);
     }
@@ -106,12 +105,13 @@ pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'_, Texels>)> {
         let is_opaque = is_opaque(table);
         let widest = if is_opaque { colours } else { others };
         let table = table.reduced(table.size()[0].div_ceil(widest));
-        let coarse = match is_opaque {
-            true => table.mapped(|[r, g, b, _]| {
+        let coarse = if is_opaque {
+            table.mapped(|[r, g, b, _]| {
                 let [r, g, b] = from_shared_exponent(shared_exponent([r, g, b]));
                 [r, g, b, 1.0]
-            }),
-            false => table.mapped(|texel| texel.map(coarse)),
+            })
+        } else {
+            table.mapped(|texel| texel.map(coarse))
         };
         (slot, Cow::Owned(coarse))
     };

@@ -83,9 +83,10 @@ pub struct ProgramPair {
 
 /// The exact law of a row's kind of bodies.
 pub fn exact_method(row: &RenderRow) -> &'static str {
-    match row.is_transparent() {
-        true => "dielectric_exact",
-        false => "conductor_exact",
+    if row.is_transparent() {
+        "dielectric_exact"
+    } else {
+        "conductor_exact"
     }
 }
 
@@ -94,9 +95,10 @@ pub fn methods_of(row: &RenderRow) -> Vec<&'static Method> {
     let all = methods::ALL.iter().copied().filter(|method| {
         method.light == Light::Unpolarised
             && !method.is_textured()
-            && match row.is_transparent() {
-                true => method.class != Class::Metal,
-                false => method.class == Class::Any,
+            && if row.is_transparent() {
+                method.class != Class::Metal
+            } else {
+                method.class == Class::Any
             }
     });
     all.collect()

@@ -77,9 +77,10 @@ fn subtitle(drawn: &DrawnMaterial, swatches: &[Swatch]) -> String {
         ),
     };
     let clipped = swatches.iter().any(|swatch| swatch.clipped().is_some());
-    let clipped = match clipped {
-        true => " Some colours lie outside sRGB: the swatch is clipped there, as said beneath it.",
-        false => "",
+    let clipped = if clipped {
+        " Some colours lie outside sRGB: the swatch is clipped there, as said beneath it."
+    } else {
+        ""
     };
     numbers + clipped
 }

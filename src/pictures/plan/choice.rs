@@ -74,9 +74,10 @@ struct Total {
 impl Total {
     fn order(&self, other: &Total) -> Ordering {
         let alike = (self.cost - other.cost).abs() <= 1e-12 * self.cost.abs().max(other.cost.abs());
-        let by_cost = match alike {
-            true => Ordering::Equal,
-            false => self.cost.total_cmp(&other.cost),
+        let by_cost = if alike {
+            Ordering::Equal
+        } else {
+            self.cost.total_cmp(&other.cost)
         };
         by_cost
             .then(self.error.total_cmp(&other.error))

@@ -79,9 +79,12 @@ fn turns<'a>(
     let turn = |(place, values): (usize, &&'a [[f64; 3]])| {
         let all = judged.candidates.iter().zip(place_of);
         let own = all.filter(|(_, of)| **of == place);
-        let cost = own.map(|(one, _)| match is_shared(&one.candidate) {
-            true => f64::NEG_INFINITY,
-            false => one.candidate.cost,
+        let cost = own.map(|(one, _)| {
+            if is_shared(&one.candidate) {
+                f64::NEG_INFINITY
+            } else {
+                one.candidate.cost
+            }
         });
         Turn {
             cost: cost.fold(f64::INFINITY, f64::min),

@@ -70,9 +70,10 @@ impl<'a> JudgedPixels<'a> {
 
 /// The error of a frame with these differences and coverages of pixels.
 pub fn error_of(differences: Vec<(f64, f64)>) -> f64 {
-    match differences.len() < PERCENTILE_FROM {
-        true => largest(&differences),
-        false => quantile(differences, SHARE),
+    if differences.len() < PERCENTILE_FROM {
+        largest(&differences)
+    } else {
+        quantile(differences, SHARE)
     }
 }
 

@@ -80,12 +80,11 @@ impl Written {
             precision: request.precision,
             ..Naming::default()
         };
-        let functions = match judged.chosen().candidate.is_specialised() {
-            true => {
-                let bounds = Bounds::recorded();
-                vec![specialised_function(method, subject, &naming, &bounds)?]
-            }
-            false => library_functions(method, &naming)?,
+        let functions = if judged.chosen().candidate.is_specialised() {
+            let bounds = Bounds::recorded();
+            vec![specialised_function(method, subject, &naming, &bounds)?]
+        } else {
+            library_functions(method, &naming)?
         };
         let called = functions.iter().position(|one| one.form == form);
         let called = called.expect("a candidate's form is one of its method's");
@@ -113,12 +112,11 @@ impl Written {
             command: "fresnel-gen --plan plan.json",
         };
         let subject = &judged.material.subject;
-        let files = match judged.chosen().candidate.is_specialised() {
-            true => emit::material(target, subject, &self.functions, &self.naming, heading)?,
-            false => {
-                let method = judged.chosen().candidate.method;
-                emit::library(target, method, &self.functions, heading)?
-            }
+        let files = if judged.chosen().candidate.is_specialised() {
+            emit::material(target, subject, &self.functions, &self.naming, heading)?
+        } else {
+            let method = judged.chosen().candidate.method;
+            emit::library(target, method, &self.functions, heading)?
         };
         Ok(files
             .into_iter()
@@ -227,9 +225,12 @@ impl<'a> Picture<'a> {
         let steps: Vec<[f64; 3]> = steps.iter().map(wide).collect();
         let curve = Curve::new(&steps, &places, &rule);
         // A mirror takes the number of its own cosine, a rough surface the mean over half vectors.
-        let value = |(i, place): (usize, &PixelPlace)| match case.pixels[i].roughness > 0.0 {
-            true => curve.at(place),
-            false => wide(&pixels[i]),
+        let value = |(i, place): (usize, &PixelPlace)| {
+            if case.pixels[i].roughness > 0.0 {
+                curve.at(place)
+            } else {
+                wide(&pixels[i])
+            }
         };
         Picture {
             pixels: case.pixels,

@@ -263,16 +263,17 @@ impl JudgedMaterial {
             return format!("{name} is within {budget} {unit}{angles}, and nothing costs less");
         };
         let next_name = next.candidate.name();
-        match next.error > budget {
-            true => format!(
+        if next.error > budget {
+            format!(
                 "{name} is the cheapest of {count} functions within {budget} {unit}{angles}: of those that cost less {next_name} errs \
                  least, {:.4}",
                 next.error
-            ),
-            false => format!(
+            )
+        } else {
+            format!(
                 "{name} is within {budget} {unit}{angles}, and other materials take it too: {next_name} costs less, and would be \
                  another function"
-            ),
+            )
         }
     }
 }

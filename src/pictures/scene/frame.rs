@@ -97,9 +97,10 @@ impl View {
 
     /// Pixels a side of what is drawn, where the picture has so many.
     pub fn side(self, side: u32) -> u32 {
-        match self.has_margin() {
-            true => side + 2 * (side / MARGIN),
-            false => side,
+        if self.has_margin() {
+            side + 2 * (side / MARGIN)
+        } else {
+            side
         }
     }
 

@@ -124,11 +124,12 @@ fn into_space((primaries, white): &Primaries, space: Space) -> Result<Option<DMa
     }
     let into_xyz = rgb_to_xyz(*primaries, *white);
     let matrix = space.xyz_to_rgb() * bradford(xyz_of(*white), space.white()) * into_xyz;
-    match matrix.is_finite() && into_xyz.determinant().abs() > 1e-6 {
-        true => Ok(Some(matrix)),
-        false => Err(format!(
+    if matrix.is_finite() && into_xyz.determinant().abs() > 1e-6 {
+        Ok(Some(matrix))
+    } else {
+        Err(format!(
             "its primaries {primaries:?} with the white {white:?} span no colours"
-        )),
+        ))
     }
 }
 

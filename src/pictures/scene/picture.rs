@@ -118,9 +118,10 @@ pub fn render(
     let things = Things {
         body: &body,
         glass: if row.disperses { order.glass } else { &flat },
-        around: match row.in_room {
-            true => Around::Room,
-            false => Around::Far(order.environment),
+        around: if row.in_room {
+            Around::Room
+        } else {
+            Around::Far(order.environment)
         },
         relief: relief.as_ref(),
     };

@@ -57,9 +57,10 @@ fn radiance(direction: DVec3) -> DVec3 {
 fn ground(direction: DVec3, horizon: DVec3) -> DVec3 {
     let place = direction * (GROUND / -direction.y);
     let is_light = (place.x.floor() + place.z.floor()).rem_euclid(2.0) == 0.0;
-    let square = match is_light {
-        true => DVec3::new(0.8, 0.74, 0.62),
-        false => DVec3::new(0.3, 0.1, 0.06),
+    let square = if is_light {
+        DVec3::new(0.8, 0.74, 0.62)
+    } else {
+        DVec3::new(0.3, 0.1, 0.06)
     };
     let distance = libm::hypot(place.x, place.z);
     horizon.lerp(square, libm::exp(-distance / HAZE))

@@ -45,15 +45,19 @@ const GLES: Words = Words {
 
 impl Words {
     fn head(&self, name: &str, arguments: &[(&str, &str)], result: &str) -> String {
-        let each = |(name, ty): &(&str, &str)| match self.type_first {
-            true => format!("{ty} {name}"),
-            false => format!("{name}: {ty}"),
+        let each = |(name, ty): &(&str, &str)| {
+            if self.type_first {
+                format!("{ty} {name}")
+            } else {
+                format!("{name}: {ty}")
+            }
         };
         let arguments: Vec<String> = arguments.iter().map(each).collect();
         let arguments = arguments.join(", ");
-        match self.type_first {
-            true => format!("{result} {name}({arguments})"),
-            false => format!("fn {name}({arguments}) -> {result}"),
+        if self.type_first {
+            format!("{result} {name}({arguments})")
+        } else {
+            format!("fn {name}({arguments}) -> {result}")
         }
     }
 }
@@ -125,9 +129,10 @@ impl RowText {
     /// reflected totally.
     pub fn exit_method(&self) -> &'static Method {
         let takes_index_alone = matches!(self.method.inputs, [input] if input.name == "eta");
-        match takes_index_alone && self.is_scalar() {
-            true => self.method,
-            false => usual_method(),
+        if takes_index_alone && self.is_scalar() {
+            self.method
+        } else {
+            usual_method()
         }
     }
 

@@ -159,9 +159,10 @@ impl Scene<'_> {
     /// What comes along a ray inside by both kinds of paths, and whether it is reflected totally at first.
     fn inside(&self, place: DVec3, direction: DVec3, n: f64) -> ([DVec3; 2], bool) {
         let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
-        let (two, all, is_total) = match self.paths.iter().any(goes_on) {
-            true => self.beyond(place, direction, n),
-            false => (DVec3::ZERO, DVec3::ZERO, false),
+        let (two, all, is_total) = if self.paths.iter().any(goes_on) {
+            self.beyond(place, direction, n)
+        } else {
+            (DVec3::ZERO, DVec3::ZERO, false)
         };
         let by = |paths: Paths| match paths {
             Paths::All => all,
@@ -187,18 +188,20 @@ impl Scene<'_> {
             let out = refracted(direction, -normal, 1.0 / n);
             let bounced = mirrored(direction, normal);
             // Where a dent would send the ray out of the body, the smooth surface keeps it inside.
-            direction = match bounced.dot(smooth) < 0.0 {
-                true => bounced,
-                false => mirrored(direction, smooth),
+            direction = if bounced.dot(smooth) < 0.0 {
+                bounced
+            } else {
+                mirrored(direction, smooth)
             };
             if let Some(out) = out {
                 all += left * (1.0 - r) * self.things.around.radiance(place, out);
             }
             if turn == 0 {
                 is_total = out.is_none();
-                two = match is_total {
-                    true => self.things.around.radiance(place, direction),
-                    false => all,
+                two = if is_total {
+                    self.things.around.radiance(place, direction)
+                } else {
+                    all
                 };
             }
             left *= r;

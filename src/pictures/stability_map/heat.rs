@@ -204,9 +204,12 @@ fn values(map: &Map) -> Vec<Tick> {
     } else {
         &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0]
     };
-    let label = |value: f64| match is_long {
-        true => power_label(libm::round(libm::log10(value)) as i32),
-        false => plain_label(value),
+    let label = |value: f64| {
+        if is_long {
+            power_label(libm::round(libm::log10(value)) as i32)
+        } else {
+            plain_label(value)
+        }
     };
     let tick = |value| Tick {
         value,

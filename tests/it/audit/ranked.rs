@@ -77,9 +77,10 @@ const AMD: [&str; 3] = ["gcn4", "rdna2", "rdna3"];
 #[test]
 fn ours_cost_no_more_at_the_same_error() {
     let place = place();
-    let gpus = match bless::is_on() {
-        true => families().collect::<Vec<_>>(),
-        false => AMD.to_vec(),
+    let gpus = if bless::is_on() {
+        families().collect::<Vec<_>>()
+    } else {
+        AMD.to_vec()
     };
     let mut faults = String::new();
     let mut found = Vec::new();

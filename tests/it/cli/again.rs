@@ -57,9 +57,10 @@ fn a_shell_runs_the_command_of_a_header() {
             let place = Place::new();
             let path = format!("{folder}{name}");
             place.put(&path, TABLE);
-            let typed = match path.starts_with('-') {
-                true => format!("./{path}"),
-                false => path,
+            let typed = if path.starts_with('-') {
+                format!("./{path}")
+            } else {
+                path
             };
             let flags = [
                 "--material",

@@ -272,11 +272,12 @@ fn an_unreadable_file_of_another_user_holds_nobody_up() {
             ".fresnel-gen.lock cannot be opened (Permission denied",
         ),
     ] {
-        let script = match is_root {
-            true => format!(
+        let script = if is_root {
+            format!(
                 "setpriv --reuid=65534 --regid=65534 --clear-groups timeout 60 '{PROGRAM}' {line}"
-            ),
-            false => format!("timeout 60 '{PROGRAM}' {line}"),
+            )
+        } else {
+            format!("timeout 60 '{PROGRAM}' {line}")
         };
         let run = Command::new("sh")
             .args(["-c", &script])

@@ -125,13 +125,14 @@ fn a_forged_entry_removes_no_copy() {
     ] {
         let place = Place::new();
         place.done(&format!("{LINE} --target spirv"));
-        let own = match name.starts_with("spirv") {
-            true => place
+        let own = if name.starts_with("spirv") {
+            place
                 .listed()
                 .into_iter()
                 .find(|file| file.starts_with("spirv/fresnel_schlick"))
-                .unwrap(),
-            false => "wgsl/fresnel_schlick.wgsl".to_owned(),
+                .unwrap()
+        } else {
+            "wgsl/fresnel_schlick.wgsl".to_owned()
         };
         let copy = place.read_bytes(&format!("{OUT}/{own}"));
         place.put(&format!("{OUT}/{name}"), &copy);

@@ -367,9 +367,10 @@ fn flags_that_a_command_offers_do_their_work() {
     let mut used: std::collections::BTreeMap<String, Vec<&str>> = Default::default();
     for (line, is_run) in USED {
         let words: Vec<&str> = line.split_whitespace().collect();
-        match is_run {
-            true => drop(place.done(line)),
-            false => is_known(&format!("fresnel-gen {line}")),
+        if is_run {
+            drop(place.done(line))
+        } else {
+            is_known(&format!("fresnel-gen {line}"))
         }
         let path: String = words
             .iter()

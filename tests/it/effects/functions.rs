@@ -137,9 +137,10 @@ fn reflection_and_refraction_share_all_light() {
             let out: [f64; 3] = refracted.at(i);
             let is_total = ray[0] > eta;
             assert_eq!(out == [0.0; 3], is_total, "{eta} {ray:?}");
-            let passes = match is_total {
-                true => 0.0,
-                false => transmitted(eta, cos_i, -out[2]),
+            let passes = if is_total {
+                0.0
+            } else {
+                transmitted(eta, cos_i, -out[2])
             };
             assert!(
                 (share + passes - 1.0).abs() < 1e-7,

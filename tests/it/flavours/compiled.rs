@@ -166,9 +166,10 @@ impl Host<'_> {
     fn takes_text(&self, what: &str, text: &str, use_of_gold: &str) {
         let way = self.way;
         let behind = way.behind.replace("{gold}", use_of_gold);
-        let text = match includes_itself(way) {
-            true => text.to_owned(),
-            false => inlined(&self.folder, text),
+        let text = if includes_itself(way) {
+            text.to_owned()
+        } else {
+            inlined(&self.folder, text)
         };
         let program = self.folder.join(way.program);
         std::fs::write(&program, format!("{}{text}{behind}", way.before)).unwrap();

@@ -43,13 +43,13 @@ pub fn written(place: &Place, flags: &str) -> BTreeSet<String> {
 
 /// The files that a flavour has for these materials.
 fn expected(flavour: &Flavour, materials: &[&str]) -> BTreeSet<String> {
-    let names = flavour
-        .pages
-        .iter()
-        .flat_map(|page| match page.is_of_material() {
-            true => materials.iter().map(|name| page.file_of(name)).collect(),
-            false => vec![page.name.to_owned()],
-        });
+    let names = flavour.pages.iter().flat_map(|page| {
+        if page.is_of_material() {
+            materials.iter().map(|name| page.file_of(name)).collect()
+        } else {
+            vec![page.name.to_owned()]
+        }
+    });
     names
         .map(|name| format!("{}/{name}", flavour.name))
         .collect()
@@ -170,9 +170,10 @@ fn a_target_beside_it_is_written_too_and_a_foreign_one_is_refused() {
         );
         let place = Place::new();
         let line = format!("--flavour {name} --target {own} --material gold");
-        let files = match own.is_empty() {
-            true => continue,
-            false => written(&place, &line),
+        let files = if own.is_empty() {
+            continue;
+        } else {
+            written(&place, &line)
         };
         let folders: BTreeSet<&str> = files
             .iter()

@@ -75,9 +75,10 @@ impl Held {
             println!("{}: L1 {l1:.4}, energy {energy:.4}", row.name);
             return (l1 > CAUSTICS).then(|| format!("L1 {l1:.4}"));
         }
-        let want = match RowText::usual(row).is_rough() {
-            true => rough(row, subject),
-            false => self.drawn(row, subject, &glass)?,
+        let want = if RowText::usual(row).is_rough() {
+            rough(row, subject)
+        } else {
+            self.drawn(row, subject, &glass)?
         };
         let mut apart: Vec<f64> = pixels.iter().zip(&want).map(apart).collect();
         apart.sort_by(f64::total_cmp);
@@ -86,9 +87,10 @@ impl Held {
             "{}: 99 of 100 pixels differ by less than {p99:.4}",
             row.name
         );
-        let tolerance = match MAGNIFYING.contains(&row.name) {
-            true => MAGNIFIED,
-            false => TOLERANCE,
+        let tolerance = if MAGNIFYING.contains(&row.name) {
+            MAGNIFIED
+        } else {
+            TOLERANCE
         };
         (p99 > tolerance).then(|| format!("{p99:.4}"))
     }
@@ -107,9 +109,10 @@ impl Held {
         let things = Things {
             body: &body,
             glass: if row.disperses { glass } else { &flat },
-            around: match row.in_room {
-                true => Around::Room,
-                false => Around::Far(&self.sky),
+            around: if row.in_room {
+                Around::Room
+            } else {
+                Around::Far(&self.sky)
             },
             relief: relief.as_ref(),
         };

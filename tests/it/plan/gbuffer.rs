@@ -192,9 +192,12 @@ fn several_parts_are_one_frame() {
 /// As Blender names the passes of a view layer, which are its own outputs of shaders.
 #[test]
 fn a_view_layer_of_blender_is_read() {
-    let named = |name: &str| match name.contains('.') {
-        true => format!("ViewLayer.{name}"),
-        false => format!("ViewLayer.{name}.V"),
+    let named = |name: &str| {
+        if name.contains('.') {
+            format!("ViewLayer.{name}")
+        } else {
+            format!("ViewLayer.{name}.V")
+        }
     };
     let stored = Stored::Half;
     let blender: Vec<Channel> = channels(stored)

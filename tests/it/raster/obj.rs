@@ -17,9 +17,10 @@ pub fn obj(mesh: &Mesh, with_normals: bool) -> String {
     }
     for corners in &mesh.triangles {
         let [a, b, c] = corners.map(|corner| corner + 1);
-        text += &match with_normals {
-            true => format!("f {a}//{a} {b}//{b} {c}//{c}\n"),
-            false => format!("f {a} {b} {c}\n"),
+        text += &if with_normals {
+            format!("f {a}//{a} {b}//{b} {c}//{c}\n")
+        } else {
+            format!("f {a} {b} {c}\n")
         };
     }
     text

@@ -19,9 +19,12 @@ const N: f64 = 1.5;
 #[test]
 fn a_ball_shows_the_world_upside_down() {
     let Some(device) = device() else { return };
-    let environment = around(|direction| match direction.y > 0.0 {
-        true => DVec3::X,
-        false => DVec3::Z,
+    let environment = around(|direction| {
+        if direction.y > 0.0 {
+            DVec3::X
+        } else {
+            DVec3::Z
+        }
     });
     let glass = Glass::of_index(N);
     let picture = pictured(&device, "double_refraction", &glass, &environment, 64);

@@ -68,9 +68,10 @@ fn summaries(rows: &[StabilityRow]) -> Vec<Vec<String>> {
                 failures.push(format!("{}: {}", finding.failure.words(), finding.region));
             }
         }
-        let words = match failures.is_empty() {
-            true => "no failure found".to_owned(),
-            false => failures.join("; "),
+        let words = if failures.is_empty() {
+            "no failure found".to_owned()
+        } else {
+            failures.join("; ")
         };
         vec![format!("`{method}`{}", exempt(method)), words]
     };

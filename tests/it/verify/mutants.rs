@@ -178,9 +178,10 @@ fn invert(function: &mut Function, id: NodeId) {
             .iter_mut()
             .for_each(|argument| *argument = shift(*argument));
     }
-    function.result = match function.result == id {
-        true => id + 2,
-        false => shift(function.result),
+    function.result = if function.result == id {
+        id + 2
+    } else {
+        shift(function.result)
     };
     function.nodes.insert(
         id + 1,
@@ -226,9 +227,10 @@ fn trial(emitted: &Emitted, subject: &MaterialInMedium) -> Trial {
             .map(|input| values[input.name].map(|value| value as f32))
             .collect(),
         table: fit::table_of(&emitted.function, |c| subject.reference.at(c)),
-        bound: match guarded {
-            true => Measured::Yes(emitted.method.claims.code_ulp),
-            false => Measured::No("it promises nothing".to_owned()),
+        bound: if guarded {
+            Measured::Yes(emitted.method.claims.code_ulp)
+        } else {
+            Measured::No("it promises nothing".to_owned())
         },
         floor: ABSOLUTE_FLOOR,
         is_guarded: guarded,

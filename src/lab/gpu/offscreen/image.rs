@@ -139,12 +139,12 @@ impl Image {
 
 /// The texels of a row.
 fn texels(row: &[u8], is_half: bool) -> Vec<[f32; 4]> {
-    let numbers: Vec<f32> = match is_half {
-        true => row
-            .chunks_exact(2)
+    let numbers: Vec<f32> = if is_half {
+        row.chunks_exact(2)
             .map(|bytes| f16::from_ne_bytes([bytes[0], bytes[1]]).to_f32())
-            .collect(),
-        false => bytemuck::pod_collect_to_vec(row),
+            .collect()
+    } else {
+        bytemuck::pod_collect_to_vec(row)
     };
     let four = |four: &[f32]| [four[0], four[1], four[2], four[3]];
     numbers.chunks_exact(4).map(four).collect()

@@ -78,9 +78,10 @@ pub struct Draw<'a> {
 impl Offscreen {
     pub(super) fn new(compute: &Rc<Compute>) -> Result<Offscreen, DeviceFault> {
         let all = Features::FLOAT32_FILTERABLE | Features::FLOAT32_BLENDABLE;
-        let format = match compute.has(all) {
-            true => TextureFormat::Rgba32Float,
-            false => TextureFormat::Rgba16Float,
+        let format = if compute.has(all) {
+            TextureFormat::Rgba32Float
+        } else {
+            TextureFormat::Rgba16Float
         };
         let along_u = [wgpu::AddressMode::ClampToEdge, wgpu::AddressMode::Repeat];
         let sampler = |address_mode_u| {

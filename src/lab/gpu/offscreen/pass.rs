@@ -109,9 +109,10 @@ pub(super) fn pass(
     group: &wgpu::BindGroup,
 ) {
     let views: Vec<wgpu::TextureView> = draw.targets.iter().map(|image| image.view()).collect();
-    let load = match draw.clears {
-        true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-        false => wgpu::LoadOp::Load,
+    let load = if draw.clears {
+        wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
+    } else {
+        wgpu::LoadOp::Load
     };
     let attachment = |view| {
         Some(wgpu::RenderPassColorAttachment {

@@ -70,9 +70,10 @@ fn snake(text: &str) -> String {
 }
 
 fn spelt(c: char) -> String {
-    match c.is_ascii() {
-        true => c.to_string(),
-        false => deunicode_char(c).unwrap_or(" ").to_owned(),
+    if c.is_ascii() {
+        c.to_string()
+    } else {
+        deunicode_char(c).unwrap_or(" ").to_owned()
     }
 }
 

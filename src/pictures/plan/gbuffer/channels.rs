@@ -152,9 +152,10 @@ fn missing(channel: &'static str, present: &[PresentChannel]) -> GbufferFault {
     GbufferFault::Missing {
         channel,
         offered: offered(&nearest_names(channel, &free)),
-        present: match listed.is_empty() {
-            true => "no channel".to_owned(),
-            false => listed.join(", ") + &rest,
+        present: if listed.is_empty() {
+            "no channel".to_owned()
+        } else {
+            listed.join(", ") + &rest
         },
     }
 }

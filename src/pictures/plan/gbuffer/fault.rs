@@ -113,8 +113,9 @@ fn twice_in([name, other]: &[String; 2], [first, second]: [usize; 2]) -> String 
     if name != other {
         return format!("as `{}` and as `{}`", Foreign(name), Foreign(other));
     }
-    match first == second {
-        true => format!("both times in part {}", first + 1),
-        false => format!("in part {} and in part {}", first + 1, second + 1),
+    if first == second {
+        format!("both times in part {}", first + 1)
+    } else {
+        format!("in part {} and in part {}", first + 1, second + 1)
     }
 }

@@ -124,9 +124,10 @@ impl<'a> Buffers<'a> {
         self.replace(accessor, size, place, &mut |at, bytes| {
             all[at] = colour(bytes)
         })?;
-        match all.iter().flatten().any(|channel| channel.is_nan()) {
-            true => Err(Place::new(place, "a colour is no number")),
-            false => Ok(all),
+        if all.iter().flatten().any(|channel| channel.is_nan()) {
+            Err(Place::new(place, "a colour is no number"))
+        } else {
+            Ok(all)
         }
     }
 
@@ -171,9 +172,10 @@ impl<'a> Buffers<'a> {
             Checked::Invalid => return Err(fault()),
         };
         let is_wanted = matches!(accessor.type_, Checked::Valid(kind) if kind == wanted);
-        match is_wanted && allowed.contains(&component) {
-            true => Ok(component),
-            false => Err(fault()),
+        if is_wanted && allowed.contains(&component) {
+            Ok(component)
+        } else {
+            Err(fault())
         }
     }
 
@@ -301,12 +303,13 @@ fn count(accessor: &Accessor, place: &str) -> Result<usize, Place> {
         None => MOST_ZEROS,
     };
     let count = accessor.count.0;
-    match count <= most as u64 {
-        true => Ok(count as usize),
-        false => Err(Place::new(
+    if count <= most as u64 {
+        Ok(count as usize)
+    } else {
+        Err(Place::new(
             place,
             format!("it has {count} elements; at most {most} are read"),
-        )),
+        ))
     }
 }
 

@@ -57,10 +57,10 @@ fn camera(
     size: [u32; 2],
     place: &str,
 ) -> Result<Camera, Place> {
-    let within = |value: f64, [low, high]: [f64; 2], what: &str| match (low..=high).contains(&value)
-    {
-        true => Ok(value),
-        false => {
+    let within = |value: f64, [low, high]: [f64; 2], what: &str| {
+        if (low..=high).contains(&value) {
+            Ok(value)
+        } else {
             let says = format!("it is {value}; it must lie between {low} and {high}");
             Err(Place::new(format!("{place}.{what}"), says))
         }

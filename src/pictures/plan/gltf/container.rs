@@ -113,8 +113,9 @@ pub fn path_of(uri: &str) -> Result<String, String> {
     let leaves = path.contains('\0')
         || path.starts_with(['/', '\\'])
         || path.split(['/', '\\']).any(|part| part == "..");
-    match leaves || path.contains(':') {
-        true => Err("a buffer is in a file below the glTF file's folder, or embedded".to_owned()),
-        false => Ok(path),
+    if leaves || path.contains(':') {
+        Err("a buffer is in a file below the glTF file's folder, or embedded".to_owned())
+    } else {
+        Ok(path)
     }
 }

@@ -219,9 +219,10 @@ impl<'a> Looks<'a> {
         let Some(own) = own else { return place };
         let planned = self.materials.iter().map(|known| &known.name);
         let mut all = planned.chain(self.unplanned.iter().map(|known| &known.name));
-        match all.any(|known| *known == own) {
-            true => format!("{own} ({place})"),
-            false => own,
+        if all.any(|known| *known == own) {
+            format!("{own} ({place})")
+        } else {
+            own
         }
     }
 }
@@ -244,9 +245,10 @@ struct Factors {
 impl Factors {
     fn of(material: &GltfMaterial, key: Option<usize>) -> Result<Factors, Place> {
         let pbr = &material.pbr_metallic_roughness;
-        let check = |value: f32, what: &str| match (0.0..=1.0).contains(&value) {
-            true => Ok(value),
-            false => {
+        let check = |value: f32, what: &str| {
+            if (0.0..=1.0).contains(&value) {
+                Ok(value)
+            } else {
                 let place = format!(
                     "materials[{}].pbrMetallicRoughness.{what}",
                     key.unwrap_or(0)

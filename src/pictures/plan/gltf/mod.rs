@@ -94,9 +94,10 @@ impl GltfScene {
             has_cameras: !own.is_empty(),
             unplanned: looks.unplanned,
             remarks: [looks.remarks, remarks::of_scene(&root, view.size)].concat(),
-            cameras: match own.is_empty() {
-                true => cameras::around(scene.mesh(), view.size),
-                false => own,
+            cameras: if own.is_empty() {
+                cameras::around(scene.mesh(), view.size)
+            } else {
+                own
             },
             scene,
             materials: looks.materials,
@@ -110,9 +111,10 @@ impl GltfScene {
 
     /// What it is seen by, in words.
     pub fn view(&self) -> String {
-        match self.has_cameras {
-            true => "the file's cameras".to_owned(),
-            false => cameras::AROUND_IN_WORDS.to_owned(),
+        if self.has_cameras {
+            "the file's cameras".to_owned()
+        } else {
+            cameras::AROUND_IN_WORDS.to_owned()
         }
     }
 

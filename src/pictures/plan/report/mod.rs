@@ -177,9 +177,10 @@ impl PlanReport {
 fn named(row: &PlanRow) -> String {
     let others = row.names.iter().filter(|name| **name != row.material);
     let others: Vec<&str> = others.map(String::as_str).collect();
-    match others.is_empty() {
-        true => row.material.clone(),
-        false => format!("{} ({})", row.material, others.join(", ")),
+    if others.is_empty() {
+        row.material.clone()
+    } else {
+        format!("{} ({})", row.material, others.join(", "))
     }
 }
 

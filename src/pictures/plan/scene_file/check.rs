@@ -159,9 +159,10 @@ impl FileText<'_> {
         let what = || {
             format!("`{key}` is empty or holds a control character; it wants a line of plain text")
         };
-        match is_legible {
-            true => Ok(()),
-            false => Err(self.fault(text.span().start, what())),
+        if is_legible {
+            Ok(())
+        } else {
+            Err(self.fault(text.span().start, what()))
         }
     }
 

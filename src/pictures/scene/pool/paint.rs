@@ -103,9 +103,10 @@ fn tile(place: DVec2, to_edge: f64) -> DVec3 {
     let (i, j) = (number.x as i64, number.y as i64);
     let shade = 0.8 + 0.35 * scattered(i, j);
     let is_band = (TILE..2.0 * TILE).contains(&to_edge);
-    let colour = match is_band {
-        true => DVec3::new(0.05, 0.14, 0.36),
-        false => DVec3::new(0.16, 0.4, 0.44).lerp(DVec3::new(0.07, 0.28, 0.4), scattered(j, i)),
+    let colour = if is_band {
+        DVec3::new(0.05, 0.14, 0.36)
+    } else {
+        DVec3::new(0.16, 0.4, 0.44).lerp(DVec3::new(0.07, 0.28, 0.4), scattered(j, i))
     };
     (colour * shade).min(DVec3::splat(0.9))
 }
@@ -139,9 +140,10 @@ fn garden(at: DVec2, place: DVec3) -> DVec3 {
 fn post(at: DVec2, y: f64) -> DVec3 {
     let turns = at.x + 2.2 * y;
     let is_white = turns - turns.floor() < 0.5;
-    let colour = match is_white {
-        true => DVec3::new(0.86, 0.84, 0.8),
-        false => DVec3::new(0.55, 0.05, 0.06),
+    let colour = if is_white {
+        DVec3::new(0.86, 0.84, 0.8)
+    } else {
+        DVec3::new(0.55, 0.05, 0.06)
     };
     let weed = (1.0 - (y + 0.05).abs() / 0.09).clamp(0.0, 1.0) * 0.6;
     colour.lerp(DVec3::new(0.1, 0.16, 0.06), weed)
@@ -156,9 +158,10 @@ fn ball(at: DVec2) -> DVec3 {
         DVec3::new(0.06, 0.22, 0.6),
         DVec3::new(0.88, 0.87, 0.84),
     ];
-    match (0.08..0.92).contains(&at.y) {
-        true => COLOURS[((at.x * 6.0) as usize).min(5)],
-        false => COLOURS[1],
+    if (0.08..0.92).contains(&at.y) {
+        COLOURS[((at.x * 6.0) as usize).min(5)]
+    } else {
+        COLOURS[1]
     }
 }
 

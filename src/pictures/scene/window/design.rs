@@ -166,9 +166,10 @@ impl Piece {
     /// With another lead, so far away and so wide by half.
     fn with(self, [to_lead, half_lead]: [f64; 2]) -> Piece {
         let is_nearer = to_lead - half_lead < self.to_lead - self.half_lead;
-        let (to_lead, half_lead) = match is_nearer {
-            true => (to_lead, half_lead),
-            false => (self.to_lead, self.half_lead),
+        let (to_lead, half_lead) = if is_nearer {
+            (to_lead, half_lead)
+        } else {
+            (self.to_lead, self.half_lead)
         };
         Piece {
             to_lead,
@@ -185,10 +186,7 @@ fn medallion(from: DVec2, size: f64, petals: f64, id: [i64; 2], colours: [DVec3;
     let turn = from.to_angle() / std::f64::consts::TAU * petals;
     let is_hub = radius < HUB * size;
     let to_side = (turn - turn.round()).abs() * std::f64::consts::TAU * radius / petals;
-    let petal = match is_hub {
-        true => -1,
-        false => turn.floor() as i64,
-    };
+    let petal = if is_hub { -1 } else { turn.floor() as i64 };
     let piece = Piece {
         colour: colours[usize::from(!is_hub)],
         number: [id[0] * 16 + petal, id[1]],
@@ -196,9 +194,10 @@ fn medallion(from: DVec2, size: f64, petals: f64, id: [i64; 2], colours: [DVec3;
         half_lead: LEAD,
     };
     let piece = piece.with([size - radius, THICK_LEAD]);
-    match is_hub {
-        true => piece,
-        false => piece.with([to_side, LEAD]),
+    if is_hub {
+        piece
+    } else {
+        piece.with([to_side, LEAD])
     }
 }
 

@@ -1,19 +1,12 @@
-//! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
+//! What a run leaves: text or a file for stdout, remarks, an exit code; and reports as text or as JSON.
 
-use crate::cli::places::{refuse_clashes, replaced};
-use crate::cli::{
-    audit, bake, chart, cost, fit, gallery, generate, lists, materials, merge, plan, render,
-    reproduce, scene_error, stability, time, verify,
-};
+use crate::cli::places::replaced;
 use std::path::Path;
 
 use serde::Serialize;
 
-use crate::cli::command_line::{Cli, Command};
-use crate::cli::completions::completions;
 use crate::cli::error::Error;
 use crate::generator::fault::RequestFault;
-use crate::generator::output::lock::Announce;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::physics::materials::escaped;
 
@@ -32,43 +25,6 @@ pub struct Output {
 
 /// Long work says how far it is: done, of how many, what.
 pub type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
-
-/// Runs what the command line asks for.
-///
-/// `progress` hears how far long work is; `announce` hears what a person should know before the run ends.
-///
-/// # Errors
-/// Flags contradict each other or name what does not exist, a file cannot be read or written, or something needed is missing.
-pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
-    refuse_clashes(&cli.named_files())?;
-    match &cli.command {
-        None => generate::run(&cli.generate, announce),
-        Some(Command::Generate(flags)) => generate::run(flags, announce),
-        Some(Command::Completions(flags)) => Ok(Output {
-            stdout: completions(flags.shell).into_bytes(),
-            is_file: true,
-            ..Output::default()
-        }),
-        Some(Command::Methods(listing)) => lists::methods(listing),
-        Some(Command::Materials(listing)) => materials::run(listing, progress),
-        Some(Command::Effects(listing)) => lists::effects(listing),
-        Some(Command::Targets(listing)) => lists::targets(listing),
-        Some(Command::Bake(flags)) => bake::run(flags, progress, announce),
-        Some(Command::Verify(flags)) => verify::run(flags, progress),
-        Some(Command::Merge(flags)) => merge::run(flags),
-        Some(Command::Cost(flags)) => cost::run(flags, progress),
-        Some(Command::Time(flags)) => time::run(flags, progress),
-        Some(Command::Audit(flags)) => audit::run(flags, progress),
-        Some(Command::Render(flags)) => render::run(flags, progress),
-        Some(Command::Chart(flags)) => chart::run(flags, progress),
-        Some(Command::Fit(flags)) => fit::run(flags, progress),
-        Some(Command::Gallery(flags)) => gallery::run(flags, progress),
-        Some(Command::Stability(flags)) => stability::run(flags, progress),
-        Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
-        Some(Command::Plan(flags)) => plan::run(flags, progress),
-        Some(Command::SceneError(flags)) => scene_error::run(flags, progress),
-    }
-}
 
 /// Refuses a time limit of 0, and one that no clock can add.
 pub fn check_limit(seconds: u64) -> Result<(), Error> {
