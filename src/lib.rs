@@ -54,7 +54,7 @@
 //! second time without the IR, and all else is held against them. ARCHITECTURE.md says more.
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
-// The wings, in the order of imports.
+// Wings: physics < language < generator < lab < pictures < cli
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod generator;

@@ -31,7 +31,7 @@ pub struct Artifact {
 
 impl Artifact {
     /// What tells a file of an effect from others in its target's folder.
-    pub fn effect_key(&self) -> Option<EffectKey> {
+    pub(in crate::generator) fn effect_key(&self) -> Option<EffectKey> {
         let effect = self.effect.clone()?;
         Some((effect, self.material.clone(), self.method.clone()))
     }

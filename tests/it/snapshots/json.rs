@@ -98,7 +98,8 @@ fn lines(name: &str, report: &Value) -> Vec<String> {
 
 /// The lines of a report in the committed list, for a command that lacks something here.
 fn committed(name: &str) -> Vec<String> {
-    let text = fs::read_to_string(super::root().join("tests/it/snapshots/json.txt")).unwrap_or_default();
+    let text =
+        fs::read_to_string(super::root().join("tests/it/snapshots/json.txt")).unwrap_or_default();
     let head = format!("{name}: ");
     text.lines()
         .filter(|line| line.starts_with(&head))
