@@ -79,7 +79,7 @@ fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<
         return Ok(());
     };
     let checked = source::check_below(plan, Path::new(path), allowed);
-    checked.map_err(|what| Error::usage(what))
+    checked.map_err(Error::usage)
 }
 
 /// The method of a row: one that plans choose, in a form that they choose.

@@ -9,6 +9,9 @@ use crate::generator::output::manifest::{self, Manifest};
 use crate::physics::num::Precision;
 
 /// The methods that the folder's material files of this precision hold, by its manifest.
+///
+/// # Errors
+/// The manifest cannot be read, or is not ours.
 pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
     let path: PathBuf = out_dir.join(manifest::FILE);
     let Some(text) = folder::read(&path)? else {
