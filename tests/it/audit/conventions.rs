@@ -3,8 +3,7 @@
 
 use serde_json::Value;
 
-use super::audit;
-use super::rows;
+use super::{audit, rows};
 use crate::cli::Place;
 
 /// The largest error of Schlick's formula for gold.
@@ -274,7 +273,6 @@ namespace brdf
     float3 F(float3 F0, float VoH) { return detail::mixed(F0, pow5(ONE - VoH + bias)); }
     float3 Wet(float3 F0, float VoH) { return wet * F(F0, VoH); }
 }
-
 struct BRDF
 {
     float roughness;
