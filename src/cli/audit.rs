@@ -11,15 +11,13 @@ use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside
 use crate::cli::places::try_files;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::fit::ModelError;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::shader;
 use crate::generator::request::{Materials, Request};
-use crate::lab::audit::{
-    Audit, AuditCost, AuditRow, AuditRows, ConditionRow, Define, ExactFit, Given, Language, serve,
-};
+use crate::lab::audit::{Audit, AuditCost, AuditRow, AuditRows, ConditionRow, Define, ExactFit, Given, Language, serve};
 use crate::lab::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::lab::cost::{self, FAMILIES, Family};
 use crate::lab::verify::{Status, machine};

@@ -9,16 +9,13 @@ use crate::cli::output::{Output, Progress, not_drawn, png, report, reported};
 use crate::cli::{coated, import, params, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};
-use crate::generator::error::unknown;
+use crate::generator::error::{unknown, RequestFault};
 use crate::generator::exchange::{self, Format};
-use crate::generator::fault::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::generator::request::check_transparent;
-use crate::generator::request::loaded::{Loaded, load};
+use crate::generator::request::source::{Loaded, load};
 use crate::physics::foreign::{Foreign, one_line};
-use crate::physics::materials::{
-    self, ConstantIndex, Extrapolate, Material, MaterialKind, ViewingConditions,
-};
+use crate::physics::materials::{self, ConstantIndex, Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::physics::names::UnknownName;
 use crate::physics::spectra::{FIRST_NM, LAST_NM};
 use crate::pictures::material_sheet::material_sheet;

@@ -37,7 +37,6 @@ mod search;
 mod stability;
 mod survey;
 mod time;
-mod unsuited;
 mod verify;
 
 use std::path::{Path, PathBuf};

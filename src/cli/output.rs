@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::cli::error::Error;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::physics::materials::escaped;
 

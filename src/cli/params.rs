@@ -7,14 +7,12 @@ use crate::cli::places::replaced;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::SCHEMA;
 use crate::generator::exchange::{EngineMaterial, Format};
-use crate::generator::fault::RequestFault;
-use crate::generator::fit::{
-    ColourErrors, GreyTint, MaterialParams, MeasuredSpread, material_params, rounded_up,
-};
+use crate::generator::error::RequestFault;
+use crate::generator::fit::{ColourErrors, GreyTint, MaterialParams, MeasuredSpread, material_params, rounded_up};
 use crate::generator::output::folder::is_device;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::reference::{Derivation, MaterialInMedium};
-use crate::generator::request::loaded::{Loaded, load};
+use crate::generator::request::source::{Loaded, load};
 use crate::physics::foreign::one_line;
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::spectra::Gamut;

@@ -8,20 +8,16 @@ use crate::cli::places::{refuse_read, try_places};
 use crate::cli::plan_input::{PlanInput, plan_input};
 use crate::cli::scene_error::size;
 use crate::generator::command_line::{CommandLine, path_again};
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::request::source::comma_list;
 use crate::lab::cost::{self, Family, GpuCompiler};
-use crate::language::methods;
-use crate::language::methods::Method;
+use crate::language::methods::{self, Method};
 use crate::physics::materials::ViewingConditions;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::pictures::plan::report::{PlanReport, plan_page};
-use crate::pictures::plan::{
-    FramePixels, JudgedMaterial, Metric, PlanFault, PlanRequest, PlanRow, PlanTotal, PlanTruth,
-    Proof, ProofCase, material_view, plan, prove,
-};
+use crate::pictures::plan::{FramePixels, JudgedMaterial, Metric, PlanFault, PlanRequest, PlanRow, PlanTotal, PlanTruth, Proof, ProofCase, material_view, plan, prove};
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 use clap::Args;
 use std::path::PathBuf;

@@ -11,12 +11,11 @@ use crate::physics::materials::{self, FileFault};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
-
 use crate::cli::error::Error;
 use crate::cli::flags::material::MaterialName;
 use crate::generator::error::unknown;
-use crate::generator::request::loaded::load;
-use crate::generator::request::{Materials, Request, source};
+use crate::generator::request::source::{self, load};
+use crate::generator::request::{Materials, Request};
 
 /// The beginning of the command of a plan.
 const COMMAND: &str = "plan";

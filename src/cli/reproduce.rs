@@ -5,9 +5,7 @@ use crate::cli::flags::output::{ReportFlags, TreeFlags};
 use crate::cli::output::{Output, Progress, report_beside};
 use crate::generator::envelope::Report;
 use crate::generator::output::write::OutputFile;
-use crate::lab::reproduce::{
-    ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, reproduce, thesis,
-};
+use crate::lab::reproduce::{ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, reproduce, comparison};
 use crate::physics::names::UnknownName;
 use crate::pictures::figure_chart::figure_chart;
 use crate::pictures::table;
@@ -57,7 +55,7 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
         .table
         .as_ref()
         .map_or(Part::ALL.as_slice(), std::slice::from_ref);
-    let reproduced = reproduce(parts, thesis::ANGLES, progress);
+    let reproduced = reproduce(parts, comparison::ANGLES, progress);
     let drawn = figures(flags, &reproduced);
     let (count, folder) = (
         drawn.len(),

@@ -10,23 +10,20 @@ use crate::cli::places::try_places;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::fit::values_for_material;
 use crate::generator::lut::{Depth, Format, Picture, TableAxis};
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, source};
-use crate::lab::raster::{
-    Body, Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj,
-    rendered_error, shown,
-};
+use crate::lab::raster::{Body, Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj, rendered_error, shown};
 use crate::language::ir::Checked;
 use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{FileFault, ViewingConditions};
 use crate::physics::num::in_parallel;
 use crate::physics::spectra::{Space, srgb_byte};
-use crate::pictures::pixels::rgb_png;
+use crate::pictures::png::rgb_png;
 use crate::pictures::table::{short_number, text_table};
 use clap::Args;
 use glam::DVec3;

@@ -11,7 +11,6 @@ use crate::generator::request::source::{comma_list, is_path, read};
 use crate::generator::request::{Materials, Source};
 use crate::physics::materials::{self, ConstantIndex, IndexFault};
 use crate::physics::names::UnknownName;
-
 use crate::cli::flags::choice::Choice;
 
 /// A word that is no medium.

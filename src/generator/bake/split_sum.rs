@@ -6,15 +6,11 @@
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
-use crate::generator::lut::{
-    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis,
-    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range,
-};
+use crate::generator::lut::{BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis, SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range};
 use crate::language::ir::Weights;
 use crate::language::methods::{self, Basis, Method};
-
 use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
-use super::usual::DEFAULT_FORMATS;
+use super::subject::DEFAULT_FORMATS;
 use super::{Baked, Error, depths};
 
 /// What is baked.

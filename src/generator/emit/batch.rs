@@ -3,7 +3,6 @@
 
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Batch, Spelling, Target};
-
 use super::function::Emitted;
 
 /// How many places of four numbers an argument takes.

@@ -11,16 +11,12 @@ use crate::language::ir::{Param, Ty};
 use crate::language::methods::Input;
 use crate::language::targets::{Finish, Target};
 use crate::physics::materials::Material;
-
 use super::average::Average;
-use super::bounds::CodeBound;
+use super::figures::{CodeBound, MissedDetail};
 use super::effect_file::EffectPart;
 use super::file::{is_number, uniform_offsets};
-use super::form::FunctionForm;
-use super::function::Emitted;
-use super::header::OUTPUT_LICENCE;
-use super::missed::MissedDetail;
-use super::notes::Notes;
+use super::function::{FunctionForm, Emitted};
+use super::header::{OUTPUT_LICENCE, Notes};
 use super::page::entry_point;
 use super::print;
 

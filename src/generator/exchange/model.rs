@@ -5,7 +5,6 @@ use serde::Serialize;
 use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::Checked;
 use crate::language::methods::{self, Method, Values};
-
 use super::sheet::Node;
 use super::subject::EngineMaterial;
 

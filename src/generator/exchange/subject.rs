@@ -5,8 +5,7 @@ use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{Input, KnownSurface};
 use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
-
-use super::fault::ExchangeFault;
+use super::format::ExchangeFault;
 
 /// A material as formats take it.
 #[derive(Clone, Debug)]

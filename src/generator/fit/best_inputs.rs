@@ -9,7 +9,6 @@
 
 use crate::language::ir::{Checked, Ty, Value, evaluate};
 use crate::language::methods::{Input, Method, Values};
-
 use super::minimax::{Points, minimax};
 use super::problem::FitCurve;
 

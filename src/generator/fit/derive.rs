@@ -6,7 +6,6 @@ use crate::physics::materials::Channels;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics;
 use crate::physics::spectra::Gamut;
-
 use super::problem::{FitCurve, FitObjective, FitProblem, basis};
 
 /// What is known of a surface by its channels alone.

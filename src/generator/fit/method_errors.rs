@@ -4,7 +4,6 @@ use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{Checked, Value};
 use crate::language::methods::{Method, Values};
 use crate::physics::spectra::Space;
-
 use super::best_inputs::{best_inputs, values_at};
 use super::derive::values_for_material;
 use super::model_error::{error_of, model_error};

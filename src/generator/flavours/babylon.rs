@@ -1,7 +1,6 @@
 //! Babylon.js: a module with a plugin for PBR materials.
 
 use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
 
 /// The record of this flavour.

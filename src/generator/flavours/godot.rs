@@ -1,7 +1,6 @@
 //! Godot 4: functions for its shading language, as files to be included.
 
 use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
 
 /// The record of this flavour.

@@ -1,7 +1,6 @@
 //! PlayCanvas: a module that patches the shader chunks of standard materials.
 
 use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
 
 /// The record of this flavour.

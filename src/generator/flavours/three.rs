@@ -1,7 +1,6 @@
 //! three.js: a module that patches materials of `WebGLRenderer`, and one of nodes for `WebGPURenderer`.
 
 use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
 
 /// The record of this flavour.

@@ -4,15 +4,11 @@
 use serde::Serialize;
 
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{
-    self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail,
-    CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
-};
+use crate::generator::emit::{self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail, CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE};
 use crate::generator::envelope::{Origin, TOOL};
 use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::spectra::Space;
-
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
 use crate::generator::output::artifact::Artifact;

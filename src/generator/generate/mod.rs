@@ -1,11 +1,8 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
-mod again;
 pub mod catalogue;
 mod effects;
 mod flavours;
-pub mod kept;
-mod owners;
 mod single;
 pub mod tables;
 mod written;
@@ -18,17 +15,16 @@ use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::materials::Unseen;
-
 use crate::generator::error::Error;
-use crate::generator::output::artifact::{Artifact, sha256};
+use crate::generator::output::artifact::{Artifact, sha256, Scope};
 use crate::generator::output::manifest::{Input, Provenance};
-use crate::generator::output::scope::Scope;
-use crate::generator::request::subjects::Subjects;
+use crate::generator::request::source::Subjects;
 use crate::generator::request::{Materials, Request};
 use effects::WantedEffects;
-use owners::Owners;
+use written::Owners;
 
 pub use single::generate_single;
+pub use written::kept;
 
 /// What a request comes to.
 #[derive(Clone, Debug)]

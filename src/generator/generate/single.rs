@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 
 use crate::generator::emit::{self, Heading, PlaceInFile};
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::request::{Materials, Request};
 use crate::language::targets::{Finish, Target};
-
-use crate::generator::generate::owners::Owners;
-use crate::generator::generate::{Run, written};
+use crate::generator::generate::written::{self, Owners};
+use crate::generator::generate::Run;
 
 /// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
 ///

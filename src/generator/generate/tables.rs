@@ -10,12 +10,10 @@ use crate::generator::envelope::Report;
 use crate::generator::lut::TABLES;
 use crate::generator::reference::Typed;
 use crate::physics::materials::ViewingConditions;
-
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
 use crate::generator::output::artifact::Artifact;
-use crate::generator::request::loaded::{Loaded, load};
-use crate::generator::request::subjects::same_name;
+use crate::generator::request::source::{Loaded, load, same_name};
 use crate::generator::request::{Materials, Source, check_transparent};
 
 /// The tables that are wanted, of which materials.

@@ -1,12 +1,24 @@
 //! Which methods are written: those asked for, those that a file holds already, and in half precision those that it can bear.
+//!
+//! Whose function a name is: two of one name must not meet.
+//!
+//! What earlier runs put into an output folder by name, and a run of other names leaves there.
+//!
+//! The command that makes a file again, and the form of its comments.
 
 use crate::generator::error::Error;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::Request;
 use crate::language::methods::{self, InHalf, Method};
-use crate::language::targets::Target;
-
+use crate::language::targets::{Target, Finish};
 use crate::generator::generate::{Kept, Run};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use crate::generator::output::folder;
+use crate::generator::output::manifest::{self, Manifest};
+use crate::physics::num::Precision;
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{HeaderForm, Naming};
 
 type Named<'a> = Option<&'a [&'static Method]>;
 
@@ -102,4 +114,92 @@ pub fn check(request: &Request, named: Named, no_materials: bool) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// Which part of the output holds a function, by its name.
+#[derive(Default)]
+pub struct Owners(BTreeMap<String, String>);
+
+impl Owners {
+    /// Refuses two functions of one name: a material called `gold_schlick` meets gold's `schlick` so.
+    pub fn claim(&mut self, name: &str, owner: &str) -> Result<(), Error> {
+        let other = self.0.insert(name.to_owned(), owner.to_owned());
+        match other.filter(|other| other != owner) {
+            None => Ok(()),
+            Some(other) => Err(Error::Usage {
+                what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
+            }),
+        }
+    }
+}
+
+/// The methods that the folder's material files of this precision hold, by its manifest.
+///
+/// # Errors
+/// The manifest cannot be read, or is not ours.
+pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
+    let path: PathBuf = out_dir.join(manifest::FILE);
+    let Some(text) = folder::read(&path)? else {
+        return Ok(Kept::new());
+    };
+    let mut kept = Kept::new();
+    let mut entries = Manifest::parse(&path, &text)?.files;
+    entries.retain(|entry| entry.effect.is_none() && entry.precision() == precision.name());
+    for entry in entries {
+        let Some(material) = &entry.material else {
+            continue;
+        };
+        kept.entry((entry.target.clone(), material.clone()))
+            .or_default()
+            .extend(entry.function_methods().map(str::to_owned));
+    }
+    Ok(kept)
+}
+
+impl Run<'_> {
+    /// The form of the comments of a file, named without its ending. Modules have no comments.
+    pub(super) fn form(&self, target: &Target, stem: &str) -> HeaderForm {
+        let held = self.held.map(|held| &held.full_headers);
+        let is_full = held.is_some_and(|full| full.contains(&format!("{}/{stem}", target.name)));
+        match target.finish {
+            Finish::Spirv => HeaderForm::Short,
+            _ if is_full => HeaderForm::Full,
+            _ => self.request.header,
+        }
+    }
+
+    /// The command that makes a file again.
+    pub(super) fn command(
+        &self,
+        target: &Target,
+        methods: Option<&[&str]>,
+        subject: Option<&MaterialInMedium>,
+        form: HeaderForm,
+    ) -> String {
+        let request = self.request;
+        let precision =
+            Some(request.precision).filter(|precision| *precision != Precision::default());
+        let medium = subject.and_then(|subject| subject.medium.as_ref());
+        let seen = subject.map(|subject| {
+            crate::generator::command_line::surface_flags(
+                &request.viewing,
+                &subject.reference.surface,
+            )
+        });
+        CommandLine::new("fresnel-gen")
+            .list("target", [target.name])
+            .list("method", methods.into_iter().flatten())
+            .list("material", subject.map(|subject| &subject.argument))
+            .list("medium", medium.map(|(argument, _)| argument))
+            .list("prefix", Naming::flag_of_prefix(&request.prefix))
+            .list("precision", precision.map(Precision::name))
+            .switch("force", request.force && request.precision.is_half())
+            .with(&seen.unwrap_or_default())
+            .list(
+                "matching-angle",
+                request.matching_angle.filter(|_| subject.is_some()),
+            )
+            .list("header", form.flag())
+            .into()
+    }
 }

@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
 use crate::physics::spectra::Space;
-
 use super::axis::TableAxis;
 use super::depth::Depth;
 use super::ktx2::ktx2;

@@ -1,7 +1,6 @@
 //! Depth: the kind of number that a texel holds, and what becomes of a table in it.
 
 use crate::physics::num::{Half, Num};
-
 use super::axis::TableAxis;
 use super::table::Table;
 

@@ -7,7 +7,6 @@
 //! orientation `rd`: the first row is the top one.
 
 use crate::physics::spectra::Space;
-
 use super::depth::Depth;
 use super::picture::Picture;
 

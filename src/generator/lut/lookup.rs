@@ -7,7 +7,6 @@
 use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check, fold};
 use crate::language::methods::{Input, Inputs, ONLY_ROW, fetch, warped_step};
 use crate::physics::num::Precision;
-
 use super::axis::TableAxis;
 
 /// The function that reads a table of so many texels along an axis.

@@ -8,7 +8,6 @@
 use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
 
 use crate::physics::spectra::Space;
-
 use super::depth::Depth;
 use super::picture::Picture;
 

@@ -2,7 +2,6 @@
 //! for an upload as RGBA16F; one texel a line.
 
 use crate::generator::emit::comment_lines;
-
 use super::picture::Picture;
 
 /// A C header, for C99 and C++.

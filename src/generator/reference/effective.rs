@@ -8,7 +8,6 @@ use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Index, MaterialKind};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, COS_82, index_from_f0_f82};
-
 use super::reference_curve::{ReferenceCurve, reference_reflectance};
 
 /// The index per channel, and how it was come by.

@@ -1,8 +1,6 @@
 //! The request: what a run is asked for, with names resolved. The input of the pure library.
 
-pub mod loaded;
 pub mod source;
-pub mod subjects;
 
 use std::collections::BTreeMap;
 
@@ -15,11 +13,8 @@ use crate::language::targets::{self, Target};
 use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
-
-use crate::generator::error::{Error, unknown};
-use crate::generator::fault::RequestFault;
-use crate::generator::request::loaded::{Loaded, load};
-use crate::generator::request::subjects::Subjects;
+use crate::generator::error::{Error, unknown, RequestFault};
+use crate::generator::request::source::{Loaded, load, Subjects};
 
 /// What to generate. `Request::default()` is what the program does without flags.
 #[derive(Clone, Debug)]

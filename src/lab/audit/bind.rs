@@ -3,7 +3,6 @@
 use crate::generator::emit::shader_words::tokens;
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::names::UnknownName;
-
 use super::cosine::{CosineForm, cosine, is_named};
 use super::error::{Error, FunctionPlace, MissingArgument, MissingCosine};
 use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};

@@ -6,10 +6,9 @@ use core::time::Duration;
 use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::lab::verify::compilers::{CompilerFault, Verdict};
 use crate::physics::num::Precision;
-
-use super::accept::Accepted;
-use super::language::Language;
-use super::protocol::{AuditRequest, AuditResponse};
+use super::choose::Accepted;
+use super::condition::Language;
+use super::runner::{AuditRequest, AuditResponse};
 
 /// The process that asks them.
 pub struct Compilers {

@@ -4,7 +4,6 @@
 //! function itself where it takes the cosine of it, or one minus it. What neither tells is asked for.
 
 use crate::generator::emit::shader_words::Token;
-
 use super::quantity::{meanings, plain};
 use super::scan::{FoundFunction, NumberShape, behind};
 

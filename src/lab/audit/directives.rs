@@ -5,8 +5,7 @@
 //! begins a line with `#`, and a `#` anywhere else is refused.
 
 use crate::generator::emit::shader_words::{Token, tokens};
-
-use super::language::bare;
+use super::condition::bare;
 
 /// Directives that read no file. Includes, imports, embeds and what else a compiler knows are not among them.
 const ALLOWED: [&str; 13] = [

@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 
 use crate::generator::emit::shader_words::tokens;
-
 use super::parts::{Part, PartKind};
 use super::reach::Use;
 use super::scan::{NumberShape, type_shape};

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::generator::emit::shader_words::Token;
-
 use super::hidden::{DeclaredTypes, HiddenInput, UnreadFault, distinct, held};
-use super::language::Language;
+use super::condition::Language;
 use super::parts::{Part, PartKind};
 use super::reach::{Reached, Use};
 use super::slice::Piece;

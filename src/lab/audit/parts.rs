@@ -2,8 +2,7 @@
 //! compilers to judge.
 
 use crate::generator::emit::shader_words::Token;
-
-use super::language::Language;
+use super::condition::Language;
 use super::scan::{FoundFunction, behind, function, parts_between_commas};
 use super::type_names::TypeNames;
 use super::variables::{Variable, c_variables, wgsl_member, wgsl_variable};

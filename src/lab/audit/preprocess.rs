@@ -6,11 +6,9 @@
 
 use crate::generator::emit::shader_words::{Token, tokens};
 use crate::physics::foreign::Foreign;
-
-use super::condition::{Macros, condition_value, definition, plain_macro, words};
+use super::condition::{Macros, condition_value, definition, plain_macro, words, Language};
 use super::directives::{self, TextFault};
 use super::error::Error;
-use super::language::Language;
 
 /// A name that the user defines for the preprocessor.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,11 +4,10 @@ use crate::lab::gpu::{Argument as Value, Uniform};
 use crate::lab::verify::harness::{self, Call};
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
-
 use super::bind::{Bound, BoundArgument};
 use super::directives;
 use super::given::DefaultArgument;
-use super::language::Language;
+use super::condition::Language;
 use super::loops::{MARK, TURNS, counted, counter};
 use super::scan::NumberShape;
 use super::slice::Slice;

@@ -9,7 +9,6 @@ use crate::language::ir::Ty;
 use crate::language::methods::{self, Class, Input, InputSource, Method, find_input};
 use crate::physics::names::UnknownName;
 use crate::physics::num::each_channel;
-
 use super::scan::FoundFunction;
 
 /// A quantity that a material has a value for.

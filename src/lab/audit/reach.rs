@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::generator::emit::shader_words::Token;
-
-use super::language::Language;
+use super::condition::Language;
 use super::parts::{Part, PartKind};
 
 /// The words of a macro's definitions; its arguments are not among them.

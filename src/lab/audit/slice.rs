@@ -2,12 +2,10 @@
 //! from outside become variables that our function sets.
 
 use crate::generator::emit::shader_words::{Token, tokens};
-
-use super::annotations::without_annotations;
-use super::condition::definition;
+use super::variables::without_annotations;
+use super::condition::{definition, Language, bare};
 use super::hidden::{HiddenInput, UnreadFault};
 use super::inputs::{Initialised, Inputs};
-use super::language::{Language, bare};
 use super::parts::{Part, PartKind, functions_of, parts};
 use super::preprocess::{Condition, Define, Preprocessed};
 use super::reach::{MacroBodies, Reached, reached};

@@ -2,27 +2,19 @@
 //! Pure: nothing is measured here.
 
 mod choice;
-mod error;
-mod spread;
 
-use crate::generator::emit::FunctionForm;
-use crate::generator::emit::{Bounds, specialised_graph};
+use crate::generator::emit::{FunctionForm, Bounds, specialised_graph};
 use crate::generator::fit::single_error;
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::cost::{
-    CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records,
-};
+use crate::lab::cost::{CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records};
 use crate::language::ir::Checked;
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::num::{Precision, in_parallel};
 
-use choice::{cheapest, most_accurate};
-use spread::spread;
+use choice::{cheapest, most_accurate, spread};
 
-pub use choice::{BudgetCandidate, CheapestFunction};
-pub use error::{Error, NoFunction, rounded_error};
-pub use spread::Spread;
+pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, rounded_error, Spread};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,6 @@
 use crate::generator::fit::MethodErrors;
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::physics::num::statistics::{median, medians, quantile};
-
 use super::MaterialSet;
 
 /// How a class is taken together: the middle of its materials, where nine of ten end, the worst, or the middle over substances,

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::lab::process::{Error, Launch, Pool, Surroundings, Task, Worker};
-
 use super::family::{Dialect, Family};
 use super::function::CostedFunction;
 use super::session::{CompilerFigures, CompilerSession, launch, told};

@@ -6,7 +6,6 @@
 use crate::language::ir::Param;
 use crate::language::targets::{GLES, HLSL};
 use crate::physics::num::Precision;
-
 use super::chain::{Chain, ChainLanguage};
 use super::probe::{BLOCKS, ENTRY};
 

@@ -12,10 +12,8 @@ use crate::language::ir::{Checked, Param, Ty};
 use crate::language::targets::{GLES, Target, WGSL};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-
-use super::chain::{Chain, ChainLanguage, MEASURED, uniforms};
+use super::chain::{Chain, ChainLanguage, MEASURED, uniforms, without_numbers};
 use super::family::Dialect;
-use super::text_shape::without_numbers;
 
 /// Blocks of arguments in a shader of no more evaluations; a longer chain has one for each.
 pub const BLOCKS: usize = 8;

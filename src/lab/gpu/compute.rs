@@ -5,8 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pollster::block_on;
 use wgpu::{ErrorFilter, Features, PollType};
 
-use super::adapter::{Adapter, AdapterKind, describe};
-use super::fault::DeviceFault;
+use super::adapter::{Adapter, AdapterKind, describe, DeviceFault};
 
 /// A device and its queue.
 pub(super) struct Compute {

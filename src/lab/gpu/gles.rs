@@ -6,9 +6,9 @@ use std::rc::Rc;
 use glow::{HasContext, PixelUnpackData};
 
 use super::egl::Context;
-use super::fault::DeviceFault;
+use super::adapter::DeviceFault;
 use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
-use super::texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+use super::slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 
 /// Cosines of a draw.
 const BLOCK: usize = 1 << 18;

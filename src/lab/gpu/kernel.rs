@@ -5,11 +5,10 @@ use std::rc::Rc;
 use wgpu::{BindingType, BufferBindingType, BufferUsages, Features};
 
 use super::compute::Compute;
-use super::fault::DeviceFault;
+use super::adapter::DeviceFault;
 use super::passthrough;
 use super::program::{PointInputs, Program, ShaderCode, Uniform, block, check_fit};
-use super::slot::{BATCH, BLOCK, Block, Slot};
-use super::texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+use super::slot::{BATCH, BLOCK, Block, Slot, Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 
 /// A pipeline on its device.
 pub(super) struct Kernel {

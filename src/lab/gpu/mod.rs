@@ -11,7 +11,6 @@ mod adapter;
 mod compute;
 mod draw;
 mod egl;
-mod fault;
 mod gles;
 mod gles_compiler;
 mod kernel;
@@ -21,17 +20,15 @@ mod program;
 mod quiet;
 mod slot;
 mod stream;
-mod texture;
 mod vulkan_compiler;
 
-pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
+pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters, DeviceFault};
 pub use draw::{Canvas, Layer, Shader};
-pub use fault::DeviceFault;
 pub use gles_compiler::GlesCompiler;
 pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
 pub use program::{Argument, Program, ShaderCode, Uniform};
 pub use stream::Stream;
-pub use texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+pub use slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
 use std::rc::Rc;

@@ -1,7 +1,7 @@
 //! What is run: one shape of program, and what it is run with.
 
 use super::DeviceFault;
-use super::texture::{Texture, TextureShape};
+use super::slot::{Texture, TextureShape};
 
 /// A shader as it will be run.
 #[derive(Clone, Copy, Debug, PartialEq)]

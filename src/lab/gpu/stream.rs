@@ -3,11 +3,10 @@
 //! The program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks are
 //! in flight: the device computes one while the other is read where it lies.
 
-use super::fault::DeviceFault;
+use super::adapter::DeviceFault;
 use super::kernel::Kernel;
 use super::program::Uniform;
-use super::slot::{BLOCK, Block};
-use super::texture::Texture;
+use super::slot::{BLOCK, Block, Texture};
 
 /// A compute program ready to run over consecutive bit patterns.
 pub struct Stream(pub(super) Kernel);

@@ -2,11 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::lab::gpu::{
-    AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat,
-    TextureShape, Wrap,
-};
-
+use crate::lab::gpu::{AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 use super::clock::timed;
 use super::measure::Reading;
 use super::plan::{Drawing, DrawingPlan};

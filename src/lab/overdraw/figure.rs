@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use crate::physics::num::statistics::{interval, median, quantile, resamples, spread};
-
 use super::measure::{Clock, MeasuredDrawings};
 use super::plan::{DrawingPlan, DrawnChain};
 

@@ -6,7 +6,6 @@ use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use crate::physics::num::statistics::{median, quantile};
-
 use super::plan::DrawingPlan;
 
 /// How many readings decide how often a shader is drawn, and by which clock.

@@ -4,9 +4,7 @@ use crate::generator::reference::MaterialInMedium;
 use crate::lab::overdraw::{LibraryMaterials, TimedFunctions};
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
-
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::request::{Materials, Request, Source};
 
 /// Materials that functions are specialised to where none is named: a metal and a dielectric.

@@ -12,11 +12,11 @@
 //!
 //! A surface has two sides: a normal that points away from the side that is seen is turned round. An interpolated normal may still
 //! point away from the camera at the silhouette; its cosine is 0 there, as shaders clamp it.
+//!
+//! Triangles with a normal at each corner.
 
 use glam::DVec3;
-
 use super::camera::Camera;
-use super::mesh::{Mesh, Vertex};
 
 /// Pixels by which the box of a triangle is widened, for the rounding of its corners.
 const ROUNDING: f64 = 1e-6;
@@ -276,4 +276,59 @@ fn seen_normal(
         (normal, cos_theta)
     };
     (normal, seen.clamp(0.0, 1.0))
+}
+
+/// A corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Where it is, in metres.
+    pub position: DVec3,
+    /// The normal of the surface there; its length does not matter.
+    pub normal: DVec3,
+}
+
+/// Triangles that share corners.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// The corners.
+    pub vertices: Vec<Vertex>,
+    /// Three corners each.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// The same body with the centre of its box in the origin and the longest side of its box as long as this.
+    #[must_use]
+    pub fn with_extent(mut self, extent: f64) -> Mesh {
+        let all = || self.vertices.iter().map(|vertex| vertex.position);
+        let least = all().fold(DVec3::INFINITY, DVec3::min);
+        let most = all().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let centre = (least + most) / 2.0;
+        let side = (most - least).max_element();
+        let scale = if side > 0.0 { extent / side } else { 1.0 };
+        for vertex in &mut self.vertices {
+            vertex.position = scale * (vertex.position - centre);
+        }
+        self
+    }
+
+    /// How far the farthest corner is from the origin.
+    pub fn radius(&self) -> f64 {
+        let lengths = self.vertices.iter().map(|vertex| vertex.position.length());
+        lengths.fold(0.0, f64::max)
+    }
+
+    /// Normals of a smooth surface: at each corner the sum of its triangles' normals, weighted by area.
+    pub fn smooth(&mut self) {
+        for vertex in &mut self.vertices {
+            vertex.normal = DVec3::ZERO;
+        }
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|corner| self.vertices[corner as usize].position);
+            let normal = (b - a).cross(c - a);
+            for corner in triangle {
+                self.vertices[*corner as usize].normal += normal;
+            }
+        }
+    }
 }

@@ -2,11 +2,9 @@
 
 use crate::language::methods::{Class, Method};
 use crate::physics::num::Precision;
-
-use super::axis::{ScanAxis, logarithmic};
+use super::space::{ScanAxis, logarithmic, ScanSpace, law};
 use super::failure::{Failure, ResultPoint};
 use super::scan::{Scan, ScannedFunction};
-use super::space::{ScanSpace, law};
 
 /// Errors over angle and index.
 #[derive(Clone, Debug)]

@@ -3,11 +3,9 @@
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::Method;
 use crate::physics::num::{Half, Num, Precision, in_parallel};
-
-use super::axis::{ScanAxis, dense};
+use super::space::{ScanAxis, dense, ScanPoint, ScanSpace, is_lawful, law, spaces};
 use super::failure::{Failure, NEAR, ResultPoint, is_flushed};
 use super::region::{FailureGrid, Region};
-use super::space::{ScanPoint, ScanSpace, is_lawful, law, spaces};
 use crate::lab::verify::limits;
 
 /// A failure of a method, and where it happens.

@@ -9,7 +9,6 @@ use crate::language::ir::{Checked, Ty, Value, evaluate};
 use crate::language::methods::{Class, Contract, Input, Method, Over};
 use crate::physics::materials::Channels;
 use crate::physics::num::{Precision, ulp_distance};
-
 use super::points::{Random, cosines};
 
 /// How far the code is from what it means.

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use crate::generator::emit::EffectPart;
 use crate::language::effects::{Argument, Domain};
 use crate::language::ir::{CubeTexels, Filter, Param, Texels, Ty};
-
 use super::nearest_half;
 
 /// Of these, from this one on, arguments come from the ends of their domains: axes, zero vectors, grazing and opposite directions.

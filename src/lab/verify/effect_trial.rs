@@ -8,11 +8,7 @@
 use crate::generator::emit::{EffectPart, Emitted};
 use crate::language::ir::{Checked, Column, Param, Ty, Value, evaluate};
 use crate::physics::num::each_channel;
-
-use super::effect_points::{
-    CORNERS_FROM, CRITICAL_FROM, TEXELS, argument_at, bring_to_critical_angle, cube, flat,
-    input_at, share, texels,
-};
+use super::effect_points::{CORNERS_FROM, CRITICAL_FROM, TEXELS, argument_at, bring_to_critical_angle, cube, flat, input_at, share, texels};
 
 /// Points of a trial.
 const POINTS: usize = 2048;

@@ -6,13 +6,11 @@ use crate::generator::reference::MaterialInMedium;
 use crate::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 use crate::lab::verify::{Trial, WITHIN, count, sweep};
 use crate::language::targets::Stack;
-
-use super::error::Error;
+use super::row::Error;
 use super::judge::{PathRun, RanFunction};
-use super::machine;
-use super::plan::{PlannedFile, VerifyPlan};
+use super::requested::{PlannedFile, VerifyPlan};
 use super::shard::{PlannedRows, Shard, ShardOutcome};
-use super::statement::MachineStatement;
+use super::machine::{self, MachineStatement};
 use super::trial_case::specialised;
 
 /// Hears how much is done, of how much, of what.

@@ -11,10 +11,9 @@ use crate::lab::verify::{Outcome, beyond, cosines_around, share};
 use crate::language::ir::Column;
 use crate::language::targets::Stack;
 use crate::physics::num::each_channel;
-
-use super::half_run;
+use super::run;
 use super::judge::{PathRun, RanFunction};
-use super::plan::{PlannedFile, VerifyPlan};
+use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 use super::trial_case::{TrialCase, cases};
 
@@ -166,7 +165,7 @@ impl<'a> FileTrial<'a> {
             &other
         };
         if self.emitted.precision.is_half() {
-            let ran = half_run::run_in_half(runnable, &shown, &case.trial)?;
+            let ran = run::run_in_half(runnable, &shown, &case.trial)?;
             let device = self
                 .devices
                 .device_for(shown.target, path)?

@@ -8,7 +8,6 @@ use crate::language::ir::{Checked, Param, Texels, Ty, Value, evaluate};
 use crate::language::methods::Method;
 use crate::physics::materials::Channels;
 use crate::physics::num::{Half, Num, Precision};
-
 use super::code_error::random_medium;
 use super::points::Random;
 

@@ -10,7 +10,6 @@ use naga::proc::BoundsCheckPolicies;
 use naga::{GlobalVariable, Handle, Module, ShaderStage, TypeInner};
 
 use crate::generator::emit::validate_wgsl;
-
 use super::compilers::CompilerFault;
 
 /// `@group` and `@binding` of a variable in the WGSL.

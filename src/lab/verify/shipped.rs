@@ -9,13 +9,11 @@ use crate::generator::generate::Made;
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Manifest};
 use crate::lab::verify::outline::{Item, Outline, outline};
-use crate::lab::verify::plan::ShippedPage;
+use crate::lab::verify::requested::ShippedPage;
 use crate::lab::verify::{drift, module};
 use crate::language::targets;
 use crate::physics::foreign::Foreign;
-
-use crate::lab::verify::difference;
-use crate::lab::verify::listed::Listed;
+use crate::lab::verify::listed::{self, Listed};
 
 /// The version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -281,9 +279,9 @@ impl<'a> Today<'a> {
     fn difference(&self, bytes: &[u8]) -> String {
         let today = &self.made.artifact.bytes;
         if self.is_module() {
-            return difference::of_modules(bytes, today).to_owned();
+            return listed::of_modules(bytes, today).to_owned();
         }
-        difference::of_texts(
+        listed::of_texts(
             &String::from_utf8_lossy(bytes),
             &String::from_utf8_lossy(today),
         )

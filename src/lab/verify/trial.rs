@@ -5,7 +5,6 @@ use serde::Serialize;
 use crate::generator::fit::Measured;
 use crate::language::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluate};
 use crate::physics::num::{Num, VulkanTolerance, each_channel, ulp_distance};
-
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 
 /// A function to try, and what it promises.

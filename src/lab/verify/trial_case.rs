@@ -7,14 +7,12 @@ use crate::language::ir::Ty;
 use crate::language::methods::{Contract, Method};
 use crate::physics::materials::Channels;
 use crate::physics::num::Precision;
-
 use super::code_error::ABSOLUTE_FLOOR;
 use super::half::nearest_half;
-use super::plan::{PlannedFile, VerifyPlan};
-use super::points::limits;
+use super::requested::{PlannedFile, VerifyPlan};
+use super::points::{limits, worst_cases, worst_cosines};
 use super::row;
 use super::trial::Trial;
-use super::worst::{worst_cases, worst_cosines};
 
 /// A trial of a function, with what it is about.
 pub struct TrialCase<'a> {

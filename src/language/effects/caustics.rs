@@ -6,9 +6,7 @@
 
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{cross, length};
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, cross, length};
 
 const T_ENTRY: Argument = Argument::vector(
     "t_entry",

@@ -9,7 +9,6 @@
 
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
 const F0: Argument = Argument::vector(

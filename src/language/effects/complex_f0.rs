@@ -5,7 +5,6 @@
 
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
 const N: Argument = Argument::vector(

@@ -5,9 +5,7 @@
 
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{INCIDENT, NORMAL, refraction};
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, INCIDENT, NORMAL, refraction};
 
 const ETAS: Argument = Argument::vector(
     "etas",

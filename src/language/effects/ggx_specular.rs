@@ -7,7 +7,6 @@
 
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
 const N_DOT_V: Argument = Argument::scalar("n_dot_v", "cosine between normal and view", -1.0, 1.0);

@@ -6,9 +6,7 @@
 
 use crate::language::ir::{Expr, Letters, USED_TWICE};
 use crate::physics::cite::Citation;
-
-use super::effect::{Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{ETA, INCIDENT, NORMAL, mirrored, refraction};
+use super::effect::{Arguments, Effect, EffectFunction, Reflectance, ETA, INCIDENT, NORMAL, mirrored, refraction};
 
 /// The record of this effect.
 pub static EFFECT: Effect = Effect {

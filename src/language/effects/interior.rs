@@ -7,9 +7,7 @@
 
 use crate::language::ir::{Expr, Letters, Ty, USED_TWICE};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{ETA, UV_SCALE_BIAS, VIEW_PROJECTION, length, mirrored, refraction};
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, ETA, UV_SCALE_BIAS, VIEW_PROJECTION, length, mirrored, refraction};
 
 const ENTRY: Argument = Argument::vector(
     "entry",

@@ -6,9 +6,7 @@
 
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{NORMAL, cross, unit_or_zero};
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, NORMAL, cross, unit_or_zero};
 
 const TANGENT_NORMAL: Argument = Argument::direction(
     "tangent_normal",

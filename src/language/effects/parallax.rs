@@ -8,9 +8,7 @@
 
 use crate::language::ir::{Expr, Letters, Ty};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{length, unit_or_zero};
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, length, unit_or_zero};
 
 const POSITION: Argument = Argument::vector(
     "position",

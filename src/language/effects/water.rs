@@ -6,9 +6,7 @@
 
 use crate::language::ir::{Expr, Letters, Ty};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{UV_SCALE_BIAS, VIEW_PROJECTION};
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, UV_SCALE_BIAS, VIEW_PROJECTION};
 
 const POSITION: Argument = Argument::vector("position", "in the world", -1.0, 1.0);
 const UV: Argument = Argument::pair("uv", "of the pixel in the picture", 0.0, 1.0);

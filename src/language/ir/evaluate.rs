@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use crate::physics::num::{Num, Truth, each_channel};
-
 use super::check::Checked;
 use super::graph::{Function, Node};
 use super::op::{Op, Payload};

@@ -3,8 +3,7 @@
 
 use crate::language::ir::{Builder, COSINE, Expr, Ty};
 use crate::physics::num::Precision;
-
-use super::known::KnownSurface;
+use super::affine::KnownSurface;
 
 /// An argument that a method takes after `cos_theta`.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,6 @@
 #![cfg(test)]
 
 use crate::language::ir::{Value, evaluate};
-
 use super::method::Method;
 
 /// What the library function gives in f64; each argument is the same in all channels.

@@ -14,7 +14,6 @@ use std::sync::LazyLock;
 
 use crate::language::ir::Expr;
 use crate::physics::num::Legendre;
-
 use super::input::{Input, InputSource, Inputs};
 
 /// A factor, for a cosine c in [0, 1].

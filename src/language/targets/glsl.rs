@@ -2,7 +2,6 @@
 
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
-
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
 

@@ -5,11 +5,8 @@
 
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
-
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{
-    Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
-};
+use super::target::{Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {

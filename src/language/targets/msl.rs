@@ -3,7 +3,6 @@
 
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
-
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
 

@@ -1,7 +1,6 @@
 //! What a target is: a plain record in a static table.
 
 use crate::physics::num::Precision;
-
 use super::spelling::Spelling;
 
 /// An output language.

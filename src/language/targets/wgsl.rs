@@ -2,11 +2,8 @@
 
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
-
 use super::spelling::{Form, Spelling};
-use super::target::{
-    Batch, Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator,
-};
+use super::target::{Batch, Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {

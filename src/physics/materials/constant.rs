@@ -7,8 +7,7 @@ use core::fmt;
 
 use thiserror::Error;
 
-use super::dispersion::DispersionCurve;
-use super::formula::Formula;
+use super::formula::{DispersionCurve, Formula};
 use super::material::{Material, MaterialKind};
 
 /// The least index of a medium that is a number: a vacuum's.

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::decimal::short;
-use super::dispersion::{DispersionCurve, Extrapolate};
+use super::formula::{DispersionCurve, Extrapolate};
 
 /// The least n. Below it the exact forms lose their last digits in f32.
 pub const LEAST_N: f64 = 1e-3;

@@ -11,7 +11,6 @@ use crate::language::methods::{Class, Light, Method, Values};
 use crate::physics::materials::Channels;
 use crate::physics::num::in_parallel;
 use crate::pictures::scene::Glass;
-
 use super::packed::Packed;
 
 /// A material.

@@ -3,10 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::pictures::scene::{
-    Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame,
-};
-
+use crate::pictures::scene::{Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame};
 use super::packed::Packed;
 
 /// Places around the body: every 5 degrees.

@@ -1,7 +1,6 @@
 //! Scenes that we draw ourselves: triangles of several materials in one depth buffer, under light from all around.
 
 use crate::lab::raster::{Camera, Mesh, SurfacePoint, surface_points_of};
-
 use super::pixels::{FramePixels, ScenePixel};
 use super::sky::SceneLight;
 

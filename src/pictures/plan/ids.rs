@@ -15,7 +15,6 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::physics::materials::{FileFault, FileText, is_hidden};
-
 use super::MappedMaterial;
 
 #[derive(Deserialize)]

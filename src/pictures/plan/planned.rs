@@ -2,13 +2,10 @@
 
 use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
-
 use super::candidate::{Candidate, Prices, candidates};
-use super::choice::{Choosable, choose, within};
+use super::choice::{Choosable, choose, within, Judge};
 use super::curve::{RoughRule, step_cosines};
-use super::in_turn::Judge;
-use super::metric::Screen;
-use super::picture_error::PERCENTILE_FROM;
+use super::metric::{Screen, PERCENTILE_FROM};
 use super::pixels::{FramePixels, ScenePixel};
 use super::request::PlanRequest;
 

@@ -7,7 +7,6 @@ use crate::physics::materials::Surface;
 use crate::physics::num::{Precision, in_parallel};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::Display;
-
 use super::curve::step_cosines;
 use super::metric::Metric;
 

@@ -9,7 +9,6 @@ use crate::generator::fit::values_for_material_in;
 use crate::lab::cost::CostBasis;
 use crate::lab::verify::Status;
 use crate::physics::num::Precision;
-
 use super::candidate::Candidate;
 use super::choice::{Choosable, total_cost};
 use super::planned::{JudgedCandidate, JudgedMaterial, Judgement};

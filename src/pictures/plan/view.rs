@@ -4,10 +4,8 @@ use glam::DVec3;
 
 use crate::lab::raster::MAGNIFIED;
 use crate::physics::num::each_channel;
-
 use super::curve::{Curve, PixelPlace, RoughRule};
-use super::metric::Screen;
-use super::picture_error::radiance;
+use super::metric::{Screen, radiance};
 use super::pixels::{FramePixels, ScenePixel};
 use super::planned::{DEGREES, JudgedCandidate, JudgedMaterial, degree_of};
 use super::request::PlanRequest;

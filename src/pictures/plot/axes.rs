@@ -1,8 +1,13 @@
 //! Two axes around an area: grid, ticks with their labels, titles.
+//!
+//! The legend: a line sample and a name for each curve.
+//!
+//! Values along a line of a picture: evenly, or in powers of ten.
 
-use crate::pictures::plot::palette::{EDGE, GRID};
-use crate::pictures::plot::scale::Scale;
-use crate::pictures::plot::text::{AXIS, TICK};
+use crate::pictures::plot::palette::{EDGE, GRID, Style};
+use crate::pictures::plot::text::{AXIS, TICK, LEGEND};
+use crate::pictures::plot::layout::Layout;
+use crate::pictures::plot::line_chart::Series;
 
 /// From a vertical axis to the labels of its ticks, and a little more than from a horizontal one to its.
 pub const TICK_GAP: f64 = 7.0;
@@ -154,4 +159,150 @@ impl Axes {
 
 fn outer_tick(x: f64, y: f64, [right, down]: [f64; 2]) -> String {
     format!("<path stroke=\"{EDGE}\" d=\"M{x:.2} {y:.2}l{right} {down}\"/>")
+}
+
+/// The length of a line sample: two periods of the longest dash pattern.
+const SAMPLE: f64 = 38.0;
+const SAMPLE_GAP: f64 = 8.0;
+const ENTRY_GAP: f64 = 24.0;
+
+impl Layout {
+    /// Sets a line sample and a name for each curve, in as many rows as needed.
+    pub fn legend(&mut self, series: &[Series]) {
+        let (margin, room) = (self.frame().margin, self.frame().room());
+        let (mut left, mut top) = (margin, self.bottom() + 7.0);
+        for one in series {
+            let lines = LEGEND.wrap(&one.name, room - SAMPLE - SAMPLE_GAP);
+            let width = SAMPLE + SAMPLE_GAP + LEGEND.widest(&lines);
+            if left > margin && left + width > margin + room {
+                (left, top) = (margin, self.bottom());
+            }
+            let bottom = self.bottom().max(top + LEGEND.height(&lines));
+            self.extend(legend_entry(one.style, &lines, left, top), bottom);
+            left += width + ENTRY_GAP;
+        }
+    }
+}
+
+fn legend_entry(style: Style, lines: &[String], left: f64, top: f64) -> Vec<String> {
+    let sample = format!(
+        "<path {} d=\"M{left:.2} {:.2}H{:.2}\"/>",
+        style.attributes(),
+        top + LEGEND.leading / 2.0,
+        left + SAMPLE
+    );
+    let mut elements = vec![sample];
+    elements.extend(style.dot(left + SAMPLE / 2.0, top + LEGEND.leading / 2.0));
+    elements.extend(LEGEND.draw(lines, left + SAMPLE + SAMPLE_GAP, top, "start"));
+    elements
+}
+
+/// Where values lie between two coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    is_log: bool,
+    /// The values at both ends, or their logarithms.
+    low: f64,
+    high: f64,
+    /// The coordinates of both ends.
+    from: f64,
+    to: f64,
+}
+
+impl Scale {
+    /// Values from `low` to `high`, evenly from one coordinate to the other.
+    pub fn linear([low, high]: [f64; 2], [from, to]: [f64; 2]) -> Scale {
+        Scale {
+            is_log: false,
+            low,
+            high,
+            from,
+            to,
+        }
+    }
+
+    /// Values from `low` to `high`, both above 0: each power of ten takes as much room.
+    pub fn log(ends: [f64; 2], coordinates: [f64; 2]) -> Scale {
+        Scale {
+            is_log: true,
+            ..Scale::linear(ends.map(libm::log10), coordinates)
+        }
+    }
+
+    /// Where a value lies on the way: 0 at the low end, 1 at the high end.
+    pub fn fraction(&self, value: f64) -> f64 {
+        let span = self.high - self.low;
+        if span == 0.0 {
+            return 0.5;
+        }
+        let value = if self.is_log {
+            libm::log10(value)
+        } else {
+            value
+        };
+        (value - self.low) / span
+    }
+
+    /// Whether a value lies between the ends, give or take rounding.
+    pub fn holds(&self, value: f64) -> bool {
+        (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
+    }
+
+    /// The coordinate of a value, held near the picture since viewers fail on huge numbers.
+    pub fn at(&self, value: f64) -> f64 {
+        (self.from + (self.to - self.from) * self.fraction(value)).clamp(-9999.0, 9999.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pictures::plot::layout::ALONE;
+
+    fn named(name: &str) -> Series {
+        Series {
+            name: name.into(),
+            style: Style::Exact,
+            points: vec![],
+        }
+    }
+
+    #[test]
+    fn legend_rows_follow_the_length_of_the_names() {
+        let rows = |names: &[&str]| {
+            let mut layout = Layout::new(ALONE);
+            let start = layout.bottom();
+            layout.legend(&names.iter().map(|name| named(name)).collect::<Vec<_>>());
+            ((layout.bottom() - start) / LEGEND.leading).floor()
+        };
+        let (half, long) = ("word ".repeat(12), "word ".repeat(40));
+        assert_eq!(rows(&[]), 0.0);
+        assert_eq!(rows(&["a", "b", "c"]), 1.0);
+        assert_eq!(rows(&[&half, &half, "c"]), 2.0);
+        assert_eq!(rows(&["a", &long, "c"]), 5.0);
+    }
+}
+
+#[cfg(test)]
+mod scale_tests {
+    use super::*;
+
+    #[test]
+    fn values_lie_evenly_or_by_their_powers() {
+        let even = Scale::linear([0.0, 10.0], [100.0, 200.0]);
+        assert_eq!(even.at(5.0), 150.0);
+        let powers = Scale::log([1.0, 100.0], [100.0, 200.0]);
+        assert_eq!(powers.at(10.0), 150.0);
+        assert!(powers.holds(100.0) && !powers.holds(101.0));
+        assert_eq!(Scale::linear([3.0, 3.0], [0.0, 8.0]).at(7.0), 4.0);
+    }
+
+    #[test]
+    fn coordinates_stay_near_the_picture() {
+        let scale = Scale::linear([0.0, 1.0], [10.0, 20.0]);
+        assert_eq!(scale.at(0.5), 15.0);
+        assert_eq!(scale.at(1e300), 9999.0);
+        let falling = Scale::linear([0.0, 1.0], [20.0, 10.0]);
+        assert_eq!(falling.at(f64::INFINITY), -9999.0);
+    }
 }

@@ -1,7 +1,6 @@
 //! A layout sets text, panels and elements from the top down.
 
 use crate::generator::emit::{MARK, xml_text};
-
 use crate::pictures::plot::text::Font;
 
 /// The size of a picture or a panel, and its margins.

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::gem::{Facets, brilliant};
 use super::pool::Pool;
-use super::row::Slot;
+use super::table::Slot;
 use super::texels::Texels;
 use super::window::Window;
 

@@ -4,7 +4,6 @@
 
 use crate::lab::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
 use crate::physics::optics;
-
 use super::body::{Body, Vertex};
 use super::draw::DrawFault;
 use super::frame::{BACK, LightBlock, PHOTONS};

@@ -5,7 +5,7 @@ use glam::{DMat4, DVec3, DVec4};
 use super::camera::Camera;
 use super::glass::Glass;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN};
-use super::row::View;
+use super::table::View;
 use super::text::INPUTS;
 
 /// Where the index begins in the block, in numbers; n, then k, four numbers each.

@@ -5,13 +5,11 @@ use glam::DVec3;
 
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
-
 use super::body::Body;
 use super::camera::Camera;
 use super::environment::Environment;
 use super::glass::Glass;
-use super::relief::Relief;
-use super::room::room_radiance;
+use super::room::{Relief, room_radiance};
 
 /// How far light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

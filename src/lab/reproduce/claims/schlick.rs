@@ -2,12 +2,11 @@
 
 use crate::generator::fit::thesis_errors;
 use crate::generator::reference::Derivation;
-use crate::lab::reproduce::angle::{cosine, exact, highest};
+use crate::lab::reproduce::figures::{cosine, exact, highest};
 use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::lab::reproduce::meter::Meter;
+use crate::lab::reproduce::rendered::Meter;
 use crate::lab::reproduce::specialised;
 use crate::physics::materials::Channels;
-
 use super::{measured, statement};
 
 /// Indices from hydrogen to germanium: dense in and about the claimed range, three at a time for three channels.

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use std::str::Utf8Error;
 
 use crate::language::targets::Frame;
-
 use super::call::CompilerInput;
 use crate::generator::emit::shader_words::{Hidden, code_alone};
 

@@ -5,7 +5,6 @@ use crate::language::ir::evaluate::Value;
 use crate::language::ir::graph::{Function, Node, NodeId, Ty};
 use crate::language::ir::op::{Op, Payload, Signature};
 use crate::physics::num::each_channel;
-
 use super::copy;
 
 /// The identities that constants make trivial.

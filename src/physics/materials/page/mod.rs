@@ -29,7 +29,7 @@ mod name;
 mod plain;
 mod yaml;
 
-use super::dispersion::DispersionCurve;
+use super::formula::DispersionCurve;
 use super::file::FileFault;
 
 /// What a page of refractiveindex.info says, or a table that someone measured.

@@ -14,7 +14,6 @@
 
 mod channels;
 mod fault;
-mod primaries;
 mod samples;
 
 use super::ids::{MaterialIds, Shown};
@@ -24,7 +23,7 @@ use channels::{COS_THETA, COVERAGE, LIGHT, MATERIAL_ID, OTHER, Places, ROUGHNESS
 use samples::Planes;
 
 pub use fault::GbufferFault;
-pub use primaries::check_primaries;
+pub use channels::check_primaries;
 
 /// Pixels across, and down: no frame has more.
 pub const GREATEST_SIDE: usize = 8192;

@@ -1,11 +1,10 @@
 //! The cameras of a file, or those that turn about its middle.
 
 use glam::DVec3;
-use gltf_json::Root;
-use gltf_json::camera;
+use gltf_json::{Root, camera};
 
 use super::super::scene_file::MOST_FRAMES;
-use super::fault::Place;
+use super::container::Place;
 use super::nodes::PlacedNode;
 use crate::lab::raster::{Camera, Lens, Mesh, rotated};
 

@@ -14,11 +14,9 @@
 mod accessor;
 mod cameras;
 mod container;
-mod fault;
 mod materials;
 mod nodes;
 mod primitives;
-mod remarks;
 
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
@@ -26,7 +24,6 @@ use gltf_json::{Accessor, Index, Root};
 
 use crate::lab::raster::{Camera, Mesh};
 use crate::physics::spectra::without_mark;
-
 use super::drawn::DrawnScene;
 use super::pixels::{FramePixels, MappedMaterial};
 use super::scene_file::ReadFile;
@@ -34,9 +31,8 @@ use super::sky::SceneLight;
 use crate::physics::foreign::Foreign;
 use accessor::Buffers;
 use cameras::cameras;
-use container::Container;
-pub use fault::GltfFault;
-use fault::Place;
+use container::{Container, Place};
+pub use container::GltfFault;
 use materials::Looks;
 pub use materials::{Unplanned, constant_index};
 use primitives::Tints;
@@ -93,7 +89,7 @@ impl GltfScene {
         Ok(GltfScene {
             has_cameras: !own.is_empty(),
             unplanned: looks.unplanned,
-            remarks: [looks.remarks, remarks::of_scene(&root, view.size)].concat(),
+            remarks: [looks.remarks, nodes::of_scene(&root, view.size)].concat(),
             cameras: if own.is_empty() {
                 cameras::around(scene.mesh(), view.size)
             } else {

@@ -7,7 +7,6 @@ use serde::Serialize;
 use crate::lab::verify::Status;
 use crate::physics::foreign::{self, Foreign, one_line};
 use crate::pictures::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
-
 use crate::generator::envelope::Origin;
 use crate::pictures::table::{short_number, text_table};
 

@@ -7,11 +7,10 @@ use tera::Context;
 
 use crate::physics::spectra::srgb_byte;
 use crate::pictures::html;
-use crate::pictures::pixels::rgb_png;
+use crate::pictures::png::rgb_png;
 use crate::pictures::plan::{AngleCurve, MaterialView, PlanRow, ViewPicture};
 use crate::pictures::plot::{ChartAxis, LineChart, Look, Mark, Series, Style, ticks};
 use crate::pictures::table::short_number;
-
 use super::{PlanReport, named};
 
 const TEMPLATE: &str = include_str!("../../../../templates/plan.html.tera");

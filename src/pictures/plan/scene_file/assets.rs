@@ -7,7 +7,6 @@ use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex, mesh_of_obj};
 use crate::physics::materials::FileFault;
 use crate::physics::spectra::mesh_text;
 use crate::pictures::scene::Environment;
-
 use super::super::drawn::DrawnScene;
 use super::super::sky::SceneLight;
 use super::check::FARTHEST;

@@ -9,7 +9,6 @@ use crate::lab::raster::{Body, Camera, Lens, rotated};
 use crate::physics::materials::{self, FileFault, FileText};
 use crate::physics::names::UnknownName;
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
-
 use super::super::drawn::SurfaceLook;
 use super::super::pixels::MappedMaterial;
 use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};

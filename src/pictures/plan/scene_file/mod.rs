@@ -37,7 +37,6 @@ use crate::lab::raster::Camera;
 use crate::physics::materials::{FileFault, FileText};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::Display;
-
 use super::drawn::DrawnScene;
 use super::pixels::{FramePixels, MappedMaterial};
 pub use assets::ReadFile;

@@ -7,12 +7,11 @@ use glam::{DVec2, DVec3};
 
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
-use crate::pictures::scene::sky::to_sun;
+use crate::pictures::scene::environment::to_sun;
 use crate::pictures::scene::texels::{Texels, scattered, smooth_noise};
 use crate::pictures::scene::trace::refracted;
-
 use super::solids::{PARTS, Part, TABLE, hit};
-use super::waves::Waves;
+use super::truth::Waves;
 use super::{BASIN_MAX, BASIN_MIN};
 
 /// Reflected by white: of the sun where it falls square, and of the sky.

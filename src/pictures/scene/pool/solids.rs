@@ -3,7 +3,6 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use crate::pictures::scene::body::{Vertex, ball_triangles};
-
 use super::{BASIN_MAX, BASIN_MIN};
 
 /// The court around the basin, in squares of a metre.

@@ -7,7 +7,6 @@ use glam::{DVec2, DVec3};
 use crate::physics::optics;
 use crate::pictures::scene::glass::Glass;
 use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
-
 use super::{WALL, Window, outward, right};
 
 /// The thickness of the glass.
