@@ -17,7 +17,9 @@ use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::shader;
 use crate::generator::request::{Materials, Request};
-use crate::lab::audit::{Audit, AuditCost, AuditRow, AuditRows, ConditionRow, Define, ExactFit, Given, Language, serve};
+use crate::lab::audit::{
+    Audit, AuditCost, AuditRow, AuditRows, ConditionRow, Define, ExactFit, Given, Language, serve,
+};
 use crate::lab::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::lab::cost::{self, FAMILIES, Family};
 use crate::lab::verify::{Status, machine};

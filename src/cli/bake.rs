@@ -8,13 +8,19 @@ use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::generate::named;
 use crate::cli::output::{Output, Progress, reported};
 use crate::cli::places::{folder_or_current, refuse_within_tree, try_places};
-use crate::generator::bake::{ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest, TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words, split_sum_methods, usual_method, viewing_flags};
+use crate::generator::bake::{
+    ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest,
+    TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
+    split_sum_methods, usual_method, viewing_flags,
+};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
 use crate::generator::generate::provenance;
 use crate::generator::generate::tables::{WantedTables, artifacts, table_materials};
-use crate::generator::lut::{Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size};
+use crate::generator::lut::{
+    Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
+};
 use crate::generator::output::artifact::{Artifact, Scope};
 use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::tree::plan;

@@ -8,11 +8,14 @@ use crate::cli::output::{Output, Progress, not_drawn, report_beside};
 use crate::cli::places::try_files;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
-use crate::generator::error::{unknown, RequestFault};
+use crate::generator::error::{RequestFault, unknown};
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::generator::request::{Materials, Request};
-use crate::lab::chart::{ChartData, ChartPoint, ChartView, ERRORS, ErrorAxis, STATISTICS, chart_data, cost_names, set_name, without_point};
+use crate::lab::chart::{
+    ChartData, ChartPoint, ChartView, ERRORS, ErrorAxis, STATISTICS, chart_data, cost_names,
+    set_name, without_point,
+};
 use crate::physics::names::UnknownName;
 use crate::pictures::frontier::{chart_page, chart_svg};
 use crate::pictures::plot::capital;

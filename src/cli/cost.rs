@@ -1,7 +1,9 @@
 //! `cost`: what compilers of real GPUs make of functions.
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, effect_or_all, family, family_or_all, method_or_all, precision, each_once};
+use crate::cli::flags::choice::{
+    Choice, each_once, effect_or_all, family, family_or_all, method_or_all, precision,
+};
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
 use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
@@ -11,7 +13,10 @@ use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::request::Request;
-use crate::lab::cost::{CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers, cost_rows, functions, functions_of_effect, records, serve};
+use crate::lab::cost::{
+    CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers,
+    cost_rows, functions, functions_of_effect, records, serve,
+};
 use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::machine;
 use crate::language::effects::{self, Effect, USUAL_METHOD};

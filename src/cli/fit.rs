@@ -12,7 +12,10 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{Missed, missed};
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
-use crate::generator::fit::{Coefficients, Exact, FitCurve, FitObjective, Follows, ModelError, Weight, error_from, model_error, values_at};
+use crate::generator::fit::{
+    Coefficients, Exact, FitCurve, FitObjective, Follows, ModelError, Weight, error_from,
+    model_error, values_at,
+};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request};
 use crate::lab::cost::{CostAndError, Family, library_cost, pareto_frontier, records};

@@ -3,7 +3,9 @@
 //! Fitted methods that were asked for by name, for materials that the one of their own class follows far better: `fitted` for water.
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, effect_or_all, family, flavour, method_or_all, one_of, target_or_all, PrecisionFlags};
+use crate::cli::flags::choice::{
+    Choice, PrecisionFlags, effect_or_all, family, flavour, method_or_all, one_of, target_or_all,
+};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{TreeFlags, file_only};
 use crate::cli::flags::viewing::GamutFlags;
@@ -14,28 +16,30 @@ use crate::cli::plan_file::{material_paths, planned};
 use crate::generator::bake::as_tables_are_seen;
 use crate::generator::emit::{HeaderForm, fitted_error};
 use crate::generator::error::RequestFault;
+use crate::generator::fit::{ModelError, rounded_up};
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::catalogue::add_catalogue;
 use crate::generator::generate::kept;
 use crate::generator::generate::tables::add_tables;
 use crate::generator::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::generator::output::artifact::Artifact;
-use crate::generator::output::tree::{self, ChangedRows, TreePlan, plan};
-use crate::generator::output::lock::{Announce, Lock};
-use crate::generator::output::write::{OutputFile, write, write_outputs};
 use crate::generator::output::depfile;
+use crate::generator::output::lock::{Announce, Lock};
+use crate::generator::output::tree::{self, ChangedRows, TreePlan, plan};
+use crate::generator::output::write::{OutputFile, write, write_outputs};
+use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request};
-use crate::lab::budget::{Budget, BudgetCandidate, BudgetRow, Spread, choose_within, rounded_error};
+use crate::lab::budget::{
+    Budget, BudgetCandidate, BudgetRow, Spread, choose_within, rounded_error,
+};
 use crate::lab::cost::{self, Family};
 use crate::language::effects::Effect;
-use crate::language::methods::{Method, self};
+use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::foreign::{Foreign, one_line};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use crate::generator::fit::{ModelError, rounded_up};
-use crate::generator::reference::MaterialInMedium;
 
 /// The flags of generation.
 #[derive(Args, Debug)]

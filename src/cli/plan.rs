@@ -17,7 +17,10 @@ use crate::physics::materials::ViewingConditions;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::pictures::plan::report::{PlanReport, plan_page};
-use crate::pictures::plan::{FramePixels, JudgedMaterial, Metric, PlanFault, PlanRequest, PlanRow, PlanTotal, PlanTruth, Proof, ProofCase, material_view, plan, prove};
+use crate::pictures::plan::{
+    FramePixels, JudgedMaterial, Metric, PlanFault, PlanRequest, PlanRow, PlanTotal, PlanTruth,
+    Proof, ProofCase, material_view, plan, prove,
+};
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 use clap::Args;
 use std::path::PathBuf;

@@ -11,14 +11,17 @@ use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
-use crate::generator::request::source::{self, load};
 use crate::generator::request::Source;
+use crate::generator::request::source::{self, load};
 use crate::lab::gpu::{Device, Wanted};
 use crate::physics::materials::{Material, MaterialKind, Surface, ViewingConditions};
 use crate::physics::spectra::{Space, srgb_byte};
-use crate::pictures::png::rgb_png;
 use crate::pictures::plot::shade_bytes;
-use crate::pictures::scene::{self, Difference, Display, Environment, Glass, Order, Picture, RenderRow, RenderedRow, TONE_CURVES, ToneCurve};
+use crate::pictures::png::rgb_png;
+use crate::pictures::scene::{
+    self, Difference, Display, Environment, Glass, Order, Picture, RenderRow, RenderedRow,
+    TONE_CURVES, ToneCurve,
+};
 use clap::Args;
 use glam::DVec3;
 use std::path::{Path, PathBuf};

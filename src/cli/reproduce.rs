@@ -5,7 +5,9 @@ use crate::cli::flags::output::{ReportFlags, TreeFlags};
 use crate::cli::output::{Output, Progress, report_beside};
 use crate::generator::envelope::Report;
 use crate::generator::output::write::OutputFile;
-use crate::lab::reproduce::{ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, reproduce, comparison};
+use crate::lab::reproduce::{
+    ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, comparison, reproduce,
+};
 use crate::physics::names::UnknownName;
 use crate::pictures::figure_chart::figure_chart;
 use crate::pictures::table;

@@ -16,7 +16,10 @@ use crate::generator::lut::{Depth, Format, Picture, TableAxis};
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, source};
-use crate::lab::raster::{Body, Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj, rendered_error, shown};
+use crate::lab::raster::{
+    Body, Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj,
+    rendered_error, shown,
+};
 use crate::language::ir::Checked;
 use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;

@@ -1,7 +1,7 @@
 //! `time`: what functions cost on the device at hand.
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, method_or_all, one_of, precision, each_once};
+use crate::cli::flags::choice::{Choice, each_once, method_or_all, one_of, precision};
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::output::{Output, Progress, report};
@@ -11,7 +11,10 @@ use crate::generator::envelope::Origin;
 use crate::generator::error::RequestFault;
 use crate::lab::gpu::{Backend, Wanted};
 use crate::lab::overdraw::request::TimeRequest;
-use crate::lab::overdraw::{Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Noise, Stop, TimeRow, TimedFunctions, measure, serve, time_rows, usual_operations};
+use crate::lab::overdraw::{
+    Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Noise, Stop, TimeRow,
+    TimedFunctions, measure, serve, time_rows, usual_operations,
+};
 use crate::lab::process::Inbox;
 use crate::language::methods::Method;
 use crate::physics::foreign::{lines, one_line};

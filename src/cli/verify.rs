@@ -1,7 +1,9 @@
 //! `verify`: what is generated, run on every target and held against what it means.
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, effect_or_all, method_or_all, one_of, target_or_all, PrecisionFlags};
+use crate::cli::flags::choice::{
+    Choice, PrecisionFlags, effect_or_all, method_or_all, one_of, target_or_all,
+};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::CheckReportFlags;
 use crate::cli::flags::viewing::GamutFlags;
@@ -17,12 +19,17 @@ use crate::generator::output::write::OutputFile;
 use crate::generator::request::Request;
 use crate::lab::gpu::{Backend, Wanted};
 use crate::lab::process::{Inbox, Pool};
-use crate::lab::verify::shard::{VARIABLES, shard_of, PartStatement, Shard, ShardOutcome, ShardReport, WholeRun, devices};
 use crate::lab::verify::file::VerifyEffort;
 use crate::lab::verify::merge::Whole;
 use crate::lab::verify::requested::{VerifyPlan, plan_of_request};
 use crate::lab::verify::run::Devices;
-use crate::lab::verify::{AllowedError, MachineStatement, Status, VerifyRow, WITHIN, exhaustive_rows, machine, serve, supervise};
+use crate::lab::verify::shard::{
+    PartStatement, Shard, ShardOutcome, ShardReport, VARIABLES, WholeRun, devices, shard_of,
+};
+use crate::lab::verify::{
+    AllowedError, MachineStatement, Status, VerifyRow, WITHIN, exhaustive_rows, machine, serve,
+    supervise,
+};
 use crate::language::effects::Effect;
 use crate::language::methods::Method;
 use crate::language::targets::Target;

@@ -5,11 +5,11 @@
 //!
 //! Pixels as PNG.
 
-use std::sync::Arc;
-use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
 use crate::generator::emit::MARK;
 use png::{BitDepth, ColorType, Compression, Encoder};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
+use std::sync::Arc;
 
 /// Regular first: it has letters that the bold one lacks, and is asked for these next.
 const FONTS: [&[u8]; 2] = [

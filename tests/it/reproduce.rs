@@ -6,7 +6,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::lab::reproduce::{ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, comparison};
+use fresnel_gen::lab::reproduce::{
+    ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, comparison, reproduce,
+};
 use fresnel_gen::pictures::figure_chart::figure_chart;
 
 /// The thesis's million angles: the figures must come out to its printed digit.
@@ -432,7 +434,7 @@ fn a_missing_figure_is_null_with_a_reason() {
 /// The command `reproduce`.
 mod program {
     use clap::Parser;
-    use fresnel_gen::cli::{Output, Cli, Error, run};
+    use fresnel_gen::cli::{Cli, Error, Output, run};
 
     fn command(arguments: &[&str]) -> Result<Output, Error> {
         let start = ["fresnel-gen", "reproduce"];

@@ -10,9 +10,13 @@ use crate::language::targets::Target;
 
 use picture::Baking;
 
-pub use row::{Error, split_sum_methods, BakeRow, SplitSumRow, TableRow, material_words, viewing_flags};
+pub use row::{
+    BakeRow, Error, SplitSumRow, TableRow, material_words, split_sum_methods, viewing_flags,
+};
 pub use split_sum::{SplitSumRequest, bake_split_sum, usual_method};
-pub use subject::{TableMaterial, DEFAULT_AXIS, DEFAULT_FORMATS, as_tables_are_seen, usual_request};
+pub use subject::{
+    DEFAULT_AXIS, DEFAULT_FORMATS, TableMaterial, as_tables_are_seen, usual_request,
+};
 
 /// What is baked.
 #[derive(Clone, Debug)]

@@ -2,14 +2,16 @@
 //!
 //! The functions that read a picture in a shader: one file for each language.
 
+use super::row::{self, with_functions};
+use super::{ATLAS, BakeRequest, Error, TableMaterial, depths};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, MARK, comment_lines};
 use crate::generator::fit::ModelError;
-use crate::generator::lut::{BetweenTexels, Depth, Format, Picture, Stored, TABLES, Table, TableAxis, table_error, lookup};
+use crate::generator::lut::{
+    BetweenTexels, Depth, Format, Picture, Stored, TABLES, Table, TableAxis, lookup, table_error,
+};
 use crate::language::ir::Weights;
 use crate::language::targets::Target;
-use super::row::{self, with_functions};
-use super::{ATLAS, BakeRequest, Error, TableMaterial, depths};
 
 /// A picture while it is baked.
 pub struct Baking<'a> {

@@ -4,18 +4,18 @@
 //!
 //! What cannot be baked.
 
-use serde::Serialize;
-use crate::generator::fit::ModelError;
-use crate::generator::lut::{self, Format, Picture, TableAxis, MOST_TERM, TERMS, term_range};
 use super::picture::Rounded;
 use super::subject::TableMaterial;
+use super::{BakeRequest, TableSize};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, Naming};
+use crate::generator::fit::ModelError;
+use crate::generator::lut::{self, Format, MOST_TERM, Picture, TERMS, TableAxis, term_range};
+use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::materials::ViewingConditions;
 use crate::physics::spectra::Gamut;
-use super::{BakeRequest, TableSize};
-use crate::language::methods::{self, Method};
+use serde::Serialize;
 
 /// How sampled values are mixed where errors are given.
 pub const WEIGHTS: &str = "steps of 1/256, as GPUs filter";

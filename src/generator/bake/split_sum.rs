@@ -4,14 +4,17 @@
 //! by alpha (`createImageBitmap` of browsers unless asked otherwise, Core Graphics always), or divide by it, since OpenEXR takes
 //! colours for multiplied ones; so there it gets a file of its own.
 
-use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{MARK, comment_lines};
-use crate::generator::lut::{BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis, SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range};
-use crate::language::ir::Weights;
-use crate::language::methods::{self, Basis, Method};
 use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
 use super::subject::DEFAULT_FORMATS;
 use super::{Baked, Error, depths};
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{MARK, comment_lines};
+use crate::generator::lut::{
+    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis,
+    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range,
+};
+use crate::language::ir::Weights;
+use crate::language::methods::{self, Basis, Method};
 
 /// What is baked.
 #[derive(Clone, Debug)]

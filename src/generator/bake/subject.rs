@@ -2,14 +2,14 @@
 //!
 //! What is baked unless asked otherwise.
 
+use super::row::{material_words, viewing_flags};
+use super::{BakeRequest, TableSize};
+use crate::generator::emit::Naming;
+use crate::generator::lut::{Format, TableAxis};
 use crate::generator::reference::{ReferenceCurve, Typed};
 use crate::language::methods::{Light, TEXELS};
 use crate::physics::materials::{Material, Surface, Unseen, ViewingConditions};
-use crate::physics::spectra::{Space, Gamut};
-use crate::generator::emit::Naming;
-use crate::generator::lut::{Format, TableAxis};
-use super::row::{material_words, viewing_flags};
-use super::{BakeRequest, TableSize};
+use crate::physics::spectra::{Gamut, Space};
 
 /// A material in its medium, as it is seen.
 #[derive(Clone, Debug)]

@@ -2,6 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::batch::batch_program;
+use super::comment;
+use super::detail::{Detail, functions_detail};
+use super::figures::CodeBound;
+use super::file::{Error, File, check_names};
+use super::function::{Emitted, FunctionForm, Naming};
+use super::header::{MARK, OUTPUT_LICENCE};
+use super::page::{self, PageRequest, comments, guard, render};
 use crate::generator::fit::{Measured, values_for_material};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction, Reflectance, USUAL_METHOD};
@@ -9,14 +17,6 @@ use crate::language::ir::{BrokenRule, Checked, Param};
 use crate::language::methods::{self, Contract, Method, Values};
 use crate::language::targets::{Finish, Target};
 use crate::physics::num::Precision;
-use super::batch::batch_program;
-use super::figures::CodeBound;
-use super::detail::{Detail, functions_detail};
-use super::file::{Error, File, check_names};
-use super::function::{FunctionForm, Emitted, Naming};
-use super::header::{MARK, OUTPUT_LICENCE};
-use super::page::{self, PageRequest, comments, guard, render};
-use super::comment;
 
 /// A function of an effect, as it was asked for.
 #[derive(Clone, Copy, Debug)]

@@ -2,19 +2,19 @@
 //!
 //! What can go wrong in emission.
 
+use super::comment;
+use super::detail::{Detail, FunctionsDetail, functions_detail};
+use super::figures::FILTERED;
+use super::function::{Emitted, FunctionForm, Naming};
+use super::header::{Heading, OUTPUT_LICENCE};
+use super::page::{PageRequest, comments, guard, render};
 use crate::generator::fit::Measured;
 use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{Checked, Param, Ty};
 use crate::language::methods::{self, Method, Values};
 use crate::language::targets::{self, Finish, Page, Target};
-use crate::physics::num::Precision;
-use super::comment;
-use super::detail::{Detail, FunctionsDetail, functions_detail};
-use super::figures::FILTERED;
-use super::function::{FunctionForm, Emitted, Naming};
-use super::header::{OUTPUT_LICENCE, Heading};
-use super::page::{PageRequest, comments, guard, render};
 use crate::physics::foreign::{Foreign, one_line};
+use crate::physics::num::Precision;
 
 /// A file of one target, in memory.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,14 +2,14 @@
 //!
 //! The forms in which a method's functions are written.
 
+use super::effect_file::EffectPart;
+use super::figures::{Bounds, CodeBound, FILTERED, Missed, PLAIN_ULP, missed};
+use super::file::Error;
 use crate::generator::fit::{Measured, ModelError, model_error, values_for_material_in};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{BrokenRule, Checked};
 use crate::language::methods::{Method, Values};
 use crate::physics::num::Precision;
-use super::figures::{Bounds, CodeBound, PLAIN_ULP, FILTERED, Missed, missed};
-use super::effect_file::EffectPart;
-use super::file::Error;
 use serde::{Deserialize, Serialize};
 
 /// How functions are named, by what they compute in: half precision is told by the name.

@@ -21,15 +21,34 @@ mod xml;
 
 pub use average::{Average, companions};
 pub use batch::{batch_entry, batch_program, places};
-pub use figures::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds, half_promise, promises, Missed, fitted_error, missed};
-pub use catalogue::{BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueMaterial, CatalogueMethod, CatalogueRow, CloserFit, FOURTH, catalogue_array, catalogue_buffer, catalogue_record, catalogue_rows, first_dielectric, recorded_catalogue};
+pub use catalogue::{
+    BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueMaterial,
+    CatalogueMethod, CatalogueRow, CloserFit, FOURTH, catalogue_array, catalogue_buffer,
+    catalogue_record, catalogue_rows, first_dielectric, recorded_catalogue,
+};
 pub use comment::lines as comment_lines;
-pub use detail::{AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail};
-pub use effect_file::{EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text};
-pub use file::{Error, File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for};
-pub use function::{FunctionForm, Emitted, Naming, Specialised, library_functions, specialised_function, specialised_graph};
-pub use header::{MARK, OUTPUT_LICENCE, HeaderForm, Heading};
-pub use page::{bare_text, text_of_template, spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
+pub use detail::{
+    AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail,
+    TableDetail,
+};
+pub use effect_file::{
+    EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text,
+};
+pub use figures::{
+    Bounds, CodeBound, HalfBound, Missed, PLAIN_ULP, fingerprint, fitted_error, half_bounds,
+    half_promise, missed, promises,
+};
+pub use file::{
+    Error, File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for,
+};
+pub use function::{
+    Emitted, FunctionForm, Naming, Specialised, library_functions, specialised_function,
+    specialised_graph,
+};
+pub use header::{HeaderForm, Heading, MARK, OUTPUT_LICENCE};
+pub use page::{
+    bare_text, spirv_with_storage as wgsl_to_spirv, text_of_template, validate as validate_wgsl,
+};
 pub use print::bare;
 pub use xml::{XmlDocument, xml_comment, xml_text};
 

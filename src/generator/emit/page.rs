@@ -2,18 +2,18 @@
 //!
 //! naga at work: WGSL parsed and validated in process, and lowered to SPIR-V.
 
-use std::collections::BTreeSet;
-use serde::Serialize;
-use tera::{Context, Tera};
+use super::batch::batch_entry;
+use super::file::Error;
+use super::function::{Emitted, FunctionForm};
+use super::print;
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Finish, Page, Target};
 use crate::physics::num::Precision;
-use super::batch::batch_entry;
-use super::file::Error;
-use super::function::{FunctionForm, Emitted};
-use super::print;
 use naga::back::spv;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use serde::Serialize;
+use std::collections::BTreeSet;
+use tera::{Context, Tera};
 
 /// What a template sees.
 #[derive(Serialize)]
@@ -132,9 +132,7 @@ pub fn finished(
     let text = text.trim_end().to_owned() + "\n";
     match finish {
         Finish::Text => Ok(text.into_bytes()),
-        Finish::ValidWgsl => validate(&text)
-            .map(|_| text.into_bytes())
-            .map_err(wrong),
+        Finish::ValidWgsl => validate(&text).map(|_| text.into_bytes()).map_err(wrong),
         Finish::Spirv => spirv(&text).map_err(wrong),
     }
 }

@@ -6,11 +6,11 @@
 //! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE reads both from tables of
 //! sums, so that its F is Cycles's only about: of dielectrics it is Schlick's. Roughness is .5 unless it is set.
 
-use crate::physics::spectra::Space;
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet, capped_tint};
 use super::subject::{Body, EngineMaterial};
+use crate::physics::spectra::Space;
 
 /// The names of the nodes in reports, with how Python finds or makes them.
 const PRINCIPLED: &str = "Principled BSDF";

@@ -2,11 +2,11 @@
 //!
 //! Why a material has no place in a format.
 
-use crate::physics::spectra::Space;
 use super::model::NodeError;
 use super::sheet::Sheet;
 use super::subject::EngineMaterial;
 use crate::physics::foreign::Foreign;
+use crate::physics::spectra::Space;
 use thiserror::Error;
 
 /// A format that engines or tools read.

@@ -11,12 +11,12 @@
 
 use serde::Serialize;
 
-use crate::physics::materials::escaped;
-use crate::physics::spectra::Space;
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial, f0_of, rounded};
+use crate::physics::materials::escaped;
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {

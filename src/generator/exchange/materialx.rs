@@ -7,13 +7,13 @@
 //! and are none: the space `none` keeps them as they are. Yet F of them is a colour of the document's space. Roughness is .05 unless it is
 //! set, .3 in OpenPBR.
 
-use crate::generator::emit::{XmlDocument, comment_lines};
-use crate::physics::spectra::Space;
 use super::format::{Format, Notes};
 use super::model::Model;
+use super::openpbr;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial};
-use super::openpbr;
+use crate::generator::emit::{XmlDocument, comment_lines};
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {

@@ -8,11 +8,11 @@
 //! `base_color` and `specular_color` lie in [0, 1]; dispersion is Abbe's number with a scale, which is 0 by default.
 //! `specular_roughness` is .3 unless it is set.
 
-use crate::physics::spectra::Space;
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet, capped_tint};
 use super::subject::{Body, EngineMaterial};
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {

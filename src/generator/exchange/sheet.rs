@@ -2,11 +2,11 @@
 //!
 //! The lines above the numbers: mark, command, what the material is, errors, remarks.
 
+use super::format::{Format, Notes};
 use super::model::Model;
 use super::subject::{EngineMaterial, rounded};
-use crate::generator::fit::rounded_up;
 use crate::generator::emit::{MARK, OUTPUT_LICENCE, comment_lines};
-use super::format::{Format, Notes};
+use crate::generator::fit::rounded_up;
 
 /// All that a format holds of a material.
 #[derive(Clone, Debug)]

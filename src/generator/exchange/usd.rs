@@ -5,11 +5,11 @@
 //! ends would be `diffuseColor`, so that gold would be gold at 90 degrees too. A metal's `diffuseColor` is black, which is grey unless it
 //! is set. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 unless it is set.
 
-use crate::physics::spectra::Space;
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial};
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {

@@ -8,9 +8,9 @@
 //! their difference and the sums. Over 10⁶ angles a sum has then lost its last digits, and the mean moves by some 10⁻⁴
 //! of its value: enough to turn a digit.
 
-use crate::physics::num::Precision;
 use super::minimax::{Limit, Points, minimax};
 use crate::language::ir::{Checked, Value, evaluate};
+use crate::physics::num::Precision;
 
 /// At which ends, 0 and 90 degrees, a form equals the reference exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,14 +5,17 @@
 //!
 //! Two colours of a surface in air, moved under a coat.
 
-use serde::Serialize;
-use crate::generator::reference::{ReferenceCurve, By, Derivation, effective};
-use crate::language::methods::{Light, Input, KnownSurface};
-use crate::physics::materials::{Material, MaterialKind, Surface, Unseen, ViewingConditions, surfaces_of, Channels, Extrapolate, Index};
-use crate::physics::spectra::{Gamut, Illuminant, Integration, colour_error};
 use super::grey_tint::{GreyTint, grey_tint};
+use crate::generator::reference::{By, Derivation, ReferenceCurve, effective};
+use crate::language::methods::{Input, KnownSurface, Light};
+use crate::physics::materials::{
+    Channels, Extrapolate, Index, Material, MaterialKind, Surface, Unseen, ViewingConditions,
+    surfaces_of,
+};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, COS_82, UnderCoat, conductor, under_coat};
+use crate::physics::spectra::{Gamut, Illuminant, Integration, colour_error};
+use serde::Serialize;
 
 /// The parameters of a material in a medium under viewing conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]

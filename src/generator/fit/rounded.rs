@@ -8,10 +8,10 @@
 //!
 //! The texels of a table as the method `table` reads it where nothing else is asked for, in half precision.
 
-use crate::physics::num::{Precision, Half, Num};
 use super::minimax::{Limit, Minimax, Points, minimax};
 use crate::language::ir::{Function, Texels, Ty, Value};
 use crate::language::methods::{TEXELS, WARP, unwarped};
+use crate::physics::num::{Half, Num, Precision};
 
 /// By how much a number grows to reach its neighbour in half precision: more than half of its last place, less than one and a
 /// half, on both sides of a power of two.

@@ -2,9 +2,9 @@
 //!
 //! The files of a flavour, in memory.
 
-use crate::generator::lut::{self, SplitSumAxis};
-use crate::generator::emit::{self, CatalogueRow};
 use super::view::{AdapterView, view};
+use crate::generator::emit::{self, CatalogueRow};
+use crate::generator::lut::{self, SplitSumAxis};
 
 /// A target dressed for one host.
 #[derive(Debug)]

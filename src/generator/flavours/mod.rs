@@ -9,7 +9,7 @@
 mod flavour;
 mod view;
 
-pub use flavour::{Commands, Error, Fitted, FlavourFile, files, Flavour, FlavourPage};
+pub use flavour::{Commands, Error, Fitted, Flavour, FlavourFile, FlavourPage, files};
 
 // BEGIN list (written by tests/lists)
 mod babylon;

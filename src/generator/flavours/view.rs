@@ -7,13 +7,16 @@ use base64::prelude::BASE64_STANDARD;
 use half::f16;
 use serde::Serialize;
 
-use crate::generator::emit::{self, CatalogueRow, Emitted, MARK, Naming, OUTPUT_LICENCE, comment_lines, library_functions, xml_comment};
+use super::flavour::Flavour;
+use crate::generator::emit::{
+    self, CatalogueRow, Emitted, MARK, Naming, OUTPUT_LICENCE, comment_lines, library_functions,
+    xml_comment,
+};
 use crate::generator::fit::rounded_up;
 use crate::generator::lut::{Depth, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
 use crate::generator::reference::FITTED_WITH_FOUR;
 use crate::language::methods::{self, Class, Method};
 use crate::language::targets::{self, Target};
-use super::flavour::Flavour;
 
 /// What a template sees.
 #[derive(Clone, Debug, Serialize)]

@@ -7,11 +7,14 @@
 use std::io::Cursor;
 
 use exr::meta::attribute::Chromaticities;
-use exr::prelude::{AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer,
+    LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
+};
 
-use crate::physics::spectra::Space;
-use super::depth::Depth;
+use super::format::Depth;
 use super::picture::Picture;
+use crate::physics::spectra::Space;
 
 /// ZIP over sixteen lines: lossless, and every reader has it.
 const ENCODING: Encoding = Encoding {

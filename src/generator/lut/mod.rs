@@ -15,7 +15,6 @@
 
 mod axis;
 mod catalogue;
-mod depth;
 mod exr;
 mod format;
 mod ktx2;
@@ -29,13 +28,17 @@ mod table;
 mod text;
 
 pub use axis::TableAxis;
-pub use split_sum::{WHITE_MEAN_LOST, compensation, series_of_bounces, white_mean, BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS, check_side, term_range};
 pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
-pub use depth::{Depth, Stored};
-pub use format::{Error, Format, TABLES};
+pub use format::{Depth, Error, Format, Stored, TABLES};
 pub use ktx2::KTX2_MARK;
 pub use lookup::lookup;
-pub use search::{BetweenTexels, table_error, TableKind, smallest, ThesisMeasure, thesis_table_errors};
 pub use picture::{Picture, TermChannels};
+pub use search::{
+    BetweenTexels, TableKind, ThesisMeasure, smallest, table_error, thesis_table_errors,
+};
+pub use split_sum::{
+    BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
+    WHITE_MEAN_LOST, check_side, compensation, series_of_bounces, term_range, white_mean,
+};
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};

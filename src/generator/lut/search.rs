@@ -5,13 +5,12 @@
 //! The thesis's measure of functions (section 5.2), for lookup tables: the mean relative difference from the exact law at angles
 //! that are even from 0 to 90 degrees.
 
-use crate::generator::reference::{ReferenceCurve, reference_reflectance};
 use super::axis::TableAxis;
-use super::depth::{Depth, Stored};
-use super::format::Error;
+use super::format::{Depth, Error, Stored};
 use super::table::{LEAST_TEXELS, MOST_TEXELS, Table, centre};
-use crate::language::ir::{Weights, Column, Value};
 use crate::generator::fit::{ModelError, error_of};
+use crate::generator::reference::{ReferenceCurve, reference_reflectance};
+use crate::language::ir::{Column, Value, Weights};
 use crate::physics::num::each_channel;
 
 /// A kind of table.

@@ -42,14 +42,13 @@
 //! <https://blog.selfshadow.com/publications/s2017-shading-course/>, with F̄ squared, since light that is reflected twice has met the surface
 //! twice: Hill, "A Multi-Faceted Exploration (Part 3)", 2018, <https://blog.selfshadow.com/2018/08/05/multi-faceted-part-3/>.
 
-use crate::language::ir::Weights;
-use crate::language::methods::{Basis, MOST_TERMS};
-use crate::physics::num::{in_parallel, each_channel};
-use crate::physics::optics::Ggx;
-use super::depth::Depth;
-use super::format::Error;
+use super::format::{Depth, Error};
 use super::split_sum_design::SplitSumDesign;
 use super::table::LEAST_TEXELS;
+use crate::language::ir::Weights;
+use crate::language::methods::{Basis, MOST_TERMS};
+use crate::physics::num::{each_channel, in_parallel};
+use crate::physics::optics::Ggx;
 
 /// Terms of a table at the most: the channels of a texture.
 pub const TERMS: usize = MOST_TERMS;

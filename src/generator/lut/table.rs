@@ -4,12 +4,11 @@
 //!
 //! The coordinate is computed as a shader does, in binary32 and unfused; the texels are then mixed as [`filtered`] says.
 
-use crate::generator::reference::ReferenceCurve;
 use super::axis::TableAxis;
-use super::format::Error;
+use super::format::{Error, Stored};
+use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Weights, filtered};
 use crate::physics::num::Num;
-use super::depth::Stored;
 
 /// Reflectance along an axis, cos θ = 0 first.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +112,7 @@ mod tests {
 #[cfg(test)]
 mod filter_tests {
     use super::*;
-    use crate::generator::lut::depth::Depth;
+    use crate::generator::lut::format::Depth;
 
     fn ramp(axis: TableAxis, texels: usize) -> Stored {
         let value = |i: usize| [i as f32, 2.0 * i as f32, 1.0];

@@ -11,20 +11,20 @@
 //! Files of an output folder that a run leaves alone though they are not what it writes, and why: each is named.
 
 use crate::generator::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
+use crate::generator::error::Error;
 use crate::generator::flavours;
 use crate::generator::lut::{CatalogueTexture, Format, KTX2_MARK, TABLES};
+use crate::generator::output::artifact::Scope;
+use crate::generator::output::folder;
+use crate::generator::output::manifest::Entry;
+use crate::generator::output::tree::Planned;
 use crate::language::targets::{self, Finish};
 use crate::language::{effects, methods};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-use crate::generator::output::manifest::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-use crate::generator::error::Error;
-use crate::generator::output::folder;
-use std::collections::{BTreeMap, BTreeSet};
-use crate::generator::output::artifact::Scope;
-use crate::generator::output::tree::Planned;
 
 /// What stands for a target of `catalogue.json`, which is for no language.
 const JSON: &str = "json";

@@ -4,10 +4,12 @@
 //!
 //! The classes of materials that are taken together.
 
-use crate::language::methods::{Light, Method};
-use crate::physics::materials::{Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions};
 use super::effective::{Effective, effective};
 use super::reference_curve::ReferenceCurve;
+use crate::language::methods::{Light, Method};
+use crate::physics::materials::{
+    Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions,
+};
 
 /// The least n of a dielectric that fitted methods follow.
 pub const LEAST_FITTED_N: f64 = 1.2;

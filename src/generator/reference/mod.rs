@@ -5,6 +5,9 @@ mod effective;
 mod material_in_medium;
 mod reference_curve;
 
-pub use material_in_medium::{MaterialClass, Derivation, THESIS_MATCHING_COS, FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialInMedium, Typed};
 pub use effective::{By, Effective, effective};
+pub use material_in_medium::{
+    Derivation, FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialClass, MaterialInMedium,
+    THESIS_MATCHING_COS, Typed,
+};
 pub use reference_curve::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};

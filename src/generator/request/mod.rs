@@ -5,16 +5,16 @@ pub mod source;
 use std::collections::BTreeMap;
 
 use crate::generator::emit::{HeaderForm, Naming};
+use crate::generator::error::{Error, RequestFault, unknown};
 use crate::generator::flavours::{self, Flavour};
 use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::generator::request::source::{Loaded, Subjects, load};
 use crate::language::effects::{self, Effect};
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
-use crate::generator::error::{Error, unknown, RequestFault};
-use crate::generator::request::source::{Loaded, load, Subjects};
 
 /// What to generate. `Request::default()` is what the program does without flags.
 #[derive(Clone, Debug)]

@@ -4,28 +4,28 @@
 use core::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
+use super::bind::{self, Bound, BoundArgument};
+use super::choose::{Accepted, choose};
+use super::comparison::{self, ExactFit, recognised};
+use super::compile::Compilers;
+use super::condition::Language;
+use super::cosine::CosineForm;
+use super::cost::{self, AuditCost};
+use super::error::{self, Error};
+use super::loops::{Branch, branch};
+use super::ours::{CostedMethods, Ours};
+use super::program::AuditProgram;
+use super::row::{AuditRow, Audited, Ran};
+use super::runner::{Runner, Trouble};
+use super::scan::FoundFunction;
+use super::slice::{Slice, SlicedText};
+use super::{Audit, admission, edges};
 use crate::generator::emit::FunctionForm;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::gpu::Uniform;
 use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::compilers::{CompilerFault, Verdict};
 use crate::physics::num::each_channel;
-use super::choose::{Accepted, choose};
-use super::bind::{self, Bound, BoundArgument};
-use super::compile::Compilers;
-use super::loops::{Branch, branch};
-use super::cosine::CosineForm;
-use super::cost::{self, AuditCost};
-use super::error::{self, Error};
-use super::condition::Language;
-use super::ours::{CostedMethods, Ours};
-use super::program::AuditProgram;
-use super::comparison::{self, ExactFit, recognised};
-use super::row::{AuditRow, Audited, Ran};
-use super::runner::{Runner, Trouble};
-use super::scan::FoundFunction;
-use super::slice::{Slice, SlicedText};
-use super::{Audit, admission, edges};
 
 /// An audit under way.
 pub struct Auditor<'a> {

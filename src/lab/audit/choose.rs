@@ -2,17 +2,19 @@
 //!
 //! The verdict of every compiler of a language on a program around a user's text.
 
-use crate::physics::names::UnknownName;
 use super::bind::place_of;
-use super::error::Error;
 use super::condition::Language;
+use super::error::Error;
+use super::runner::ProgramCode;
 use super::scan::{FoundFunction, NumberShape, Parameter};
-use serde::{Deserialize, Serialize};
-use crate::lab::verify::compilers::{CompilerFault, HlslVersion, Verdict, compiled, hlsl_to_spirv_in};
+use crate::lab::verify::compilers::{
+    CompilerFault, HlslVersion, Verdict, compiled, hlsl_to_spirv_in,
+};
 use crate::lab::verify::harness::ENTRY;
 use crate::language::targets::{Compiler, DXC, GLSLANG, WGSL};
+use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
-use super::runner::ProgramCode;
+use serde::{Deserialize, Serialize};
 
 /// The function that is meant.
 ///

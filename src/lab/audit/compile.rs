@@ -3,12 +3,12 @@
 use core::cell::RefCell;
 use core::time::Duration;
 
-use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
-use crate::lab::verify::compilers::{CompilerFault, Verdict};
-use crate::physics::num::Precision;
 use super::choose::Accepted;
 use super::condition::Language;
 use super::runner::{AuditRequest, AuditResponse};
+use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
+use crate::lab::verify::compilers::{CompilerFault, Verdict};
+use crate::physics::num::Precision;
 
 /// The process that asks them.
 pub struct Compilers {

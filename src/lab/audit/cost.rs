@@ -3,18 +3,21 @@
 //!
 //! What a user's function costs on a family of GPUs, as the report has it.
 
-use core::time::Duration;
+use super::compile::Compilers;
+use super::condition::Language;
+use super::error::placed;
+use super::program::AuditProgram;
 use crate::lab::cost::foreign::{self, ForeignFunction};
-use crate::lab::cost::{CompilerSession, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe, launch, told, CostFigures};
+use crate::lab::cost::{
+    CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe,
+    launch, told,
+};
 use crate::lab::process::{Error, Surroundings, Worker};
 use crate::lab::verify::compilers::CompilerFault;
 use crate::lab::verify::naga_translation;
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
-use super::compile::Compilers;
-use super::condition::Language;
-use super::error::placed;
-use super::program::AuditProgram;
+use core::time::Duration;
 use serde::Serialize;
 
 /// Asks the compiler of a family.

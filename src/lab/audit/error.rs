@@ -2,15 +2,15 @@
 //!
 //! Messages of compilers, with the place in the user's file before them.
 
-use thiserror::Error;
+use super::cosine::CosineForm;
+use super::program::own_names;
+use super::quantity;
 use crate::generator::emit;
 use crate::lab::process;
 use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::names::{UnknownName, nearest_names, offered};
 use crate::physics::num::{POINT_NOT_COMMA, has_decimal_commas};
-use super::cosine::CosineForm;
-use super::quantity;
-use super::program::own_names;
+use thiserror::Error;
 
 /// Why a user's function cannot be audited.
 #[derive(Debug, Error)]

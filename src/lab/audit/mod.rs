@@ -17,7 +17,6 @@ mod cost;
 mod directives;
 mod edges;
 mod error;
-mod given;
 mod hidden;
 mod inputs;
 mod loops;
@@ -41,14 +40,14 @@ use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::Family;
 use crate::physics::spectra::Space;
 
+pub use comparison::ExactFit;
+pub use condition::Language;
 pub use cost::AuditCost;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, MissingArgument, ValueFault};
-pub use given::Given;
-pub use condition::Language;
+pub use inputs::Given;
 pub use preprocess::Define;
-pub use comparison::ExactFit;
-pub use row::{ArgumentValue, AuditRow, ConditionRow, Dominating, PerceivedFigures, Checked};
+pub use row::{ArgumentValue, AuditRow, Checked, ConditionRow, Dominating, PerceivedFigures};
 pub use runner::serve;
 
 use auditor::Auditor;

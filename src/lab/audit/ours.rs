@@ -1,15 +1,18 @@
 //! Our methods for the same material: their errors in single precision, and their costs.
 
+use super::comparison::Competitor;
+use super::error::Error;
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::{error_of, values_for_material};
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::cost::{CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, ask_compilers, cost_rows, functions, input_numbers, records};
+use crate::lab::cost::{
+    CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, ask_compilers, cost_rows,
+    functions, input_numbers, records,
+};
 use crate::lab::process::{Pool, Surroundings};
 use crate::language::ir::{Checked, Column, Value, evaluate};
 use crate::language::methods::{self, Contract, Light, Method};
 use crate::physics::num::{Precision, each_channel};
-use super::comparison::Competitor;
-use super::error::Error;
 
 /// A method with its error, and its cost on each family where it is known.
 #[derive(Clone, Debug)]

@@ -2,24 +2,23 @@
 //!
 //! What was checked of a function, and how it came out. A check that was not made is not passed.
 
-use serde::Serialize;
+use super::Audit;
+use super::bind::{Bound, BoundArgument};
+use super::comparison::{Comparison, Competitor, ExactFit, Own, dominating, sentence};
+use super::cost::AuditCost;
+use super::edges::{EdgeRow, Edges};
+use super::inputs::{DefaultArgument, Initialised};
+use super::ours::Ours;
+use super::preprocess::Condition;
+use super::runner::Trouble;
+use super::slice::Slice;
 use crate::generator::fit::{ModelError, Perceived};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::CostAndError;
 use crate::lab::verify::compilers::Verdict;
 use crate::lab::verify::{Answer, Status, as_object};
 use crate::physics::foreign::Foreign;
-use super::Audit;
-use super::bind::{Bound, BoundArgument};
-use super::comparison::{Comparison, Competitor, Own, dominating, sentence, ExactFit};
-use super::cost::AuditCost;
-use super::edges::{EdgeRow, Edges};
-use super::given::DefaultArgument;
-use super::inputs::Initialised;
-use super::ours::Ours;
-use super::preprocess::Condition;
-use super::runner::Trouble;
-use super::slice::Slice;
+use serde::Serialize;
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
 #[derive(Clone, Debug, Serialize)]

@@ -4,25 +4,25 @@
 //!
 //! A worker: compiles the program that it is handed, and runs it. A driver that crashes ends only this process.
 
-use core::cell::{Cell, OnceCell, RefCell};
-use core::time::Duration;
-use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
-use crate::generator::reference::ReferenceCurve;
-use crate::lab::gpu::{Uniform, Argument, self, Kernel, Program, Wanted};
-use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker, Inbox};
-use crate::language::ir::{Column, Value};
-use crate::physics::num::{each_channel, Precision};
-use crate::physics::spectra::Space;
-use super::cosine::CosineForm;
-use super::loops::{MARK, TURNS};
-use serde::{Deserialize, Serialize};
-use crate::lab::verify::compilers::CompilerFault;
 use super::choose::{self, Accepted};
 use super::condition::Language;
-use std::io;
+use super::cosine::CosineForm;
+use super::loops::{MARK, TURNS};
 use crate::generator::emit::validate_wgsl;
+use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
+use crate::generator::reference::ReferenceCurve;
+use crate::lab::gpu::{self, Argument, Kernel, Program, Uniform, Wanted};
+use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker};
+use crate::lab::verify::compilers::CompilerFault;
 use crate::lab::verify::harness::ENTRY;
 use crate::lab::verify::run::Devices;
+use crate::language::ir::{Column, Value};
+use crate::physics::num::{Precision, each_channel};
+use crate::physics::spectra::Space;
+use core::cell::{Cell, OnceCell, RefCell};
+use core::time::Duration;
+use serde::{Deserialize, Serialize};
+use std::io;
 
 /// What sees cosines, and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);

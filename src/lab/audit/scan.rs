@@ -1,9 +1,9 @@
 //! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
 
-use crate::generator::emit::shader_words::Token;
 use super::condition::Language;
 use super::parts::{functions_of, parts};
 use super::type_names::TypeNames;
+use crate::generator::emit::shader_words::Token;
 
 /// A function as its head tells.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 //!
 //! Remarks of hosts in HLSL, which no compiler of ours reads.
 
-use crate::generator::emit::shader_words::{Token, tokens};
 use super::condition::Language;
 use super::scan::{behind, parts_between_commas};
+use crate::generator::emit::shader_words::{Token, tokens};
 
 /// A variable, or a member of a type.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,10 +3,12 @@
 
 mod choice;
 
-use crate::generator::emit::{FunctionForm, Bounds, specialised_graph};
+use crate::generator::emit::{Bounds, FunctionForm, specialised_graph};
 use crate::generator::fit::single_error;
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::cost::{CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records};
+use crate::lab::cost::{
+    CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records,
+};
 use crate::language::ir::Checked;
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::materials::{self, Material, ViewingConditions};
@@ -14,7 +16,7 @@ use crate::physics::num::{Precision, in_parallel};
 
 use choice::{cheapest, most_accurate, spread};
 
-pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, rounded_error, Spread};
+pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, Spread, rounded_error};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]

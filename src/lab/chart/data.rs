@@ -11,22 +11,25 @@
 //! The axes of cost: what compilers count in library functions, the graph's own operations, and times. An axis in powers of ten has no
 //! 0: a function that costs nothing has no cost there, and so no point.
 
-use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
-use crate::generator::reference::{MaterialInMedium, MaterialClass, Derivation};
-use crate::language::methods::{self, ALL, Light, Method};
-use crate::physics::num::{in_parallel, Precision};
-use crate::physics::spectra::Space;
 use super::audited::ChartedFunction;
-use super::{ChartData, ChartEntry, FunctionOrigin, sets, MaterialSet, STATISTICS, set_name, ChartView, CostAxis};
-use serde::Serialize;
-use crate::physics::records::rows;
-use std::collections::BTreeMap;
-use crate::generator::emit::{Bounds, Naming, specialised_function, FunctionForm};
-use crate::language::ir::{Value, evaluate};
-use crate::physics::materials::{self, ViewingConditions};
-use crate::physics::optics::cosine;
+use super::{
+    ChartData, ChartEntry, ChartView, CostAxis, FunctionOrigin, MaterialSet, STATISTICS, set_name,
+    sets,
+};
+use crate::generator::emit::{Bounds, FunctionForm, Naming, specialised_function};
+use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
+use crate::generator::reference::{Derivation, MaterialClass, MaterialInMedium};
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::lab::overdraw::times;
+use crate::language::ir::{Value, evaluate};
+use crate::language::methods::{self, ALL, Light, Method};
+use crate::physics::materials::{self, ViewingConditions};
+use crate::physics::num::{Precision, in_parallel};
+use crate::physics::optics::cosine;
+use crate::physics::records::rows;
+use crate::physics::spectra::Space;
+use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The names of all axes of cost.
 pub fn cost_names() -> Vec<&'static str> {

@@ -10,8 +10,11 @@ use serde::Serialize;
 use crate::generator::fit::MethodErrors;
 use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::language::methods::{Contract, Method};
-pub use audited::{charted_function, ChartedFunction};
-pub use data::{Reflectances, exact_and_approximated, chart_data, cost_names, LeftOutErrors, left_out, without_point};
+pub use audited::{ChartedFunction, charted_function};
+pub use data::{
+    LeftOutErrors, Reflectances, chart_data, cost_names, exact_and_approximated, left_out,
+    without_point,
+};
 pub use sets::{STATISTICS, set_name};
 
 /// A measure of error.

@@ -16,12 +16,17 @@ pub use compilers::{FamilyAnswers, ask_compilers};
 pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
 pub use function::{CostedFunction, functions, functions_of_effect, input_numbers};
-pub use record::{CostBasis, KnownCost, function_cost, known_cost, known_library_cost, library_cost, CostRecord, FunctionKey, records};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
-pub use session::{FragmentShader, serve, CompilerSession, launch, told};
+pub use record::{
+    CostBasis, CostRecord, FunctionKey, KnownCost, function_cost, known_cost, known_library_cost,
+    library_cost, records,
+};
 pub use row::{CostRow, CostSource, cost_rows};
-pub use shapes::{ChoiceRow, ChosenShape, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow};
+pub use session::{CompilerSession, FragmentShader, launch, serve, told};
+pub use shapes::{
+    ChoiceRow, ChosenShape, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow,
+};
 
 /// The method that others' costs and times are shares of, in its library form of three channels.
 pub const REFERENCE: &str = "dielectric_exact";

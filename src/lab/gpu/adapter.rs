@@ -2,10 +2,10 @@
 //!
 //! What can go wrong between a shader and its results.
 
-use std::fmt;
-use std::sync::OnceLock;
 use super::egl;
 use super::quiet::hush;
+use std::fmt;
+use std::sync::OnceLock;
 
 /// What a device is.
 #[derive(Clone, Debug, PartialEq, Eq)]

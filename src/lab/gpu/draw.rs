@@ -9,8 +9,7 @@ use std::rc::Rc;
 use wgpu::{BufferUsages, Features};
 
 use super::adapter::{Adapter, DeviceFault};
-use super::compute::Compute;
-use super::kernel;
+use super::kernel::{self, Compute};
 use super::slot::Texture;
 
 /// What a target holds: half floats blend everywhere.

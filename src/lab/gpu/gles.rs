@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use glow::{HasContext, PixelUnpackData};
 
-use super::egl::Context;
 use super::adapter::DeviceFault;
+use super::egl::Context;
 use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
 use super::slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 

@@ -8,7 +8,6 @@
 //! Nothing is linked. What is not there is a [`DeviceFault`] that says what to install, never a result.
 
 mod adapter;
-mod compute;
 mod draw;
 mod egl;
 mod gles;
@@ -19,15 +18,13 @@ mod passthrough;
 mod program;
 mod quiet;
 mod slot;
-mod stream;
 mod vulkan_compiler;
 
-pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters, DeviceFault};
+pub use adapter::{Adapter, AdapterKind, Backend, DeviceFault, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use gles_compiler::GlesCompiler;
 pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
-pub use program::{Argument, Program, ShaderCode, Uniform};
-pub use stream::Stream;
+pub use program::{Argument, Program, ShaderCode, Stream, Uniform};
 pub use slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
@@ -43,7 +40,7 @@ pub struct Device {
 }
 
 enum Stack {
-    Compute(Rc<compute::Compute>),
+    Compute(Rc<kernel::Compute>),
     Gles(Rc<egl::Context>),
 }
 
@@ -71,7 +68,7 @@ impl Device {
             return Device::gles();
         }
         let found = adapter::choose(wanted)?;
-        let compute = compute::Compute::open(found)?;
+        let compute = kernel::Compute::open(found)?;
         Ok(Device {
             adapter: compute.adapter.clone(),
             stack: Stack::Compute(Rc::new(compute)),

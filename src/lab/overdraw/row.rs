@@ -4,18 +4,18 @@
 //!
 //! The record of times: what `fresnel-gen time` measured, and on what. `tests/times` writes it.
 
-use serde::{Serialize, Deserialize};
-use crate::generator::emit::FunctionForm;
-use crate::language::ir::Ty;
-use crate::physics::num::Precision;
 use super::drawing_device::DeviceFacts;
 use super::figure::OverdrawFigure;
 use super::functions::TimedFunctions;
 use super::measure::{Clock, MeasuredDrawings};
 use super::plan::TimedFunction;
-use thiserror::Error;
+use crate::generator::emit::FunctionForm;
 use crate::lab::process;
+use crate::language::ir::Ty;
+use crate::physics::num::Precision;
 use crate::physics::records;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// A function and what it costs.
 #[derive(Clone, Debug, Serialize)]

@@ -4,12 +4,10 @@
 //! milliseconds that the response may take. `Worker` asks, `Inbox` answers, `Pool` shares jobs out among workers.
 //! What requests and responses are, each room says in types of its own.
 
-mod inbox;
 mod pool;
 mod surroundings;
 mod worker;
 
 pub use pool::{Error, Pool, Task};
-pub use inbox::Inbox;
 pub use surroundings::{Surroundings, TEMPORARY, beside};
-pub use worker::{Launch, Silence, Worker};
+pub use worker::{Inbox, Launch, Silence, Worker};

@@ -5,8 +5,9 @@
 //!
 //! Where tools and temporary files lie.
 
+use super::pool::Error;
 use std::collections::BTreeSet;
-use std::env::{join_paths, split_paths, temp_dir, var_os, current_exe};
+use std::env::{current_exe, join_paths, split_paths, temp_dir, var_os};
 use std::ffi::OsString;
 use std::fs::{self, File, Metadata};
 use std::io::{self, Write};
@@ -14,7 +15,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tempfile::TempDir;
-use super::pool::Error;
 
 /// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";
@@ -183,7 +183,9 @@ mod signals {
     use std::thread::{sleep, spawn};
     use std::time::Duration;
 
-    use signal_hook::consts::{SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU};
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU,
+    };
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 

@@ -5,9 +5,8 @@
 //!
 //! All frames of a view: how often each cosine is seen.
 
+use super::draw::{Camera, Mesh, draw};
 use crate::physics::num::in_parallel;
-use super::camera::Camera;
-use super::draw::{draw, Mesh};
 
 /// The bins between 0 and 1.
 pub const BINS: usize = 4096;

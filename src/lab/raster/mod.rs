@@ -12,7 +12,6 @@
 //! koeficijenata Frenelove refleksije u programima za senčenje", diploma thesis, University of Belgrade, 2014.
 
 mod body;
-mod camera;
 mod draw;
 mod ears;
 mod histogram;
@@ -20,8 +19,13 @@ mod obj;
 mod rendered_error;
 
 pub use body::{Body, CUBE, RELIEF, SPHERE};
-pub use camera::{Camera, Lens, Turntable, rotated};
-pub use draw::{Frame, SurfacePoint, draw, surface_points, surface_points_of, Mesh, Vertex};
+pub use draw::{
+    Camera, Frame, Lens, Mesh, SurfacePoint, Turntable, Vertex, draw, rotated, surface_points,
+    surface_points_of,
+};
 pub use histogram::{BINS, CosineHistogram, Shown, shown};
 pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
-pub use rendered_error::{MAGNIFIED, Painted, RelativeErrors, RenderedError, drawn_errors, mean_relative, rendered_error, ChannelErrors, SceneErrorRow};
+pub use rendered_error::{
+    ChannelErrors, MAGNIFIED, Painted, RelativeErrors, RenderedError, SceneErrorRow, drawn_errors,
+    mean_relative, rendered_error,
+};

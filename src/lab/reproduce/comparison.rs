@@ -6,8 +6,8 @@
 //! diploma thesis, School of Electrical Engineering, University of Belgrade, 2014.
 
 use serde::{Serialize, Serializer};
-use std::sync::LazyLock;
 use serde_json::Value;
+use std::sync::LazyLock;
 
 /// A line of the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -6,6 +6,8 @@
 
 use serde::Deserialize;
 
+use super::ThesisSection;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use crate::generator::emit::FunctionForm;
 use crate::lab::cost::{self, GpuCompiler, find};
 use crate::lab::overdraw::{Time, times};
@@ -13,8 +15,6 @@ use crate::language::methods;
 use crate::physics::num::Precision;
 use crate::physics::num::statistics::{least_squares, rank_correlation};
 use crate::physics::records;
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::ThesisSection;
 
 const TIMES: &str = "table6_relative_time_percent";
 

@@ -2,11 +2,11 @@
 //!
 //! Angles in degrees, as the thesis draws and names them, and what curves do over them.
 
+use super::comparison::{ComparisonRow, Figure};
+use super::{ThesisSection, specialised};
 use crate::generator::fit;
 use crate::generator::reference::Derivation;
 use crate::language::methods::lambda;
-use super::comparison::{ComparisonRow, Figure};
-use super::{ThesisSection, specialised};
 pub use crate::physics::optics::cosine;
 use crate::physics::optics::{self, Reflectance};
 

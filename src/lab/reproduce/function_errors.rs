@@ -1,13 +1,13 @@
 //! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
 
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::rendered::Meter;
+use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
+use super::{ThesisSection, specialised};
 use crate::generator::fit::{thesis_error_in_floats, thesis_errors};
 use crate::generator::reference::{Derivation, THESIS_MATCHING_COS};
 use crate::language::methods::lambda;
 use crate::physics::materials::Channels;
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
-use super::rendered::Meter;
-use super::{ThesisSection, specialised};
 
 const METALS: &str = "table2_function_error_metals_percent";
 const DIELECTRICS: &str = "table3_function_error_dielectrics_percent";

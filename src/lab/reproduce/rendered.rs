@@ -6,7 +6,9 @@
 //!
 //! How far the work is, in angles.
 
-use std::sync::LazyLock;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::specialised;
+use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
 use crate::generator::fit::arguments;
 use crate::generator::lut::{Depth, Stored, Table, TableAxis};
 use crate::generator::reference::{Derivation, ReferenceCurve, THESIS_MATCHING_COS};
@@ -15,9 +17,7 @@ use crate::language::ir::{Checked, Weights, evaluate};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::{Half, Num};
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
-use super::specialised;
+use std::sync::LazyLock;
 
 /// The texels of the thesis's tables, as far as it draws one.
 const TEXELS: usize = 256;

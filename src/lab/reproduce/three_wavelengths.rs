@@ -6,12 +6,12 @@
 //! Source of the weights: ITU-R BT.709-6, 2015, <https://www.itu.int/rec/R-REC-BT.709>, from the chromaticities of sRGB. The
 //! thesis's three wavelengths are no primaries; its programs show them as if they were.
 
-use crate::generator::fit;
-use crate::physics::materials::{Material, Surface, THESIS_NM, ViewingConditions};
-use crate::physics::spectra::{Gamut, Illuminant, Integration, Step, Space};
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, specialised};
+use crate::generator::fit;
+use crate::physics::materials::{Material, Surface, THESIS_NM, ViewingConditions};
 use crate::physics::num::each_channel;
+use crate::physics::spectra::{Gamut, Illuminant, Integration, Space, Step};
 
 const TABLE: &str = "table8_three_wavelength_colour_error_percent";
 /// The thesis's metals, and the pages that it most probably took: gold and platinum are those of Table 1, aluminium

@@ -3,8 +3,8 @@
 //! Each of Table 7's seven columns, over the first, must be one of Table 6's. Which one is not taken from anywhere:
 //! it is the column with the least largest deviation over the five devices.
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::ThesisSection;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 
 const RELATIVE: &str = "table6_relative_time_percent";
 const ABSOLUTE: &str = "table7_absolute_ms";
@@ -45,8 +45,9 @@ pub fn order() -> Vec<usize> {
 /// Largest difference over the devices, in percentage points.
 fn deviation(column: usize, place: usize) -> f64 {
     let devices = comparison::devices(ABSOLUTE).into_iter();
-    let differences = devices
-        .map(|device| (share(device, column) - comparison::numbers(&[RELATIVE, device])[place]).abs());
+    let differences = devices.map(|device| {
+        (share(device, column) - comparison::numbers(&[RELATIVE, device])[place]).abs()
+    });
     differences.fold(0.0, f64::max)
 }
 

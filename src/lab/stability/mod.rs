@@ -11,9 +11,9 @@ mod scan;
 mod space;
 mod study;
 
-pub use space::ScanAxis;
 pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;
-pub use study::{StabilityRow, Study, StudyProgress};
 pub use scan::{Finding, ScanProgress, ScannedFunction, WorstPoint, scan, scan_specialised};
+pub use space::ScanAxis;
+pub use study::{StabilityRow, Study, StudyProgress};

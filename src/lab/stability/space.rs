@@ -2,13 +2,13 @@
 //!
 //! What a scan varies: cosines, indices and other arguments, over their domains and past them.
 
+use super::failure::is_flushed;
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
 use crate::language::methods::{Class, Input, Method};
 use crate::physics::materials::Channels;
 use crate::physics::num::Precision;
 use crate::physics::optics;
-use super::failure::is_flushed;
 
 /// A space: its axes, and what a point of it means to a method.
 #[derive(Clone, Debug)]

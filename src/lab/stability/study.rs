@@ -2,14 +2,14 @@
 //!
 //! The rows of a scan: a failure of a method each, or that it has none.
 
+use super::failure::Failure;
+use super::scan::{Finding, ScannedFunction, scan, scan_specialised};
 use crate::generator::emit::{self, Bounds, Naming, specialised_function};
 use crate::generator::reference::MaterialInMedium;
+use crate::lab::verify::as_object;
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
-use super::scan::{Finding, ScannedFunction, scan, scan_specialised};
 use serde::Serialize;
-use super::failure::Failure;
-use crate::lab::verify::as_object;
 
 /// Hears how much is done, of how much, of what.
 pub type StudyProgress<'a> = &'a mut dyn FnMut(u64, u64, &str);

@@ -2,6 +2,11 @@
 
 use std::cell::OnceCell;
 
+use super::judge::{PathRun, RanFunction};
+use super::requested::{PlannedFile, VerifyPlan};
+use super::row::VerifyRow;
+use super::run;
+use super::trial::{TrialCase, cases};
 use crate::generator::emit::Emitted;
 use crate::generator::fit::{self, ModelError};
 use crate::generator::reference::ReferenceCurve;
@@ -11,11 +16,6 @@ use crate::lab::verify::{Outcome, beyond, cosines_around, share};
 use crate::language::ir::Column;
 use crate::language::targets::Stack;
 use crate::physics::num::each_channel;
-use super::run;
-use super::judge::{PathRun, RanFunction};
-use super::requested::{PlannedFile, VerifyPlan};
-use super::row::VerifyRow;
-use super::trial_case::{TrialCase, cases};
 
 /// How a file is tried.
 #[derive(Clone, Copy, Debug)]

@@ -3,11 +3,11 @@
 //!
 //! Pairs as an object of JSON, in order.
 
+use super::naga_translation::Gles;
 use crate::generator::emit::{Emitted, uniform_offsets};
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
 use crate::physics::num::Precision;
-use super::naga_translation::Gles;
 use serde::{Serialize, Serializer};
 
 /// A function as a harness calls it.

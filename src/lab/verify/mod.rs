@@ -10,9 +10,7 @@
 mod code_error;
 pub mod compilers;
 pub mod drift;
-pub mod effect_points;
 pub mod effect_trial;
-mod exhaustive;
 pub mod file;
 mod half;
 pub mod harness;
@@ -20,7 +18,6 @@ mod judge;
 mod listed;
 pub mod machine;
 pub mod merge;
-pub mod module;
 pub mod naga_translation;
 pub mod outline;
 mod points;
@@ -32,16 +29,25 @@ mod shipped;
 mod supervise;
 mod sweep;
 mod trial;
-mod trial_case;
 
-pub use code_error::{ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error, library_code_error_at, random_medium};
-pub use row::{Error, AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow, WORST, Status};
-pub use exhaustive::exhaustive_rows;
-pub use half::{HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at, nearest_half};
+pub use code_error::{
+    ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error,
+    library_code_error_at, random_medium,
+};
+pub use half::{
+    HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
+    nearest_half,
+};
 pub use harness::as_object;
-pub use points::{Random, WITHIN, beyond, cosines, cosines_around, limits, share, worst_cases, worst_cosines, worst_media};
 pub use machine::MachineStatement;
-pub use supervise::{supervise, serve};
-pub use sweep::{count, sweep};
-pub use trial::{Expected, Miss, Outcome, Trial, result_range};
-pub use trial_case::material_trial;
+pub use points::{
+    Random, WITHIN, beyond, cosines, cosines_around, limits, share, worst_cases, worst_cosines,
+    worst_media,
+};
+pub use row::{
+    AllowedError, Answer, CodeErrorFigures, Emulation, Error, ModelErrorFigures, SecondOpinion,
+    Status, VerifyRow, WORST,
+};
+pub use supervise::{serve, supervise};
+pub use sweep::{count, exhaustive_rows, sweep};
+pub use trial::{Expected, Miss, Outcome, Trial, material_trial, result_range};

@@ -14,25 +14,27 @@
 //! A function in half precision as it runs: at every f16 from 0 to 1 and every exponent beyond, against f64 and against f16
 //! rounded after every operation.
 
-use std::cell::OnceCell;
-use crate::generator::emit::{Emitted, batch_entry, batch_program, places, EffectPart};
-use crate::language::ir::{Param, Ty};
-use crate::language::targets::{Stack, Target};
-use crate::physics::num::{Precision, Num};
-use super::compilers::{self, HlslVersion, hlsl_to_spirv, hlsl_to_spirv_in, Verdict};
-use super::effect_points::TEXELS;
-use super::effect_trial::EffectTrial;
-use super::harness::{self, Call, ENTRY};
-use super::{naga_translation, Outcome};
-use super::trial::Trial;
-use crate::lab::gpu::{self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape, Uniform, Wanted, Wrap};
-use crate::generator::fit::{Measured, values_for_material_in};
-use crate::language::methods::{Method, Contract};
+use super::compilers::{self, HlslVersion, Verdict, hlsl_to_spirv, hlsl_to_spirv_in};
+use super::effect_trial::{EffectTrial, TEXELS};
 use super::file::FileTrial;
-use super::judge::{EffectRun, PathRun, RanFunction, HalfRun};
+use super::harness::{self, Call, ENTRY};
+use super::judge::{EffectRun, HalfRun, PathRun, RanFunction};
 use super::requested::VerifyPlan;
 use super::row::VerifyRow;
+use super::trial::Trial;
+use super::{Outcome, naga_translation};
+use crate::generator::emit::{EffectPart, Emitted, batch_entry, batch_program, places};
+use crate::generator::fit::{Measured, values_for_material_in};
+use crate::lab::gpu::{
+    self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wanted, Wrap,
+};
 use crate::lab::verify::{HalfError, HalfTrial, halves, halves_beyond, result_range};
+use crate::language::ir::{Param, Ty};
+use crate::language::methods::{Contract, Method};
+use crate::language::targets::{Stack, Target};
+use crate::physics::num::{Num, Precision};
+use std::cell::OnceCell;
 
 /// Why nothing was run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -9,16 +9,16 @@
 //! Which shard a run is: by `--shard`, or by what a scheduler says to each task. How many shards there are only the command line
 //! says: in an array that is run again in part, a scheduler counts the tasks of that part.
 
-use serde::{Deserialize, Serialize};
-use crate::generator::reference::MaterialInMedium;
-use crate::physics::digest::sha256;
+use super::machine::MachineStatement;
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
-use super::machine::MachineStatement;
-use super::trial_case::case_materials;
-use std::collections::BTreeSet;
+use super::trial::case_materials;
 use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::generator::error::RequestFault;
+use crate::generator::reference::MaterialInMedium;
+use crate::physics::digest::sha256;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// A share of a verification: one of so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

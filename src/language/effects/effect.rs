@@ -2,7 +2,9 @@
 //!
 //! What several effects do with vectors, and arguments that several take.
 
-use crate::language::ir::{BrokenRule, Builder, Checked, Expr, Letters, Ty, check, specialise, USED_TWICE};
+use crate::language::ir::{
+    BrokenRule, Builder, Checked, Expr, Letters, Ty, USED_TWICE, check, specialise,
+};
 use crate::language::methods::{Forms, Inputs, Method, Values};
 use crate::physics::cite::Citation;
 use crate::physics::names::identifier_fault;

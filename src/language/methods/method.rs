@@ -10,15 +10,18 @@
 //! catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The figures stand in the
 //! methods' own files. The test `fits::classes_are_followed_as_promised` holds each in both directions.
 
-use std::collections::BTreeMap;
-use crate::language::ir::{BrokenRule, Builder, Checked, Expr, Function, Texels, Ty, Value, check_in, fold_in, specialise_in};
-use crate::physics::cite::Citation;
-use crate::physics::num::{Num, Precision};
+use super::ALL;
 use super::affine::{Affine, FittedAverage};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
 use super::shape::Shape;
-use super::ALL;
+use crate::language::ir::{
+    BrokenRule, Builder, Checked, Expr, Function, Texels, Ty, Value, check_in, fold_in,
+    specialise_in,
+};
+use crate::physics::cite::Citation;
+use crate::physics::num::{Num, Precision};
+use std::collections::BTreeMap;
 
 /// A formula for reflectance.
 #[derive(Debug)]

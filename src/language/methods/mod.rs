@@ -14,11 +14,16 @@ mod method;
 mod renamed;
 mod shape;
 
-pub use affine::{Affine, Basis, FittedAverage, MOST_TERMS, KnownSurface};
-pub use method::{ByClass, Spread, by_class, promises_by_class, Class, Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over, Values, Origin};
-pub use formulas::{ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step};
+pub use affine::{Affine, Basis, FittedAverage, KnownSurface, MOST_TERMS};
+pub use formulas::{
+    ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
+};
 pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
+pub use method::{
+    Better, ByClass, Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light,
+    Method, Origin, Over, Spread, Values, by_class, promises_by_class,
+};
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 

@@ -4,7 +4,6 @@
 //! format ([`Material::parse`]). To add a material to the catalogue, add its file.
 
 mod catalogue;
-mod constant;
 mod csv;
 mod decimal;
 mod file;
@@ -16,12 +15,11 @@ mod rows;
 mod surface;
 
 pub use crate::physics::foreign::{escaped, is_hidden};
-pub use catalogue::{find, list, names, source, page};
-pub use surface::{Channels, THESIS_NM, Surface, Unseen, ViewingConditions, surfaces_of};
-pub use constant::{ConstantIndex, IndexFault};
+pub use catalogue::{find, list, names, page, source};
+pub use file::{FileText, name_fault};
 pub use formula::{DispersionCurve, Extrapolate, Formula};
-pub use file::{name_fault, FileText};
-pub use material::{Index, Material, MaterialKind};
+pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;
+pub use surface::{Channels, Surface, THESIS_NM, Unseen, ViewingConditions, surfaces_of};
 
 pub use crate::physics::spectra::FileFault;

@@ -10,7 +10,6 @@ mod decimal_comma;
 mod half;
 mod interval;
 mod legendre;
-mod native;
 mod parallel;
 mod precision;
 pub mod statistics;

@@ -19,12 +19,12 @@ mod table;
 mod user_text;
 mod wavelength;
 
-pub use space::{Adaptation, bradford, Gamut, Space, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
-pub use difference::{colour_error, Lab, ciede2000};
-pub use wavelength::{FileFault, FIRST_NM, LAST_NM, OBSERVED_NM, Step};
+pub use difference::{Lab, ciede2000, colour_error};
 pub use illuminant::Illuminant;
 pub use integrator::{Integration, Integrator, NoWhite, weighted_sum, xyz_weights};
 pub use observer::Observer;
+pub use space::{Adaptation, Gamut, Space, bradford, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
 pub use spectrum::Spectrum;
 pub use table::is_separator;
 pub use user_text::{TextFault, mesh_text, user_text, without_mark};
+pub use wavelength::{FIRST_NM, FileFault, LAST_NM, OBSERVED_NM, Step};

@@ -2,8 +2,11 @@
 //!
 //! Where names stand beside points, so that none lies over another or over a point.
 
-use crate::pictures::plot::{AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK, TITLE, Tick, VERMILION, capital, log_ticks, plain_label};
 use crate::lab::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
+use crate::pictures::plot::{
+    AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK,
+    TITLE, Tick, VERMILION, capital, log_ticks, plain_label,
+};
 
 /// The size of the picture.
 const FRAME: PanelFrame = PanelFrame {

@@ -20,17 +20,19 @@ use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::chart::{ChartData, chart_data};
 use crate::physics::spectra::Space;
-use crate::pictures::scene::{self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT};
+use crate::pictures::scene::{
+    self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
+};
 
-pub use passes::FunctionTexts;
 pub use lower::{GlesProgram, LoweredTexture, LoweringFault, lowered};
 pub use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
 pub use orbit::{AZIMUTHS, Orbit, eye_at};
 use packed::{SKY, textures_of};
+pub use passes::FunctionTexts;
 
 pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
 pub use passes::{GalleryPass, SHOW, ShowPrograms};
-pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, methods_of, find, rows};
+pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, find, methods_of, rows};
 
 /// All that the page holds.
 #[derive(Debug, Serialize)]

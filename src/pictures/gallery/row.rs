@@ -2,18 +2,20 @@
 //!
 //! The rows of the gallery: those of pictures, and a rough ball, whose truth no tracer of ours has.
 
-use std::collections::{BTreeMap, BTreeSet};
-use serde::Serialize;
+use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
+use super::orbit::Orbit;
+use super::passes::{GalleryPass, passes_of};
 use crate::generator::emit::{Emitted, effect_function_text};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::Reflectance;
 use crate::language::methods::{self, Class, Light, Method};
 use crate::language::targets;
 use crate::physics::materials::MaterialKind;
-use crate::pictures::scene::{FRAME, RenderRow, RowText, self, BodyName, PassRow, Paths, Place, Slot, View};
-use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
-use super::orbit::Orbit;
-use super::passes::{GalleryPass, passes_of};
+use crate::pictures::scene::{
+    self, BodyName, FRAME, PassRow, Paths, Place, RenderRow, RowText, Slot, View,
+};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A row.
 #[derive(Clone, Debug, Serialize)]

@@ -1,8 +1,8 @@
 //! n and k against wavelength, as measured.
 
 use crate::physics::materials::{DispersionCurve, Extrapolate};
-use crate::pictures::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
+use crate::pictures::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 
 const N: Look = Look {
     colour: BLUE,

@@ -4,10 +4,12 @@
 
 use crate::physics::materials::{Extrapolate, Index, Material};
 use crate::physics::optics;
-use crate::pictures::plot::{BLUE, INK, LineChart, Look, Series, Style, VERMILION, ChartAxis, GREEN};
-use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
-use glam::DVec3;
 pub use crate::physics::optics::cosine;
+use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
+use crate::pictures::plot::{
+    BLUE, ChartAxis, GREEN, INK, LineChart, Look, Series, Style, VERMILION,
+};
+use glam::DVec3;
 
 /// Angles in degrees, from the flat ones to where metals are palest.
 const ANGLES: [(f64, &str, &str); 4] = [

@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
+use super::curve::step_cosines;
+use super::request::PlanRequest;
 use crate::generator::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::generator::fit::{arguments, table_of};
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::cost::{CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost, records};
+use crate::lab::cost::{
+    CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost, records,
+};
 use crate::language::ir::{Checked, evaluate};
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::num::{Half, Num, Precision, each_channel, in_parallel};
-use super::curve::step_cosines;
-use super::request::PlanRequest;
 
 /// What functions cost, and which of them may be taken.
 pub struct Prices<'a> {

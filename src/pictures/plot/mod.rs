@@ -5,14 +5,12 @@
 //! a plot gets whatever height the text leaves over.
 
 mod axes;
-mod layout;
 mod line_chart;
 mod palette;
 mod text;
 mod ticks;
 
-pub(super) use axes::{Area, Axes, Tick, Scale};
-pub(super) use layout::{Layout, PanelFrame};
+pub(super) use axes::{Area, Axes, Layout, PanelFrame, Scale, Tick};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
 pub(crate) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
 pub use palette::{Look, Style};

@@ -2,9 +2,9 @@
 //!
 //! What a row of the table of pictures says: its passes, what they read and write, and its scene.
 
-use super::trace::Paths;
 use super::body::Body;
 use super::pool::pool;
+use super::trace::Paths;
 use super::window::window;
 
 /// The sky behind all.

@@ -3,7 +3,11 @@
 //! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs; the values of
 //! these stand in the frame's block, so that one text serves every material.
 
-use crate::generator::emit::{self, EffectRequest, Emitted, FunctionForm, Naming, effect_function_text};
+use super::glass::Glass;
+use super::table::RenderRow;
+use crate::generator::emit::{
+    self, EffectRequest, Emitted, FunctionForm, Naming, effect_function_text,
+};
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
 use crate::language::effects::{self, Reflectance, USUAL_METHOD};
@@ -11,8 +15,6 @@ use crate::language::ir::Ty;
 use crate::language::methods::{self, Forms, Input, Method, Values};
 use crate::language::targets;
 use crate::physics::materials::Channels;
-use super::glass::Glass;
-use super::table::RenderRow;
 
 /// Inputs that the frame's block has room for.
 pub const INPUTS: usize = 8;

@@ -4,4 +4,4 @@ mod heat;
 mod page;
 
 pub use heat::heat_map;
-pub use page::{stability_page, percent, worst};
+pub use page::{percent, stability_page, worst};

@@ -4,8 +4,8 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::manifest::FILE;
 use fresnel_gen::generator::output::artifact::Scope;
+use fresnel_gen::generator::output::manifest::FILE;
 use fresnel_gen::generator::output::tree::plan;
 use tempfile::TempDir;
 

@@ -5,10 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::artifact::{sha256, Scope};
-use fresnel_gen::generator::output::tree::{report, State, TreePlan, plan};
+use fresnel_gen::generator::output::artifact::{Scope, sha256};
 use fresnel_gen::generator::output::lock::Lock;
 use fresnel_gen::generator::output::manifest::FILE;
+use fresnel_gen::generator::output::tree::{State, TreePlan, plan, report};
 use fresnel_gen::generator::output::write as writer;
 use tempfile::TempDir;
 

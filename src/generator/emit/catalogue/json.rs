@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{COEFFICIENTS, CatalogueRow, CloserFit, methods_of, array};
+use super::{COEFFICIENTS, CatalogueRow, CloserFit, array, methods_of};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,17 +4,19 @@ mod array;
 mod json;
 mod record;
 
-use crate::generator::fit::{FitCurve, FitObjective, ModelError, coefficients_and_error, model_error};
-use crate::generator::reference::MaterialInMedium;
-use crate::language::methods::{self, Method};
-use crate::physics::num::in_parallel;
-use crate::physics::spectra::Gamut;
 use super::average::Average;
 use super::figures::Bounds;
 use super::file::Error;
 use super::function::{Emitted, Naming, specialised_function};
+use crate::generator::fit::{
+    FitCurve, FitObjective, ModelError, coefficients_and_error, model_error,
+};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{self, Method};
+use crate::physics::num::in_parallel;
+use crate::physics::spectra::Gamut;
 
-pub use array::{catalogue_array, BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_buffer};
+pub use array::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_array, catalogue_buffer};
 pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
 pub use record::{catalogue_record, recorded_catalogue};
 

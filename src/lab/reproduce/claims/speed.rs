@@ -2,9 +2,9 @@
 //!
 //! How much more the exact law for conductors computes than that for dielectrics (section 5.3.2).
 
+use super::{measured, statement};
 use crate::lab::reproduce::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use crate::lab::reproduce::specialised;
-use super::{statement, measured};
 use crate::language::ir::{Checked, Op};
 
 const TIMES: &str = "table6_relative_time_percent";

@@ -10,12 +10,14 @@
 //! Domain: F0 from 0 to 1, weights that go with it; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
 use crate::language::methods::affine::{Affine, KnownSurface, each};
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::schlick::to_white;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
 pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];

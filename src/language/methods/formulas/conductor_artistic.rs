@@ -9,14 +9,20 @@
 //! at most .001. Error: none where n and k give r and g; [`METHOD`]'s claims hold with both derived from n and k.
 
 use crate::language::ir::Expr;
+use crate::language::methods::affine::each;
+use crate::language::methods::formulas::conductor_exact::{
+    self, conductor, least_squared, root_or_zero,
+};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{
+    Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND,
+};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over, Values,
+};
 use crate::physics::cite::Citation;
 use crate::physics::num::each_channel;
 use crate::physics::optics;
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Values, Origin};
-use crate::language::methods::formulas::conductor_exact::{self, conductor, least_squared, root_or_zero};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND};
-use crate::language::methods::affine::each;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -15,12 +15,12 @@
 use std::collections::BTreeMap;
 
 use crate::language::ir::{Expr, USED_TWICE};
-use crate::physics::num::Precision;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Values, Origin};
 use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
 use crate::language::methods::formulas::dielectric_exact;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over, Values};
+use crate::physics::num::Precision;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -10,11 +10,11 @@
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
 use crate::language::ir::Expr;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::conductor_exact;
 use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

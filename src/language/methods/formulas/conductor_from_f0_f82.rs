@@ -13,13 +13,17 @@
 //! Specialised to a material, n and k are solved in f64 and this error is gone.
 
 use crate::language::ir::Expr;
+use crate::language::methods::formulas::conductor_exact::{
+    self, conductor, least_squared, root_or_zero,
+};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{Input, Inputs, Range};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over, Values,
+};
 use crate::physics::cite::Citation;
 use crate::physics::num::each_channel;
 use crate::physics::optics::index_from_f0_f82;
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Values, Origin};
-use crate::language::methods::formulas::conductor_exact::{self, conductor, least_squared, root_or_zero};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs, Range};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

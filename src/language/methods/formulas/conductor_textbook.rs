@@ -8,10 +8,12 @@
 //! exactly 90 degrees, where tan θ is infinite, and NaN for 1 + 1 ulp, where sin θ has no root.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::language::methods::method::{Class, Claim, Claims, Contract, Forms, Method, Over, Origin};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Contract, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {

@@ -6,11 +6,13 @@
 //! Domain: F0 ≥ 0; above 1 it is taken as it is. Error: 1 - F0 at 90 degrees; see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
 use crate::language::methods::affine::Affine;
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -13,12 +13,12 @@
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::physics::num::Precision;
 use crate::language::methods::affine::FittedAverage;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
+use crate::physics::num::Precision;
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {

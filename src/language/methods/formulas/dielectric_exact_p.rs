@@ -5,10 +5,10 @@
 //! Error: none in the model; at Brewster's zero only an absolute bound makes sense.
 
 use crate::language::ir::Expr;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Light, Method, Over, Origin};
 use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

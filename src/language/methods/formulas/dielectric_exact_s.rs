@@ -4,10 +4,10 @@
 //! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number. Error: none in the model.
 
 use crate::language::ir::Expr;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Light, Method, Over, Origin};
 use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -7,10 +7,12 @@
 //! to 1, and gives NaN past the critical angle.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::language::methods::method::{Class, Claim, Claims, Contract, Forms, Method, Over, Origin};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Contract, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// Physically Based Rendering, second edition.
 pub const PBRT_2010: Citation = Citation {

@@ -7,11 +7,13 @@
 //! Error: [`METHOD`]'s claims, with the parameters derived so.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND};
 use crate::language::methods::affine::{COS_60, mean};
+use crate::language::methods::half::InHalf;
+use crate::language::methods::input::{
+    Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
+};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -8,13 +8,15 @@
 //! 1: the result is limited to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
 use crate::language::methods::affine::{Affine, each};
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::hoffman_f82::{WEIGHT_82, affine_weights, dip};
 use crate::language::methods::formulas::schlick::grazing_weight;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -6,10 +6,12 @@
 //! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::language::methods::method::{ByClass, Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
+};
 use crate::language::methods::shape::{Factor, Shape};
 
 /// The shape.

@@ -12,10 +12,12 @@
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::Affine;
-use crate::language::methods::method::{ByClass, Class, Claim, Claims, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::hoffman_f82::{HOFFMAN_2019, between};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    ByClass, Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
+};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

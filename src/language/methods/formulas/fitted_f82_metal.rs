@@ -10,10 +10,12 @@
 //! Domain: any F0 and F82; limited to [0, 1]. White stays white. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::language::methods::method::{ByClass, Class, Claim, Claims, CoefficientsFromInputs, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::hoffman_f82::HOFFMAN_2019;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    ByClass, Claim, Claims, Class, CoefficientsFromInputs, Colours, Forms, Method, Origin, Over,
+};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

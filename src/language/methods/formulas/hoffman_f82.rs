@@ -7,12 +7,14 @@
 //! Domain: F0, F82 ≥ 0; limited to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
 use crate::language::methods::affine::Affine;
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::schlick::{grazing_power, grazing_weight};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
 const PEAK: f64 = 823_543.0 / 46_656.0;

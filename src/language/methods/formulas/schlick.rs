@@ -6,11 +6,13 @@
 //! metals have near 80 degrees. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
 use crate::language::methods::affine::Affine;
-use crate::language::methods::method::{Class, Claim, Claims, Colours, Forms, Method, Over, Origin};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// Schlick 1994.
 pub const SCHLICK_1994: Citation = Citation {

@@ -10,13 +10,13 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::num::each_channel;
-use crate::physics::optics;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
+use crate::language::methods::affine::KnownSurface;
 use crate::language::methods::formulas::schlick_rescaled::{LAZANYI_2005, rescaled};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::affine::KnownSurface;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::num::each_channel;
+use crate::physics::optics;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -8,11 +8,11 @@
 //! goes through exp2 and log2, whose own error the code error holds.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::schlick_f90::to_f90;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -5,11 +5,11 @@
 //! Domain: η from 0.001 to 1e12. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
 
 use crate::language::ir::Expr;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::schlick::{SCHLICK_1994, grazing_weight, to_white};
 use crate::language::methods::formulas::schlick_rescaled::from_least;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -5,11 +5,11 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::formulas::schlick::{grazing_rest, grazing_weight};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
 
 /// Lazányi and Szirmay-Kalos 2005.
 pub const LAZANYI_2005: Citation = Citation {

@@ -8,11 +8,11 @@
 //! the difference of two neighbouring texels for the sampler's weights.
 
 use crate::language::ir::{Expr, Ty};
-use crate::physics::cite::Citation;
-use crate::physics::num::Num;
-use crate::language::methods::method::{Class, Claim, Claims, Forms, Method, Over, Origin};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
+use crate::physics::num::Num;
 
 /// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
 /// texels gain nothing, fewer cost (half the size quadruples what filtering errs).

@@ -2,13 +2,13 @@
 //!
 //! The space of a G-buffer's light, where its file states one.
 
-use exr::meta::header::Header;
-use crate::physics::names::{nearest_names, offered};
 use super::GbufferFault;
-use std::io::Cursor;
-use exr::meta::MetaData;
-use exr::prelude::Vec2;
+use crate::physics::names::{nearest_names, offered};
 use crate::physics::spectra::Space;
+use exr::meta::MetaData;
+use exr::meta::header::Header;
+use exr::prelude::Vec2;
+use std::io::Cursor;
 
 /// A channel.
 pub struct GbufferChannel {

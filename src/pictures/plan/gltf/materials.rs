@@ -16,7 +16,7 @@ use gltf_json::{Index, Material as GltfMaterial, Root};
 use serde::Serialize;
 
 use super::super::drawn::SurfaceLook;
-use super::super::pixels::MappedMaterial;
+use super::super::metric::MappedMaterial;
 use super::super::sky::SceneLight;
 use super::container::Place;
 use super::nodes::not_read;

@@ -12,7 +12,6 @@
 //! buffers, 3.7 for meshes, 3.9 and appendix B for materials, 3.10 for cameras.
 
 mod accessor;
-mod cameras;
 mod container;
 mod materials;
 mod nodes;
@@ -22,19 +21,19 @@ use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 use gltf_json::{Accessor, Index, Root};
 
-use crate::lab::raster::{Camera, Mesh};
-use crate::physics::spectra::without_mark;
 use super::drawn::DrawnScene;
-use super::pixels::{FramePixels, MappedMaterial};
+use super::metric::{FramePixels, MappedMaterial};
 use super::scene_file::ReadFile;
 use super::sky::SceneLight;
+use crate::lab::raster::{Camera, Mesh};
 use crate::physics::foreign::Foreign;
+use crate::physics::spectra::without_mark;
 use accessor::Buffers;
-use cameras::cameras;
-use container::{Container, Place};
 pub use container::GltfFault;
+use container::{Container, Place};
 use materials::Looks;
 pub use materials::{Unplanned, constant_index};
+use nodes::cameras;
 use primitives::Tints;
 
 /// How a glTF scene is seen.
@@ -91,7 +90,7 @@ impl GltfScene {
             unplanned: looks.unplanned,
             remarks: [looks.remarks, nodes::of_scene(&root, view.size)].concat(),
             cameras: if own.is_empty() {
-                cameras::around(scene.mesh(), view.size)
+                nodes::around(scene.mesh(), view.size)
             } else {
                 own
             },
@@ -110,7 +109,7 @@ impl GltfScene {
         if self.has_cameras {
             "the file's cameras".to_owned()
         } else {
-            cameras::AROUND_IN_WORDS.to_owned()
+            nodes::AROUND_IN_WORDS.to_owned()
         }
     }
 

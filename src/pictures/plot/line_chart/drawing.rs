@@ -1,7 +1,8 @@
 //! The plot itself: grid, guide lines, curves and axis labels.
 
-use crate::pictures::plot::axes::{Area, Axes, TICK_GAP, Tick, Scale};
-use crate::pictures::plot::layout::{PanelFrame, paragraph_height};
+use crate::pictures::plot::axes::{
+    Area, Axes, PanelFrame, Scale, TICK_GAP, Tick, paragraph_height,
+};
 use crate::pictures::plot::line_chart::{LineChart, Mark, Series};
 use crate::pictures::plot::palette::Style;
 use crate::pictures::plot::text::{AXIS, FOOT, MARK, TICK};
