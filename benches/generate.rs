@@ -5,7 +5,7 @@ use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use fresnel_gen::generator::generate;
-use fresnel_gen::generator::output::{check, tree};
+use fresnel_gen::generator::output::tree;
 use fresnel_gen::generator::request::Request;
 
 fn everything(c: &mut Criterion) {
@@ -37,7 +37,7 @@ fn no_op_check(c: &mut Criterion) {
                 &generated.scope,
                 &generated.provenance,
             );
-            check::report(&plan.expect("a plan"))
+            tree::report(&plan.expect("a plan"))
         });
     });
 }

@@ -11,7 +11,7 @@ use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside
 use crate::cli::places::try_files;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::fit::ModelError;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::MaterialInMedium;

@@ -15,15 +15,14 @@ use crate::generator::bake::{
 };
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::generate::provenance;
 use crate::generator::generate::tables::{WantedTables, artifacts, table_materials};
 use crate::generator::lut::{
     Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
 };
-use crate::generator::output::artifact::Artifact;
+use crate::generator::output::artifact::{Artifact, Scope};
 use crate::generator::output::lock::{Announce, Lock};
-use crate::generator::output::scope::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::language::methods::{self, Method, TEXELS};

@@ -2,16 +2,15 @@
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
-    Choice, effect_or_all, family, family_or_all, method_or_all, precision,
+    Choice, each_once, effect_or_all, family, family_or_all, method_or_all, precision,
 };
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
-use crate::cli::flags::precision::each_once;
 use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
 use crate::cli::places::try_places;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::request::Request;
 use crate::lab::cost::{
@@ -21,8 +20,7 @@ use crate::lab::cost::{
 use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::machine;
 use crate::language::effects::{self, Effect, USUAL_METHOD};
-use crate::language::methods;
-use crate::language::methods::Method;
+use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
 use crate::pictures::cost_page::{cost_page, percent, short};
 use crate::pictures::table;

@@ -11,7 +11,7 @@ use crate::cli::search;
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{Missed, missed};
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::fit::{
     Coefficients, Exact, FitCurve, FitObjective, Follows, ModelError, Weight, error_from,
     model_error, values_at,

@@ -5,7 +5,7 @@ use crate::cli::flags::material::MaterialFlags;
 use crate::cli::output::{Output, Progress, not_drawn};
 use crate::cli::places::{folder_or_current, replaced, try_files};
 use crate::generator::command_line::CommandLine;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::request::{Materials, Request};
 use crate::pictures::gallery::gallery;

@@ -1,41 +1,40 @@
 //! `fresnel-gen` without a subcommand: generate, check, list.
+//!
+//! Fitted methods that were asked for by name, for materials that the one of their own class follows far better: `fitted` for water.
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
-    Choice, effect_or_all, family, flavour, method_or_all, one_of, target_or_all,
+    Choice, PrecisionFlags, effect_or_all, family, flavour, method_or_all, one_of, target_or_all,
 };
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{TreeFlags, file_only};
-use crate::cli::flags::precision::PrecisionFlags;
 use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::lists::target_words;
 use crate::cli::output::Output;
 use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
 use crate::cli::plan_file::{material_paths, planned};
-use crate::cli::unsuited::unsuited;
 use crate::generator::bake::as_tables_are_seen;
-use crate::generator::emit::HeaderForm;
-use crate::generator::fault::RequestFault;
+use crate::generator::emit::{HeaderForm, fitted_error};
+use crate::generator::error::RequestFault;
+use crate::generator::fit::{ModelError, rounded_up};
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::catalogue::add_catalogue;
-use crate::generator::generate::kept::kept;
+use crate::generator::generate::kept;
 use crate::generator::generate::tables::add_tables;
 use crate::generator::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::generator::output::artifact::Artifact;
-use crate::generator::output::atlas_rows::ChangedRows;
+use crate::generator::output::depfile;
 use crate::generator::output::lock::{Announce, Lock};
-use crate::generator::output::tree::{TreePlan, plan};
+use crate::generator::output::tree::{self, ChangedRows, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
-use crate::generator::output::{check, depfile};
+use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request};
 use crate::lab::budget::{
     Budget, BudgetCandidate, BudgetRow, Spread, choose_within, rounded_error,
 };
-use crate::lab::cost;
-use crate::lab::cost::Family;
+use crate::lab::cost::{self, Family};
 use crate::language::effects::Effect;
-use crate::language::methods;
-use crate::language::methods::Method;
+use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::foreign::{Foreign, one_line};
 use clap::Args;
@@ -264,7 +263,7 @@ fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Outpu
 }
 
 fn checked(flags: &GenerateFlags, plan: &TreePlan) -> Output {
-    let (text, drift) = check::report(plan);
+    let (text, drift) = tree::report(plan);
     let mut output = Output {
         stdout: text.into_bytes(),
         code: u8::from(drift),
@@ -527,6 +526,67 @@ fn measurements(error: f64, spread: Option<Spread>) -> String {
     } else {
         differ
     }
+}
+
+/// How many times the error of the class's own method is told.
+const FAR: f64 = 2.0;
+
+/// A sentence for each such method, with the figures of one material. One that errs little more is none of them.
+///
+/// # Errors
+/// The request names what does not exist, or a material's file has a fault.
+pub fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
+    let named = request.resolved_methods()?.unwrap_or_default();
+    let named: Vec<&Method> = named
+        .into_iter()
+        .filter(|method| method.is_fitted() && !method.claims.by_class.is_empty())
+        .collect();
+    let is_of_materials = !matches!(request.materials, Materials::None | Materials::Default);
+    if named.is_empty() || !is_of_materials || !request.effects.is_empty() {
+        return Ok(Vec::new());
+    }
+    let subjects = request.subjects()?.materials();
+    Ok(named
+        .into_iter()
+        .filter_map(|method| sentence(method, &subjects))
+        .collect())
+}
+
+/// What is said of a method and the materials that want another.
+fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<String> {
+    let other = |subject: &MaterialInMedium| {
+        // With as many coefficients, and so at about the same cost.
+        let other = methods::find(subject.fitted_with_four()?)?;
+        (other.class != method.class).then_some(other)
+    };
+    let mut unsuited = subjects
+        .iter()
+        .filter_map(|subject| Some((subject, other(subject)?)));
+    let (subject, other) = unsuited.next()?;
+    let [own, better] = [method, other].map(|method| fitted_error(subject, method));
+    let (own, better) = (own?, better?);
+    if own.max_abs < FAR * better.max_abs {
+        return None;
+    }
+    let more = match unsuited.count() {
+        0 => String::new(),
+        count => format!("; {count} more of these materials are of such a class"),
+    };
+    let (name, class) = (Foreign(&subject.name), subject.material.kind.name());
+    Some(format!(
+        "for {name}, a {class}, {} errs by {}, and {} by {}{more}",
+        method.name,
+        words(&own),
+        other.name,
+        words(&better)
+    ))
+}
+
+/// `0.00349 (6.48 % in the mean)`.
+fn words(error: &ModelError) -> String {
+    let mean = error.mean_rel.map(|share| 100.0 * share);
+    let mean = mean.map_or_else(String::new, |mean| format!(" ({mean:.2} % in the mean)"));
+    rounded_up(error.max_abs) + &mean
 }
 
 #[cfg(test)]

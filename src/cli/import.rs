@@ -4,7 +4,7 @@ use crate::cli::error::Error;
 use crate::cli::materials::{ImportFlags, material_record};
 use crate::cli::output::{Output, report};
 use crate::cli::places::try_places;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::folder;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::generator::request::source::read;

@@ -6,7 +6,7 @@ use crate::cli::flags::output::ReportFlags;
 use crate::cli::output::{Output, report};
 use crate::generator::emit;
 use crate::generator::envelope::{Report, SCHEMA};
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::language::effects::{self, Effect, EffectFunction};
 use crate::language::methods::{self, Contract, Method};
 use crate::language::targets::{self, Target};

@@ -6,15 +6,14 @@ use crate::cli::flags::material::{MaterialName, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
 use crate::cli::output::{Output, Progress, not_drawn, png, report, reported};
-use crate::cli::{coated, import, params, survey};
+use crate::cli::{import, params, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};
-use crate::generator::error::unknown;
+use crate::generator::error::{RequestFault, unknown};
 use crate::generator::exchange::{self, Format};
-use crate::generator::fault::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::generator::request::check_transparent;
-use crate::generator::request::loaded::{Loaded, load};
+use crate::generator::request::source::{Loaded, load};
 use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::materials::{
     self, ConstantIndex, Extrapolate, Material, MaterialKind, ViewingConditions,
@@ -190,7 +189,7 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         Some(MaterialsCommand::List(filter)) => list(filter, json),
         Some(MaterialsCommand::Show(show)) => shown(show, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
-        Some(MaterialsCommand::Coat(coat)) => coated::run(coat, json),
+        Some(MaterialsCommand::Coat(coat)) => params::run_coat(coat, json),
         Some(MaterialsCommand::Import(import)) => import::run(import, json),
         Some(MaterialsCommand::Survey(survey)) => survey::run(survey, json, progress),
     }

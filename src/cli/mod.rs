@@ -9,7 +9,6 @@
 mod audit;
 mod bake;
 mod chart;
-mod coated;
 mod completions;
 mod cost;
 mod error;
@@ -20,7 +19,6 @@ mod gallery;
 mod generate;
 mod import;
 mod junit;
-mod legible;
 mod lists;
 mod materials;
 mod merge;
@@ -37,7 +35,6 @@ mod search;
 mod stability;
 mod survey;
 mod time;
-mod unsuited;
 mod verify;
 
 use std::path::{Path, PathBuf};
@@ -54,8 +51,7 @@ pub use completions::completions;
 pub use error::Error;
 pub use first_help::first_help;
 pub use flags::renamed::with_names_of_today;
-pub use legible::legible;
-pub use output::{Output, Progress};
+pub use output::{Output, Progress, legible};
 
 /// What stands at the end of the help, of the program's and of `generate`'s.
 const EXAMPLES: &str = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 a check could not be made on this machine (a driver or a compiler is missing, or failed).";

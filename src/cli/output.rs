@@ -1,14 +1,15 @@
 //! What a run leaves: text or a file for stdout, remarks, an exit code; and reports as text or as JSON.
-
-use crate::cli::places::replaced;
-use std::path::Path;
-
-use serde::Serialize;
+//!
+//! Text as a terminal may have it: characters that move its cursor, change its title or turn its lines are shown as escapes. It is a
+//! second fence: a message holds no such text of others, since [`foreign`](crate::physics::foreign) cleans what is put into it.
 
 use crate::cli::error::Error;
-use crate::generator::fault::RequestFault;
+use crate::cli::places::replaced;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
-use crate::physics::materials::escaped;
+use crate::physics::materials::{escaped, is_hidden};
+use serde::Serialize;
+use std::path::Path;
 
 /// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -91,4 +92,43 @@ pub fn reported<T: Serialize>(
         return (output(json, true), None);
     }
     (output(text, false), Some(OutputFile::named(file, json)))
+}
+
+/// The text with such characters as `\u{1b}`. Line breaks and tabs stay.
+pub fn legible(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    let mut letters = text.chars().peekable();
+    while let Some(c) = letters.next() {
+        let ends_line = c == '\n' || c == '\r' && letters.peek() == Some(&'\n');
+        if is_hidden(c) && !ends_line && c != '\t' {
+            safe += &format!("\\u{{{:x}}}", u32::from(c));
+        } else {
+            safe.push(c);
+        }
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::legible;
+
+    #[test]
+    fn what_a_terminal_obeys_is_shown() {
+        for (text, shown) in [
+            (
+                "plain \u{3bb}\ttext\r\nend\n",
+                "plain \u{3bb}\ttext\r\nend\n",
+            ),
+            ("\u{1b}[31mred", "\\u{1b}[31mred"),
+            ("\u{1b}]0;title\u{7}", "\\u{1b}]0;title\\u{7}"),
+            ("a\u{9b}b\u{7f}c\rd", "a\\u{9b}b\\u{7f}c\\u{d}d"),
+            (
+                "a\u{202e}b\u{2066}c\u{2028}d",
+                "a\\u{202e}b\\u{2066}c\\u{2028}d",
+            ),
+        ] {
+            assert_eq!(legible(text), shown);
+        }
+    }
 }

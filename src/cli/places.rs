@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::error::Error;
 use crate::cli::flags::named::NamedFiles;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::folder::{is_below, is_plain_file, is_same_file, read, resolved};
 use crate::generator::output::manifest::{self, Manifest};
 use crate::generator::output::tree::TreePlan;

@@ -3,20 +3,19 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::Error;
+use crate::cli::flags::material::MaterialName;
 use crate::generator::emit::FunctionForm;
 use crate::generator::envelope::{SCHEMA, TOOL};
+use crate::generator::error::unknown;
+use crate::generator::request::source::{self, load};
+use crate::generator::request::{Materials, Request};
 use crate::language::methods::{self, Method};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{self, FileFault};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
-
-use crate::cli::error::Error;
-use crate::cli::flags::material::MaterialName;
-use crate::generator::error::unknown;
-use crate::generator::request::loaded::load;
-use crate::generator::request::{Materials, Request, source};
 
 /// The beginning of the command of a plan.
 const COMMAND: &str = "plan";

@@ -2,7 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::Error;
+use crate::cli::flags::material::MaterialName;
+use crate::cli::plan::PlanFlags;
+use crate::generator::error::RequestFault;
+use crate::generator::output::folder::is_same_file;
 use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::generator::request::source::{self, same_name};
+use crate::generator::request::{Materials, Request};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::ViewingConditions;
 use crate::pictures::plan::{
@@ -10,14 +17,6 @@ use crate::pictures::plan::{
     SceneLight, Unplanned, check_primaries, constant_index, read_gbuffer,
 };
 use crate::pictures::scene::{Display, Environment, TONE_CURVES};
-
-use crate::cli::error::Error;
-use crate::cli::flags::material::MaterialName;
-use crate::cli::plan::PlanFlags;
-use crate::generator::fault::RequestFault;
-use crate::generator::output::folder::is_same_file;
-use crate::generator::request::subjects::same_name;
-use crate::generator::request::{Materials, Request, source};
 
 /// Gives one frame after another.
 pub type FrameOf<'a> = Box<dyn FnMut(usize) -> Result<FramePixels, Error> + 'a>;

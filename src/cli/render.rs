@@ -9,15 +9,15 @@ use crate::cli::places::try_files;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
-use crate::generator::request::loaded::load;
-use crate::generator::request::{Source, source};
+use crate::generator::request::Source;
+use crate::generator::request::source::{self, load};
 use crate::lab::gpu::{Device, Wanted};
 use crate::physics::materials::{Material, MaterialKind, Surface, ViewingConditions};
 use crate::physics::spectra::{Space, srgb_byte};
-use crate::pictures::pixels::rgb_png;
 use crate::pictures::plot::shade_bytes;
+use crate::pictures::png::rgb_png;
 use crate::pictures::scene::{
     self, Difference, Display, Environment, Glass, Order, Picture, RenderRow, RenderedRow,
     TONE_CURVES, ToneCurve,

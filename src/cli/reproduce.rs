@@ -6,7 +6,7 @@ use crate::cli::output::{Output, Progress, report_beside};
 use crate::generator::envelope::Report;
 use crate::generator::output::write::OutputFile;
 use crate::lab::reproduce::{
-    ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, reproduce, thesis,
+    ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, comparison, reproduce,
 };
 use crate::physics::names::UnknownName;
 use crate::pictures::figure_chart::figure_chart;
@@ -57,7 +57,7 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
         .table
         .as_ref()
         .map_or(Part::ALL.as_slice(), std::slice::from_ref);
-    let reproduced = reproduce(parts, thesis::ANGLES, progress);
+    let reproduced = reproduce(parts, comparison::ANGLES, progress);
     let drawn = figures(flags, &reproduced);
     let (count, folder) = (
         drawn.len(),

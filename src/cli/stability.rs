@@ -8,7 +8,7 @@ use crate::cli::output::{Output, Progress, not_drawn, png, report_beside};
 use crate::cli::places::try_places;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::request::Request;
 use crate::lab::stability::{Finding, StabilityRow, Study, maps};

@@ -1,15 +1,14 @@
 //! `time`: what functions cost on the device at hand.
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, method_or_all, one_of, precision};
+use crate::cli::flags::choice::{Choice, each_once, method_or_all, one_of, precision};
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::ReportFlags;
-use crate::cli::flags::precision::each_once;
 use crate::cli::output::{Output, Progress, report};
 use crate::cli::places::try_places;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Origin;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::lab::gpu::{Backend, Wanted};
 use crate::lab::overdraw::request::TimeRequest;
 use crate::lab::overdraw::{

@@ -1,10 +1,11 @@
 //! `verify`: what is generated, run on every target and held against what it means.
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, effect_or_all, method_or_all, one_of, target_or_all};
+use crate::cli::flags::choice::{
+    Choice, PrecisionFlags, effect_or_all, method_or_all, one_of, target_or_all,
+};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::CheckReportFlags;
-use crate::cli::flags::precision::PrecisionFlags;
 use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::junit::verify_junit;
 use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
@@ -12,20 +13,19 @@ use crate::cli::places::{refuse_place_of, try_places};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::Naming;
 use crate::generator::envelope::Report;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::output::manifest;
 use crate::generator::output::write::OutputFile;
 use crate::generator::request::Request;
 use crate::lab::gpu::{Backend, Wanted};
 use crate::lab::process::{Inbox, Pool};
-use crate::lab::verify::dealt::{VARIABLES, shard_of};
 use crate::lab::verify::file::VerifyEffort;
 use crate::lab::verify::merge::Whole;
-use crate::lab::verify::plan::VerifyPlan;
-use crate::lab::verify::requested::plan_of_request;
+use crate::lab::verify::requested::{VerifyPlan, plan_of_request};
 use crate::lab::verify::run::Devices;
-use crate::lab::verify::shard::{PartStatement, Shard, ShardOutcome};
-use crate::lab::verify::shard_report::{ShardReport, WholeRun, devices};
+use crate::lab::verify::shard::{
+    PartStatement, Shard, ShardOutcome, ShardReport, VARIABLES, WholeRun, devices, shard_of,
+};
 use crate::lab::verify::{
     AllowedError, MachineStatement, Status, VerifyRow, WITHIN, exhaustive_rows, machine, serve,
     supervise,

@@ -14,7 +14,6 @@ pub mod emit;
 pub mod envelope;
 pub mod error;
 pub mod exchange;
-pub mod fault;
 pub mod fit;
 pub mod flavours;
 pub mod generate;

@@ -5,7 +5,6 @@
 //! at r of the radius sin θ = r. The right half of a sphere shows the error in place of the colour.
 
 use crate::lab::chart::exact_and_approximated;
-
 use crate::pictures::plot::{
     ChartAxis, FOOT, HEADING, Layout, LineChart, PANEL, PanelFrame, SUBTITLE, Series, Style, TICK,
     hex_colour, ticks,

@@ -15,7 +15,6 @@ pub mod gallery;
 pub mod headline;
 mod html;
 pub mod material_sheet;
-pub mod pixels;
 pub mod plan;
 pub mod plot;
 pub mod png;

@@ -2,13 +2,14 @@
 //!
 //! No font and no file of the machine is read, so that equal text gives equal bytes everywhere. The fonts are parts of
 //! DejaVu Sans, Latin and Greek; what they lack is drawn as an empty box.
-
-use std::sync::Arc;
-
-use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
+//!
+//! Pixels as PNG.
 
 use crate::generator::emit::MARK;
+use png::{BitDepth, ColorType, Compression, Encoder};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
+use std::sync::Arc;
 
 /// Regular first: it has letters that the bold one lacks, and is asked for these next.
 const FONTS: [&[u8]; 2] = [
@@ -89,6 +90,32 @@ fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     let mut writer = encoder.write_header()?;
     let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
     writer.write_image_data(&colours.copied().collect::<Vec<u8>>())?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// Bytes of red, green and blue, row after row, in sRGB. `about` is ASCII.
+///
+/// # Errors
+/// It cannot be encoded, and why.
+pub fn rgb_png(pixels: &[u8], size: [u32; 2], about: String) -> Result<Vec<u8>, String> {
+    encoded(pixels, size, about).map_err(|why| why.to_string())
+}
+
+fn encoded(
+    pixels: &[u8],
+    [width, height]: [u32; 2],
+    about: String,
+) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::High);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.add_text_chunk("Comment".to_owned(), about)?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
     writer.finish()?;
     Ok(bytes)
 }

@@ -17,7 +17,7 @@ mod tree_of_a_run {
     use fresnel_gen::generator::generate::catalogue::add_catalogue;
     use fresnel_gen::generator::generate::tables::add_tables;
     use fresnel_gen::generator::output::lock::Lock;
-    use fresnel_gen::generator::output::{check, tree, write};
+    use fresnel_gen::generator::output::{tree, write};
     use fresnel_gen::generator::request::Request;
 
     /// All files below a folder, as paths in it.
@@ -57,7 +57,7 @@ mod tree_of_a_run {
             drop(lock);
             return;
         }
-        let (report, drift) = check::report(&plan);
+        let (report, drift) = tree::report(&plan);
         assert!(!drift, "{report}\nBLESS=1 cargo test rewrites it");
         let mut found = BTreeSet::new();
         files(&folder, "", &mut found);

@@ -7,18 +7,18 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use fresnel_gen::lab::reproduce::{
-    ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis,
+    ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, comparison, reproduce,
 };
 use fresnel_gen::pictures::figure_chart::figure_chart;
 
 /// The thesis's million angles: the figures must come out to its printed digit.
 static TABLES: LazyLock<Reproduction> =
-    LazyLock::new(|| run(&[Part::Table2, Part::Table3], thesis::ANGLES));
+    LazyLock::new(|| run(&[Part::Table2, Part::Table3], comparison::ANGLES));
 static LOOKUPS: LazyLock<Reproduction> =
-    LazyLock::new(|| run(&[Part::Table4, Part::Table5], thesis::ANGLES));
+    LazyLock::new(|| run(&[Part::Table4, Part::Table5], comparison::ANGLES));
 /// The claims stand or fall by far more than what a hundredth of the angles leaves open.
 static CLAIMS: LazyLock<Reproduction> =
-    LazyLock::new(|| run(&[Part::Claims], thesis::ANGLES / 100));
+    LazyLock::new(|| run(&[Part::Claims], comparison::ANGLES / 100));
 
 fn run(parts: &[Part], angles: usize) -> Reproduction {
     reproduce(parts, angles, &mut |_, _, _| {})
@@ -434,8 +434,7 @@ fn a_missing_figure_is_null_with_a_reason() {
 /// The command `reproduce`.
 mod program {
     use clap::Parser;
-    use fresnel_gen::cli::Output;
-    use fresnel_gen::cli::{Cli, Error, run};
+    use fresnel_gen::cli::{Cli, Error, Output, run};
 
     fn command(arguments: &[&str]) -> Result<Output, Error> {
         let start = ["fresnel-gen", "reproduce"];

@@ -268,23 +268,18 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         // Files that wait beside their places.
         "generator/output/stage.rs",
         "generator/output/folder.rs",
+        // What is removed, what stays.
+        "generator/output/ours.rs",
         // It names this program, an input of what it writes.
         "generator/output/depfile.rs",
-        // What appears in a place while a run writes, what is removed, what stays.
-        "generator/output/held.rs",
-        "generator/output/removal.rs",
-        "generator/output/stays.rs",
         // The lock on an output folder, and its waits.
         "generator/output/lock.rs",
-        "generator/output/reading.rs",
         "generator/request/source.rs",
         "generator/output/tree.rs",
         "build.rs",
         "lab/verify/machine.rs",
         // Workers: processes of this program, with a time limit.
         "lab/process/worker.rs",
-        "lab/process/inbox.rs",
-        "lab/process/tools.rs",
         // The folder for their temporary files.
         "lab/process/surroundings.rs",
         // The clock of what is measured.

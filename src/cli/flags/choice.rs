@@ -1,8 +1,8 @@
 //! Names on the command line, parsed to what they name.
+//!
+//! What functions compute in, as the command line says it: single or half precision.
 
-use core::fmt;
-
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::flavours::{self, Flavour};
 use crate::lab::cost::{FAMILIES, Family};
 use crate::language::effects::{self, Effect};
@@ -10,6 +10,8 @@ use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
+use clap::Args;
+use core::fmt;
 
 /// A word of a list of names.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -160,6 +162,31 @@ pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone
 /// The parser of the name of a family of GPUs, or `all`.
 pub fn family_or_all() -> impl Fn(&str) -> Result<Choice<&'static Family>, UnknownName> + Clone {
     one_or_all("GPU family", FAMILIES, |family| family.name)
+}
+
+/// The flags of every command that writes or runs functions.
+#[derive(Args, Clone, Debug, Default)]
+pub struct PrecisionFlags {
+    /// What functions compute in: f32, or f16, whose names end in _f16 [default: f32]
+    #[arg(long, value_name = "NAME", value_parser = precision())]
+    pub precision: Option<Precision>,
+    /// Also write methods that f16 cannot compute accurately, without an error bound
+    #[arg(long, requires = "precision")]
+    pub force: bool,
+}
+
+impl PrecisionFlags {
+    /// What functions compute in.
+    pub fn precision(&self) -> Precision {
+        self.precision.unwrap_or_default()
+    }
+}
+
+/// The precisions of these, each once and in order; both where none is named.
+pub fn each_once(named: &[Precision]) -> Vec<Precision> {
+    let all = Precision::ALL.into_iter();
+    all.filter(|precision| named.is_empty() || named.contains(precision))
+        .collect()
 }
 
 #[cfg(test)]

@@ -6,13 +6,12 @@ use clap::Args;
 use thiserror::Error;
 
 use crate::cli::error::Error;
+use crate::cli::flags::choice::Choice;
 use crate::generator::command_line::path_again;
 use crate::generator::request::source::{comma_list, is_path, read};
 use crate::generator::request::{Materials, Source};
 use crate::physics::materials::{self, ConstantIndex, IndexFault};
 use crate::physics::names::UnknownName;
-
-use crate::cli::flags::choice::Choice;
 
 /// A word that is no medium.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]

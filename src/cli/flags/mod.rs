@@ -5,6 +5,5 @@ pub mod groups;
 pub mod material;
 pub mod named;
 pub mod output;
-pub mod precision;
 pub mod renamed;
 pub mod viewing;

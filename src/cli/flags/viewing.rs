@@ -3,15 +3,14 @@
 use clap::Args;
 
 use crate::cli::error::Error;
+use crate::cli::flags::choice::{in_any_case, one_of};
 use crate::generator::command_line::path_again;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::RequestFault;
 use crate::generator::request::source::{is_path, read};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{Extrapolate, ViewingConditions};
 use crate::physics::names::UnknownName;
 use crate::physics::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
-
-use crate::cli::flags::choice::{in_any_case, one_of};
 
 /// The viewing conditions: the flags of every command that makes three channels of a spectrum.
 #[derive(Args, Clone, Debug, Default)]

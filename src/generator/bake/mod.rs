@@ -1,25 +1,22 @@
 //! Baking: materials become tables, tables become files and rows of a report. Pure; `app` lists the files and writes them.
 
-mod error;
 mod picture;
 mod row;
-mod shader;
 mod split_sum;
 mod subject;
-mod usual;
-mod words;
 
 use crate::generator::lut::{Depth, Format, TableAxis, TableKind, smallest};
 use crate::language::targets::Target;
 
 use picture::Baking;
 
-pub use error::{Error, split_sum_methods};
-pub use row::{BakeRow, SplitSumRow, TableRow};
+pub use row::{
+    BakeRow, Error, SplitSumRow, TableRow, material_words, split_sum_methods, viewing_flags,
+};
 pub use split_sum::{SplitSumRequest, bake_split_sum, usual_method};
-pub use subject::TableMaterial;
-pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, as_tables_are_seen, usual_request};
-pub use words::{material_words, viewing_flags};
+pub use subject::{
+    DEFAULT_AXIS, DEFAULT_FORMATS, TableMaterial, as_tables_are_seen, usual_request,
+};
 
 /// What is baked.
 #[derive(Clone, Debug)]
@@ -132,7 +129,7 @@ fn bake_picture(
 ) -> Result<Baked, Error> {
     let (axis, texels, formats) = chosen(request, subjects)?;
     let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
-    let functions = shader::files(&baking)?;
+    let functions = picture::files(&baking)?;
     let beside: Vec<String> = functions.iter().map(|(file, _)| file.clone()).collect();
     let mut rows = Vec::new();
     let mut files = Vec::new();

@@ -1,12 +1,21 @@
 //! The rows of the report: what a file is, how to look it up, and the error of the lookup.
-
-use serde::Serialize;
-
-use crate::generator::fit::ModelError;
-use crate::generator::lut::{Format, Picture, TableAxis};
+//!
+//! A bake as a user types it.
+//!
+//! What cannot be baked.
 
 use super::picture::Rounded;
 use super::subject::TableMaterial;
+use super::{BakeRequest, TableSize};
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{self, Naming};
+use crate::generator::fit::ModelError;
+use crate::generator::lut::{self, Format, MOST_TERM, Picture, TERMS, TableAxis, term_range};
+use crate::language::methods::{self, Method};
+use crate::language::targets::Target;
+use crate::physics::materials::ViewingConditions;
+use crate::physics::spectra::Gamut;
+use serde::Serialize;
 
 /// How sampled values are mixed where errors are given.
 pub const WEIGHTS: &str = "steps of 1/256, as GPUs filter";
@@ -234,4 +243,113 @@ pub fn error_line(errors: &[[ModelError; 2]]) -> String {
         most(|error| error.max_abs),
         100.0 * most(|error| error.mean_rel.unwrap_or(0.0))
     )
+}
+
+/// The materials as a user types them.
+pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
+    subjects.iter().map(|one| one.argument.clone()).collect()
+}
+
+/// The flags of the medium and the viewing conditions, each with a space before it.
+pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
+    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
+    // Tables keep colours outside the space unless asked otherwise; for functions it is the other way round.
+    let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
+    CommandLine::new("")
+        .list("medium", medium)
+        .seen_as(viewing)
+        .list("gamut", clips.then_some(Gamut::Clip.name()))
+        .into()
+}
+
+impl BakeRequest {
+    /// The command that reports this again, without the output's place.
+    pub fn command_line(&self) -> CommandLine {
+        let command = CommandLine::new("bake")
+            .list("material", &self.typed)
+            .with(&self.flags);
+        let command = match &self.shape {
+            TableSize::Fixed { axis, texels } => {
+                command.list("size", [texels]).list("axis", [axis.name()])
+            }
+            TableSize::Within { budget, axes } => {
+                let only = axes.first().filter(|_| axes.len() == 1);
+                command
+                    .number("budget", format_args!("{budget:?}"))
+                    .list("axis", only.map(|axis| axis.name()))
+            }
+        };
+        let command = command
+            .list("format", self.formats.iter().map(|format| format.name()))
+            .switch("atlas", self.atlas);
+        with_functions(command, &self.targets, &self.prefix)
+    }
+}
+
+/// The same command, which writes functions beside the tables.
+pub fn with_functions(
+    command: CommandLine,
+    targets: &[&'static Target],
+    prefix: &str,
+) -> CommandLine {
+    if targets.is_empty() {
+        return command;
+    }
+    command
+        .list("target", targets.iter().map(|target| target.name))
+        .list("prefix", Naming::flag_of_prefix(prefix))
+}
+
+/// A fault of what is to be baked.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A table cannot be made.
+    #[error(transparent)]
+    Table(#[from] lut::Error),
+    /// A language refuses the function that reads a table.
+    #[error(transparent)]
+    Function(#[from] emit::Error),
+    /// A split-sum table of a method that is not affine in numbers of a material.
+    #[error(
+        "--dfg takes a method that is affine in numbers of a material ({}), and `{method}` is none",
+        affine_methods()
+    )]
+    NotAffine {
+        /// The method.
+        method: &'static str,
+    },
+    /// An engine's table of another method than its own.
+    #[error(
+        "--layout {layout} holds the terms of schlick, and not of `{method}`: leave --method out"
+    )]
+    EnginesMethod {
+        /// The layout.
+        layout: &'static str,
+        /// The method.
+        method: &'static str,
+    },
+    /// Terms below 0 or above 1 as integers.
+    #[error(
+        "the terms of `{method}` lie beyond 0 to 1, which {format} does not hold: take exr-half, exr-float, ktx2, c, rust or js"
+    )]
+    Integers {
+        /// The method.
+        method: &'static str,
+        /// The format.
+        format: &'static str,
+    },
+}
+
+/// The methods that have a split-sum table.
+pub fn split_sum_methods() -> Vec<&'static str> {
+    let has_table = |method: &&Method| {
+        let basis = method.basis();
+        basis.is_some_and(|basis| basis.terms() <= TERMS && term_range(&basis)[1] <= MOST_TERM)
+    };
+    let all = methods::ALL.iter().copied().filter(has_table);
+    all.map(|method| method.name).collect()
+}
+
+fn affine_methods() -> String {
+    split_sum_methods().join(", ")
 }

@@ -4,6 +4,9 @@
 //! by alpha (`createImageBitmap` of browsers unless asked otherwise, Core Graphics always), or divide by it, since OpenEXR takes
 //! colours for multiplied ones; so there it gets a file of its own.
 
+use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
+use super::subject::DEFAULT_FORMATS;
+use super::{Baked, Error, depths};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
 use crate::generator::lut::{
@@ -12,10 +15,6 @@ use crate::generator::lut::{
 };
 use crate::language::ir::Weights;
 use crate::language::methods::{self, Basis, Method};
-
-use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
-use super::usual::DEFAULT_FORMATS;
-use super::{Baked, Error, depths};
 
 /// What is baked.
 #[derive(Clone, Debug)]

@@ -3,13 +3,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::file::Error;
+use super::function::{Emitted, FunctionForm, Naming, library_function};
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{Basis, Method};
 use crate::physics::num::{Legendre, each_channel};
-
-use super::error::Error;
-use super::form::FunctionForm;
-use super::function::{Emitted, Naming, library_function};
 
 /// What stands beside a method's functions and takes no cosine: the means, three channels and one, where the method has them; the
 /// coefficients that a method finds for a fitted one.

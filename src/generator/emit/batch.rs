@@ -1,10 +1,9 @@
 //! A program that calls functions at many points, whose arguments stand in a buffer: four numbers a place, each argument from a place
 //! of its own, a matrix in four, column by column. Such a program is a module of an effect, and runs effects when they are verified.
 
+use super::function::Emitted;
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Batch, Spelling, Target};
-
-use super::function::Emitted;
 
 /// How many places of four numbers an argument takes.
 fn places_of(ty: Ty) -> usize {

@@ -5,24 +5,20 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::average::Average;
+use super::effect_file::EffectPart;
+use super::figures::{CodeBound, MissedDetail};
+use super::file::{is_number, uniform_offsets};
+use super::function::{Emitted, FunctionForm};
+use super::header::{Notes, OUTPUT_LICENCE};
+use super::page::entry_point;
+use super::print;
 use crate::generator::fit::{Measured, ModelError};
 use crate::generator::reference::{By, MaterialInMedium};
 use crate::language::ir::{Param, Ty};
 use crate::language::methods::Input;
 use crate::language::targets::{Finish, Target};
 use crate::physics::materials::Material;
-
-use super::average::Average;
-use super::bounds::CodeBound;
-use super::effect_file::EffectPart;
-use super::file::{is_number, uniform_offsets};
-use super::form::FunctionForm;
-use super::function::Emitted;
-use super::header::OUTPUT_LICENCE;
-use super::missed::MissedDetail;
-use super::notes::Notes;
-use super::page::entry_point;
-use super::print;
 
 /// What the manifest says of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

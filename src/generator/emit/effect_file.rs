@@ -2,6 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::batch::batch_program;
+use super::comment;
+use super::detail::{Detail, functions_detail};
+use super::figures::CodeBound;
+use super::file::{Error, File, check_names};
+use super::function::{Emitted, FunctionForm, Naming};
+use super::header::{MARK, OUTPUT_LICENCE};
+use super::page::{self, PageRequest, comments, guard, render};
 use crate::generator::fit::{Measured, values_for_material};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction, Reflectance, USUAL_METHOD};
@@ -9,17 +17,6 @@ use crate::language::ir::{BrokenRule, Checked, Param};
 use crate::language::methods::{self, Contract, Method, Values};
 use crate::language::targets::{Finish, Target};
 use crate::physics::num::Precision;
-
-use super::batch::batch_program;
-use super::bounds::CodeBound;
-use super::detail::{Detail, functions_detail};
-use super::error::Error;
-use super::file::{File, check_names};
-use super::form::FunctionForm;
-use super::function::{Emitted, Naming};
-use super::header::{MARK, OUTPUT_LICENCE};
-use super::page::{PageRequest, comments, guard, render};
-use super::{comment, wgsl};
 
 /// A function of an effect, as it was asked for.
 #[derive(Clone, Copy, Debug)]
@@ -320,7 +317,7 @@ fn page(
     let text = String::from_utf8_lossy(&bytes);
     let all: Vec<&Emitted> = functions.iter().collect();
     let program = batch_program(text_of, &text, &all).expect("WGSL is run in batches");
-    wgsl::spirv(&program).map_err(|what| Error::Generated {
+    page::spirv(&program).map_err(|what| Error::Generated {
         file: request.effect.name.to_owned(),
         what,
     })

@@ -1,12 +1,21 @@
 //! Errors and costs as headers word them: what methods promise, and what is known of one function.
+//!
+//! The code bounds of specialised functions: recorded in `data/code-bounds.csv`, for half precision in
+//! `data/code-bounds-f16.csv`, keyed by what the function computes, and measured again by a test. A function that is not
+//! in the record says so.
+//!
+//! A fit that misses what its method promises of the material's class, and the method that keeps within it.
 
-use crate::generator::fit::{Measured, ModelError, rounded_up};
-use crate::language::ir::Op;
-use crate::language::methods::{Colours, Input, Method};
+use super::function::{Emitted, specialised_graph};
+use crate::generator::fit::{Measured, ModelError, model_error, rounded_up};
+use crate::generator::reference::{LEAST_FITTED_N, MaterialInMedium};
+use crate::language::ir::{Checked, Function, Op, print};
+use crate::language::methods::{self, ALL, Colours, Input, Method, by_class};
+use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-
-use super::bounds::CodeBound;
-use super::function::Emitted;
+use crate::physics::records;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The code error of what reads a texture: a sampler may round its weights to the nearest of 256, or down.
 pub const FILTERED: &str = "at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps";
@@ -191,4 +200,186 @@ pub(super) fn operations(emitted: &Emitted) -> String {
         "{} scalar operations{among}{fetches}",
         emitted.function.work()
     )
+}
+
+static RECORD: &str = include_str!("../../../data/code-bounds.csv");
+static HALF_RECORD: &str = include_str!("../../../data/code-bounds-f16.csv");
+
+/// What a function promises of its code error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CodeBound {
+    /// In single precision: units in the last place, beside 2⁻²².
+    Ulp(f64),
+    /// In half precision, and of coefficients: the absolute difference.
+    Absolute(f64),
+}
+
+impl CodeBound {
+    /// The number.
+    pub fn value(self) -> f64 {
+        match self {
+            CodeBound::Ulp(value) | CodeBound::Absolute(value) => value,
+        }
+    }
+}
+
+/// The most that a plain form may be off to be written in place of the stable one.
+pub const PLAIN_ULP: f64 = 10.0;
+
+/// The record, by fingerprint.
+#[derive(Clone, Debug, Default)]
+pub struct Bounds {
+    ulp: BTreeMap<String, f64>,
+    absolute: BTreeMap<String, f64>,
+}
+
+impl Bounds {
+    /// The record that is part of the program.
+    pub fn recorded() -> Bounds {
+        let single: Vec<SingleBound> = records::rows(RECORD);
+        let half = half_bounds().into_iter();
+        Bounds {
+            ulp: single
+                .into_iter()
+                .map(|row| (row.fingerprint, row.max_ulp))
+                .collect(),
+            absolute: half.map(|row| (row.fingerprint, row.max_abs)).collect(),
+        }
+    }
+
+    /// The bound of a function in this precision.
+    pub fn of(&self, precision: Precision, function: &Checked) -> Measured<CodeBound> {
+        let mark = fingerprint(function);
+        let bound = match precision {
+            Precision::F32 => self.ulp.get(&mark).copied().map(CodeBound::Ulp),
+            Precision::F16 => self.absolute.get(&mark).copied().map(CodeBound::Absolute),
+        };
+        let none = || Measured::No("not measured for this material".to_owned());
+        bound.map_or_else(none, Measured::Yes)
+    }
+}
+
+/// The bound of a specialised function in half precision.
+#[derive(Clone, Debug, Deserialize)]
+pub struct HalfBound {
+    /// What the function computes.
+    pub fingerprint: String,
+    /// Its material.
+    pub material: String,
+    /// Its method.
+    pub method: String,
+    /// The largest difference from its meaning.
+    pub max_abs: f64,
+}
+
+/// The bound of a specialised function in single precision.
+#[derive(Deserialize)]
+struct SingleBound {
+    fingerprint: String,
+    max_ulp: f64,
+}
+
+/// The record of half precision.
+pub fn half_bounds() -> Vec<HalfBound> {
+    records::rows(HALF_RECORD)
+}
+
+/// What a function computes, in 16 hexadecimal digits: names of steps and reasons do not count.
+pub fn fingerprint(function: &Checked) -> String {
+    let mut bare: Function = (**function).clone();
+    bare.name = "f".to_owned();
+    bare.nodes.iter_mut().for_each(|node| node.label = None);
+    sha256(print(&bare).as_bytes())[..16].to_owned()
+}
+
+/// What is missed, and what serves.
+#[derive(Clone, Debug)]
+pub struct Missed {
+    /// The method that misses.
+    pub method: &'static Method,
+    /// The material's class.
+    pub class: &'static str,
+    /// What nine of ten of the class err at most.
+    pub limit: f64,
+    /// The method that errs no more: a fitted one where there is one, else the exact law. Where none does, the one that errs least.
+    pub serves: &'static Method,
+    /// What that errs.
+    pub error: f64,
+}
+
+/// The same as reports have it: what the class keeps, the method that serves and its error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MissedDetail {
+    limit: f64,
+    method: &'static str,
+    max_abs: f64,
+}
+
+impl Missed {
+    /// In words, for headers and reports.
+    pub fn words(&self) -> String {
+        let serves = if self.serves.name == self.method.name {
+            "no other errs less".to_owned()
+        } else {
+            format!("{} errs by {}", self.serves.name, rounded_up(self.error))
+        };
+        format!(
+            "{} errs more here than for nine of ten {} ({}); {serves}",
+            self.method.name,
+            plural(self.class),
+            rounded_up(self.limit),
+        )
+    }
+
+    /// For reports.
+    pub fn detail(&self) -> MissedDetail {
+        MissedDetail {
+            limit: self.limit,
+            method: self.serves.name,
+            max_abs: self.error,
+        }
+    }
+}
+
+fn plural(class: &str) -> &'static str {
+    match class {
+        "metal" => "metals",
+        "semiconductor" => "semiconductors",
+        _ => "dielectrics of n 1.2 or more",
+    }
+}
+
+/// Whether a fit with this error misses its class. Gases have no class: no fitted method is meant for them.
+pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64) -> Option<Missed> {
+    let class = subject.material.kind.name();
+    let n = subject.effective.channels.n;
+    let is_gas = class == "dielectric" && n.iter().any(|n| *n < LEAST_FITTED_N);
+    let promise = by_class(method, class).filter(|_| !is_gas)?;
+    let limit = promise.limit;
+    if max_abs <= limit {
+        return None;
+    }
+    let exact = methods::find(subject.exact_method());
+    let fitted = ALL.iter().copied().filter(|other| other.is_fitted());
+    let described = fitted.filter(|other| subject.is_described_by(other));
+    let errors: Vec<(&'static Method, f64)> = described
+        .chain(exact)
+        .filter_map(|other| Some((other, fitted_error(subject, other)?.max_abs)))
+        .collect();
+    let holds = errors.iter().find(|(_, error)| *error <= limit);
+    let least = errors.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let (serves, error) = *holds.or(least)?;
+    Some(Missed {
+        method,
+        class,
+        limit,
+        serves,
+        error,
+    })
+}
+
+/// What a method errs for a material, with the coefficients of its specialised function.
+pub fn fitted_error(subject: &MaterialInMedium, method: &'static Method) -> Option<ModelError> {
+    let made = specialised_graph(method, subject, Precision::F32, &Bounds::default()).ok()?;
+    Some(model_error(&made.function, &subject.truth_for(method)))
 }

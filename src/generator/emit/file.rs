@@ -1,21 +1,20 @@
 //! Files: which functions stand together, under which name, with which details for the manifest.
+//!
+//! What can go wrong in emission.
 
+use super::comment;
+use super::detail::{Detail, FunctionsDetail, functions_detail};
+use super::figures::FILTERED;
+use super::function::{Emitted, FunctionForm, Naming};
+use super::header::{Heading, OUTPUT_LICENCE};
+use super::page::{PageRequest, comments, guard, render};
 use crate::generator::fit::Measured;
 use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{Checked, Param, Ty};
 use crate::language::methods::{self, Method, Values};
 use crate::language::targets::{self, Finish, Page, Target};
+use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::num::Precision;
-
-use super::comment;
-use super::detail::{Detail, FunctionsDetail, functions_detail};
-use super::error::Error;
-use super::figures::FILTERED;
-use super::form::FunctionForm;
-use super::function::{Emitted, Naming};
-use super::header::OUTPUT_LICENCE;
-use super::heading::Heading;
-use super::page::{PageRequest, comments, guard, render};
 
 /// A file of one target, in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -267,4 +266,38 @@ pub(super) fn check_names(functions: &[Emitted]) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// An error of this room.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A name cannot be used in a language: the prefix is at fault.
+    #[error("{}; choose another --prefix", one_line(what))]
+    Name {
+        /// The name and why.
+        what: String,
+    },
+    /// A method cannot be specialised to a material.
+    #[error(
+        "method `{}` cannot be specialised to `{}`: {}",
+        Foreign(method),
+        Foreign(material),
+        one_line(what)
+    )]
+    Specialise {
+        /// The method.
+        method: String,
+        /// The material.
+        material: String,
+        /// Why not.
+        what: String,
+    },
+    /// A bug: what was generated is not what its language allows.
+    #[error("this is a bug in fresnel-gen: {}: {}", Foreign(file), one_line(what))]
+    Generated {
+        /// The file.
+        file: String,
+        /// What a checker said.
+        what: String,
+    },
 }

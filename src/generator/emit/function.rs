@@ -1,17 +1,16 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
+//!
+//! The forms in which a method's functions are written.
 
+use super::effect_file::EffectPart;
+use super::figures::{Bounds, CodeBound, FILTERED, Missed, PLAIN_ULP, missed};
+use super::file::Error;
 use crate::generator::fit::{Measured, ModelError, model_error, values_for_material_in};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{BrokenRule, Checked};
 use crate::language::methods::{Method, Values};
 use crate::physics::num::Precision;
-
-use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
-use super::effect_file::EffectPart;
-use super::error::Error;
-use super::figures::FILTERED;
-use super::form::FunctionForm;
-use super::missed::{Missed, missed};
+use serde::{Deserialize, Serialize};
 
 /// How functions are named, by what they compute in: half precision is told by the name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -293,4 +292,78 @@ fn plain(
     let bound = bounds.of(Precision::F32, &plain);
     let keeps = matches!(bound, Measured::Yes(CodeBound::Ulp(ulp)) if ulp <= PLAIN_ULP);
     (keeps && plain.work() < stable.work()).then_some(plain)
+}
+
+/// What a function of a method takes and gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FunctionForm {
+    /// It takes its arguments at run time, and gives three channels.
+    Library,
+    /// The same for one channel.
+    Scalar,
+    /// A material's constants are folded in.
+    Specialised,
+    /// The mean over the hemisphere, three channels.
+    Average,
+    /// The same for one channel.
+    AverageScalar,
+    /// The first coefficient of a fitted method, from the inputs of a method that finds it.
+    C0,
+    /// The second.
+    C1,
+    /// The third.
+    C2,
+    /// The fourth.
+    C3,
+}
+
+impl FunctionForm {
+    /// As reports and the manifest spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            FunctionForm::Library => "library",
+            FunctionForm::Scalar => "scalar",
+            FunctionForm::Specialised => "specialised",
+            FunctionForm::Average => "average",
+            FunctionForm::AverageScalar => "average_scalar",
+            FunctionForm::C0 => "c0",
+            FunctionForm::C1 => "c1",
+            FunctionForm::C2 => "c2",
+            FunctionForm::C3 => "c3",
+        }
+    }
+
+    /// What stands behind the method's name in the name of a library function.
+    pub(super) fn suffix(self) -> String {
+        match self {
+            FunctionForm::Library | FunctionForm::Specialised => String::new(),
+            other => format!("_{}", other.name()),
+        }
+    }
+
+    /// The forms that give coefficients, in their order.
+    pub const COEFFICIENTS: [FunctionForm; 4] = [
+        FunctionForm::C0,
+        FunctionForm::C1,
+        FunctionForm::C2,
+        FunctionForm::C3,
+    ];
+
+    /// Which coefficient it gives.
+    pub fn coefficient(self) -> Option<usize> {
+        FunctionForm::COEFFICIENTS
+            .iter()
+            .position(|form| *form == self)
+    }
+
+    /// Whether it is of one channel.
+    pub fn is_scalar(self) -> bool {
+        matches!(self, FunctionForm::Scalar | FunctionForm::AverageScalar)
+    }
+
+    /// Whether it gives the mean over the hemisphere.
+    pub fn is_mean(self) -> bool {
+        matches!(self, FunctionForm::Average | FunctionForm::AverageScalar)
+    }
 }

@@ -5,30 +5,22 @@
 
 mod average;
 mod batch;
-mod bounds;
 mod catalogue;
 mod comment;
 mod detail;
 mod effect_file;
-mod error;
 mod figures;
 mod file;
-mod form;
 mod function;
 mod header;
-mod heading;
-mod missed;
-mod notes;
 mod page;
 mod print;
 pub mod shader_words;
 mod short;
-mod wgsl;
 mod xml;
 
 pub use average::{Average, companions};
 pub use batch::{batch_entry, batch_program, places};
-pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds};
 pub use catalogue::{
     BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueMaterial,
     CatalogueMethod, CatalogueRow, CloserFit, FOURTH, catalogue_array, catalogue_buffer,
@@ -42,21 +34,22 @@ pub use detail::{
 pub use effect_file::{
     EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text,
 };
-pub use error::Error;
-pub use figures::{half_promise, promises};
+pub use figures::{
+    Bounds, CodeBound, HalfBound, Missed, PLAIN_ULP, fingerprint, fitted_error, half_bounds,
+    half_promise, missed, promises,
+};
 pub use file::{
-    File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for,
+    Error, File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for,
 };
-pub use form::FunctionForm;
 pub use function::{
-    Emitted, Naming, Specialised, library_functions, specialised_function, specialised_graph,
+    Emitted, FunctionForm, Naming, Specialised, library_functions, specialised_function,
+    specialised_graph,
 };
-pub use header::{MARK, OUTPUT_LICENCE};
-pub use heading::{HeaderForm, Heading};
-pub use missed::{Missed, fitted_error, missed};
-pub use page::{bare_text, text_of_template};
+pub use header::{HeaderForm, Heading, MARK, OUTPUT_LICENCE};
+pub use page::{
+    bare_text, spirv_with_storage as wgsl_to_spirv, text_of_template, validate as validate_wgsl,
+};
 pub use print::bare;
-pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
 pub use xml::{XmlDocument, xml_comment, xml_text};
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.

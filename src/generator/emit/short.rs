@@ -1,12 +1,6 @@
 //! The short form of a header: one banner for a file, and above a function what it is, its largest error, its cost and its
 //! source. Warnings stay. The rest stands in the manifest, and in the full form.
 
-use crate::generator::fit::Measured;
-use crate::generator::reference::MaterialInMedium;
-use crate::language::methods::{Method, TEXELS};
-use crate::language::targets::Target;
-use crate::physics::num::Precision;
-
 use super::average::coefficients_line;
 use super::comment;
 use super::figures::{
@@ -18,6 +12,11 @@ use super::header::{
     MARK, OUTPUT_LICENCE, cosine_line, exemption, extrapolated, half_line, table_line,
     viewing_conditions,
 };
+use crate::generator::fit::Measured;
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{Method, TEXELS};
+use crate::language::targets::Target;
+use crate::physics::num::Precision;
 
 /// The head of a library file.
 pub fn library(

@@ -6,13 +6,11 @@
 //! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE reads both from tables of
 //! sums, so that its F is Cycles's only about: of dielectrics it is Schlick's. Roughness is .5 unless it is set.
 
-use crate::physics::spectra::Space;
-
 use super::format::{Format, Notes};
-use super::head;
 use super::model::Model;
-use super::sheet::{Field, FieldValue, Node, Sheet, capped_tint};
+use super::sheet::{self, Field, FieldValue, Node, Sheet, capped_tint};
 use super::subject::{Body, EngineMaterial};
+use crate::physics::spectra::Space;
 
 /// The names of the nodes in reports, with how Python finds or makes them.
 const PRINCIPLED: &str = "Principled BSDF";
@@ -88,7 +86,7 @@ fn metal(material: &EngineMaterial) -> Sheet {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let mut text = head::comments("#", &FORMAT, material, notes);
+    let mut text = sheet::comments("#", &FORMAT, material, notes);
     text += &format!(
         "import bpy\n\nmaterial = bpy.data.materials.new(\"{}\")\nmaterial.use_fake_user = True  # it is saved, though no object has it yet\nif not material.node_tree:\n    material.use_nodes = True\nnodes = material.node_tree.nodes\n",
         material.subject.name

@@ -5,13 +5,11 @@
 //! phones and in images. A dielectric's F0 is .16 reflectance², which is .16 at most; where a lit material sets `ior` and no
 //! `reflectance`, it is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
 
-use crate::physics::spectra::Space;
-
 use super::format::{Format, Notes};
-use super::head;
 use super::model::Model;
-use super::sheet::{Field, FieldValue, Node, Sheet};
+use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial, f0_of};
+use crate::physics::spectra::Space;
 
 /// F90 over the sum of F0's channels, up to 1: 50 * .33 in Filament's code.
 const F90_SHARE: f64 = 16.5;
@@ -77,5 +75,5 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     };
     let fields = sheet.nodes.iter().flat_map(|node| &node.fields);
     let lines: String = fields.map(line).collect();
-    head::comments("//", &FORMAT, material, notes) + &lines
+    sheet::comments("//", &FORMAT, material, notes) + &lines
 }

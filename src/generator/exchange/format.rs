@@ -1,11 +1,13 @@
 //! What a format is: a plain record in a static table.
+//!
+//! Why a material has no place in a format.
 
-use crate::physics::spectra::Space;
-
-use super::fault::ExchangeFault;
 use super::model::NodeError;
 use super::sheet::Sheet;
 use super::subject::EngineMaterial;
+use crate::physics::foreign::Foreign;
+use crate::physics::spectra::Space;
+use thiserror::Error;
 
 /// A format that engines or tools read.
 #[derive(Debug)]
@@ -83,4 +85,31 @@ impl Format {
             remarks: notes.remarks,
         })
     }
+}
+
+/// Why a material has no place in a format.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ExchangeFault {
+    /// A dielectric that is rarer than its medium.
+    #[error(
+        "`{}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \
+         is optically rarer",
+        Foreign(name)
+    )]
+    Rarer {
+        /// The material.
+        name: String,
+        /// Its relative index.
+        index: String,
+    },
+    /// A space that the format does not know.
+    #[error("--as {format} takes colours in {allowed}, and not in {space}; change --space")]
+    Space {
+        /// The format.
+        format: &'static str,
+        /// What was asked for.
+        space: &'static str,
+        /// What the format takes.
+        allowed: String,
+    },
 }

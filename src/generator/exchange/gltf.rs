@@ -11,14 +11,12 @@
 
 use serde::Serialize;
 
+use super::format::{Format, Notes};
+use super::model::Model;
+use super::sheet::{self, Field, FieldValue, Node, Sheet};
+use super::subject::{Body, EngineMaterial, f0_of, rounded};
 use crate::physics::materials::escaped;
 use crate::physics::spectra::Space;
-
-use super::format::{Format, Notes};
-use super::head;
-use super::model::Model;
-use super::sheet::{Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial, f0_of, rounded};
 
 /// The record of this format.
 pub static FORMAT: Format = Format {
@@ -150,7 +148,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
             extras: Extras {
                 tool: TOOL,
                 command: &notes.command,
-                about: head::about(&FORMAT, material, notes),
+                about: sheet::about(&FORMAT, material, notes),
             },
         },
         extensions_used: used,

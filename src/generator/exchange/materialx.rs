@@ -7,14 +7,13 @@
 //! and are none: the space `none` keeps them as they are. Yet F of them is a colour of the document's space. Roughness is .05 unless it is
 //! set, .3 in OpenPBR.
 
-use crate::generator::emit::{XmlDocument, comment_lines};
-use crate::physics::spectra::Space;
-
 use super::format::{Format, Notes};
 use super::model::Model;
-use super::sheet::{Field, FieldValue, Node, Sheet};
+use super::openpbr;
+use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial};
-use super::{head, openpbr};
+use crate::generator::emit::{XmlDocument, comment_lines};
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {
@@ -76,10 +75,10 @@ fn of_conductor(material: &EngineMaterial) -> Option<String> {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let mut document = XmlDocument::new(head::mark());
-    document.comment(&comment_lines(head::about(&FORMAT, material, notes)));
+    let mut document = XmlDocument::new(sheet::mark());
+    document.comment(&comment_lines(sheet::about(&FORMAT, material, notes)));
     // A comment holds no two hyphens, and a command does.
-    let doc = head::regenerate(notes);
+    let doc = sheet::regenerate(notes);
     let mut attributes = vec![("version", "1.39")];
     attributes.extend(material.space.map(|own| ("colorspace", space(own))));
     attributes.push(("doc", &doc));

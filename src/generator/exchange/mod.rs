@@ -5,15 +5,12 @@
 //!
 //! To add a format, write its file with a `pub static FORMAT: Format`, and run `tests/lists`.
 
-mod fault;
 mod format;
-mod head;
 mod model;
 mod sheet;
 mod subject;
 
-pub use fault::ExchangeFault;
-pub use format::{Exported, Format};
+pub use format::{ExchangeFault, Exported, Format};
 pub use model::{Model, NodeError};
 pub use sheet::{Field, FieldValue, Node, Sheet};
 pub use subject::{Body, EngineMaterial};

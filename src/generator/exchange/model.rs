@@ -2,12 +2,11 @@
 
 use serde::Serialize;
 
+use super::sheet::Node;
+use super::subject::EngineMaterial;
 use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::Checked;
 use crate::language::methods::{self, Method, Values};
-
-use super::sheet::Node;
-use super::subject::EngineMaterial;
 
 /// One of our methods with the numbers that a format gives it.
 #[derive(Clone, Debug)]

@@ -8,13 +8,11 @@
 //! `base_color` and `specular_color` lie in [0, 1]; dispersion is Abbe's number with a scale, which is 0 by default.
 //! `specular_roughness` is .3 unless it is set.
 
-use crate::physics::spectra::Space;
-
 use super::format::{Format, Notes};
-use super::head;
 use super::model::Model;
-use super::sheet::{Field, Node, Sheet, capped_tint};
+use super::sheet::{self, Field, Node, Sheet, capped_tint};
 use super::subject::{Body, EngineMaterial};
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {
@@ -87,5 +85,5 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    head::comments("#", &FORMAT, material, notes) + &head::toml(sheet)
+    sheet::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
 }

@@ -1,7 +1,11 @@
 //! What a format holds of a material: nodes with named numbers.
+//!
+//! The lines above the numbers: mark, command, what the material is, errors, remarks.
 
+use super::format::{Format, Notes};
 use super::model::Model;
 use super::subject::{EngineMaterial, rounded};
+use crate::generator::emit::{MARK, OUTPUT_LICENCE, comment_lines};
 use crate::generator::fit::rounded_up;
 
 /// All that a format holds of a material.
@@ -123,4 +127,73 @@ pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<
     let remark =
         format!("{field}: the F82 tint ({red:?}, {green:?}, {blue:?}) is limited to 1: {price}");
     (capped, Some(remark))
+}
+
+/// The mark, which the first line that the format leaves free bears.
+pub fn mark() -> &'static str {
+    MARK
+}
+
+/// The command as a line.
+pub fn regenerate(notes: &Notes) -> String {
+    format!("Regenerate: {}", notes.command)
+}
+
+/// The lines of the head, without the mark and the command.
+pub fn about(format: &Format, material: &EngineMaterial, notes: &Notes) -> Vec<String> {
+    let own = &material.subject.material;
+    let around = match &material.subject.medium {
+        Some((_, medium)) => format!(", in {}", medium.name),
+        None => String::new(),
+    };
+    let mut lines = vec![
+        format!("Licence of this file: {OUTPUT_LICENCE}"),
+        format!("{}{around}: {}", own.name, own.summary),
+    ];
+    lines.extend(own.data_line());
+    lines.extend([
+        format!("Format: {}", format.summary),
+        format!("Colours: {}", material.subject.reference.surface.seen),
+    ]);
+    lines.extend(material.hex().map(|hex| format!("F0 in sRGB: {hex}")));
+    lines.extend(
+        notes
+            .errors
+            .iter()
+            .map(|error| format!("{}.", error.line())),
+    );
+    lines.extend(
+        notes
+            .remarks
+            .iter()
+            .map(|remark| format!("Remark: {remark}.")),
+    );
+    lines
+}
+
+/// The whole head as comments that begin like this.
+pub fn comments(start: &str, format: &Format, material: &EngineMaterial, notes: &Notes) -> String {
+    let mut lines = vec![mark().to_owned(), regenerate(notes)];
+    lines.extend(about(format, material, notes));
+    let lines = comment_lines(lines);
+    let lines = lines.iter().map(|line| format!("{start} {line}\n"));
+    lines.collect()
+}
+
+/// The nodes as tables of TOML.
+pub fn toml(sheet: &Sheet) -> String {
+    let field = |field: &Field| {
+        let numbers = field.value.numbers();
+        match field.value {
+            FieldValue::Colour(_) | FieldValue::Channels(_) | FieldValue::Both(_) => {
+                format!("{} = [{numbers}]\n", field.name)
+            }
+            FieldValue::Number(_) | FieldValue::Whole(_) => format!("{} = {numbers}\n", field.name),
+        }
+    };
+    let node = |node: &Node| {
+        let fields: String = node.fields.iter().map(field).collect();
+        format!("\n[{}]\n{fields}", node.name)
+    };
+    sheet.nodes.iter().map(node).collect()
 }

@@ -1,12 +1,11 @@
 //! What formats take of a material: colours in [0, 1], the tint, the index at the d line, Abbe's number.
 
+use super::format::ExchangeFault;
 use crate::generator::fit::{abbe_in, ior_in};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{Input, KnownSurface};
 use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
-
-use super::fault::ExchangeFault;
 
 /// A material as formats take it.
 #[derive(Clone, Debug)]

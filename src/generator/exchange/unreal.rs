@@ -6,13 +6,11 @@
 //! Schlick's approximation with min(50 F0, 1) of the green channel at 90 degrees. A slab takes F0 and F90 as colours, and multiplies F90
 //! by the same of the largest channel. Roughness is .5 unless it is set.
 
-use crate::physics::spectra::Space;
-
 use super::format::{Format, Notes};
-use super::head;
 use super::model::Model;
-use super::sheet::{Field, Node, Sheet};
+use super::sheet::{self, Field, Node, Sheet};
 use super::subject::{Body, EngineMaterial, f0_of, rounded};
+use crate::physics::spectra::Space;
 
 /// F0 of Specular 1.
 const SPECULAR_F0: f64 = 0.08;
@@ -97,5 +95,5 @@ fn lit(f0: [f64; 3]) -> Model {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    head::comments("#", &FORMAT, material, notes) + &head::toml(sheet)
+    sheet::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
 }

@@ -5,13 +5,11 @@
 //! ends would be `diffuseColor`, so that gold would be gold at 90 degrees too. A metal's `diffuseColor` is black, which is grey unless it
 //! is set. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 unless it is set.
 
-use crate::physics::spectra::Space;
-
 use super::format::{Format, Notes};
-use super::head;
 use super::model::Model;
-use super::sheet::{Field, FieldValue, Node, Sheet};
+use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial};
+use crate::physics::spectra::Space;
 
 /// The record of this format.
 pub static FORMAT: Format = Format {
@@ -70,7 +68,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let fields = sheet.nodes.iter().flat_map(|node| &node.fields);
     let lines: String = fields.map(line).collect();
     // The first line must be USD's own.
-    let head = head::comments("#", &FORMAT, material, notes);
+    let head = sheet::comments("#", &FORMAT, material, notes);
     format!(
         "#usda 1.0\n{head}(\n    defaultPrim = \"{name}\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Material \"{name}\"\n{{\n    \
          token outputs:surface.connect = </{name}/surface.outputs:surface>\n\n    def Shader \"surface\"\n    {{\n        \

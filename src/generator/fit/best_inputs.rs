@@ -7,11 +7,10 @@
 //! Source: Osborne, Watson, "An algorithm for minimax approximation in the nonlinear case", The Computer Journal 12(1),
 //! 1969, 63-68, <https://doi.org/10.1093/comjnl/12.1.63>. Where a method is not linear, a local optimum is what it finds.
 
-use crate::language::ir::{Checked, Ty, Value, evaluate};
-use crate::language::methods::{Input, Method, Values};
-
 use super::minimax::{Points, minimax};
 use super::problem::FitCurve;
+use crate::language::ir::{Checked, Ty, Value, evaluate};
+use crate::language::methods::{Input, Method, Values};
 
 /// Rounds after which an input moves by nothing that shows.
 const ROUNDS: usize = 40;

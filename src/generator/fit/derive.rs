@@ -1,13 +1,12 @@
 //! What a method's inputs are for a material: those of fitted methods by a fit, all others as each input says.
 
+use super::problem::{FitCurve, FitObjective, FitProblem, basis};
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::language::methods::{Input, KnownSurface, Method, Values};
 use crate::physics::materials::Channels;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics;
 use crate::physics::spectra::Gamut;
-
-use super::problem::{FitCurve, FitObjective, FitProblem, basis};
 
 /// What is known of a surface by its channels alone.
 pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {

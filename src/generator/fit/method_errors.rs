@@ -1,15 +1,14 @@
 //! The errors of a method for a material, by every measure that is charted.
 
-use crate::generator::reference::MaterialInMedium;
-use crate::language::ir::{Checked, Value};
-use crate::language::methods::{Method, Values};
-use crate::physics::spectra::Space;
-
 use super::best_inputs::{best_inputs, values_at};
 use super::derive::values_for_material;
 use super::model_error::{error_of, model_error};
 use super::perceived::perceived;
 use super::problem::FitCurve;
+use crate::generator::reference::MaterialInMedium;
+use crate::language::ir::{Checked, Value};
+use crate::language::methods::{Method, Values};
+use crate::physics::spectra::Space;
 
 /// Errors over all angles; each is none where it is not known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rounded::{arguments, table_of};
 use crate::generator::reference::{
     ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
 };
@@ -9,8 +10,6 @@ use crate::language::ir::{Checked, Column, Value, evaluate};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::each_channel;
-
-use super::texels::{arguments, table_of};
 
 /// How wrong a method is for a material, whatever computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,14 +1,13 @@
 //! Model error of library functions over stated sets of media: what methods' claims are held against.
 
+use super::derive::values;
+use super::model_error::{ModelError, difference};
+use super::rounded::texels;
+use crate::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
 use crate::language::ir::{Value, evaluate};
 use crate::language::methods::{Method, Over};
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::each_channel;
-
-use super::derive::values;
-use super::model_error::{ModelError, difference};
-use super::texels::texels;
-use crate::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
 
 /// Steps of eta, of n and of k, where model errors are taken over a set.
 const STEPS: usize = 24;

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
+use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 use crate::language::ir::Value;
 use crate::physics::spectra::{Lab, Space, ciede2000};
-
-use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 
 /// Every how manieth of the angles is looked at: means and maxima are smooth.
 const EVERY: usize = 8;

@@ -4,17 +4,23 @@
 //! A function ends with a limit to [0, 1]. What is linear in the coefficients has none: the integrals of image light, the mean over
 //! the hemisphere. Coefficients that serve both are those of a form that keeps the range by itself. A function of one material is
 //! fitted without: it limits, and is more accurate so.
+//!
+//! Coefficients of a fitted method for a curve, and what they are worth in the measure that they minimise.
+//!
+//! The measure of error that a fit minimises: the absolute error, the relative error, the error of luminance, or the visible
+//! difference of colour.
 
-use crate::generator::reference::{MaterialInMedium, reference_reflectance};
-use crate::language::methods::{Light, Shape, unwarped};
-use crate::physics::materials::Surface;
-use crate::physics::num::{Precision, each_channel};
-use crate::physics::spectra::{Gamut, Space};
-
+use super::derive::coefficients_and_error;
 use super::exact::{Exact, fit_meeting, rounded_coefficients};
 use super::minimax::{Limit, Points};
+use super::perceived::lab;
 use super::rounded::rounded;
-use super::weight::{Weight, luminance, shares};
+use crate::generator::reference::{MaterialInMedium, reference_reflectance};
+use crate::language::methods::{Light, Method, Shape, Values, unwarped};
+use crate::physics::materials::Surface;
+use crate::physics::num::{Precision, each_channel};
+use crate::physics::spectra::{Gamut, Space, ciede2000};
+use glam::DVec3;
 
 /// Cosines that a curve is fitted at: from 0 to 1, dense towards grazing as `--axis steep` is. Twice as many change no
 /// error by a hundredth of it.
@@ -233,6 +239,129 @@ impl FitProblem<'_> {
     }
 }
 
+/// Coefficients with their errors, on paper and before the limit to [0, 1].
+#[derive(Clone, Debug)]
+pub struct Coefficients {
+    /// The coefficients, by the names of inputs, as the aim's precision holds them.
+    pub values: Values,
+    /// What was minimised, and what is met exactly.
+    pub aim: FitObjective,
+    /// The largest error in the measure that was minimised.
+    pub error: f64,
+    /// The same without the ends that are met exactly, where there are any.
+    pub error_without_exact: Option<f64>,
+}
+
+impl Coefficients {
+    /// Fits a method; none where its terms do not tell the angles of the curve apart.
+    pub fn fit(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<Coefficients> {
+        let (values, error) = coefficients_and_error(method, curve, aim)?;
+        let free = FitObjective {
+            exact: Exact::default(),
+            ..aim
+        };
+        let free = aim
+            .exact
+            .is_any()
+            .then(|| coefficients_and_error(method, curve, free));
+        Some(Coefficients {
+            values,
+            aim,
+            error,
+            error_without_exact: free.flatten().map(|(_, error)| error),
+        })
+    }
+}
+
+/// What coefficients minimise: the largest over all angles of this.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weight {
+    /// `|f - F|`, channel by channel.
+    #[default]
+    Absolute,
+    /// `|f - F| / |F|`, channel by channel.
+    Relative,
+    /// `|Y (f - F)|`, Y the space's luminance. That is one condition on three channels: red and blue keep the least
+    /// `|f - F|` of their own, and green, which carries most of luminance, takes the coefficients that make the three
+    /// together the best. Its own error grows by what it makes up for.
+    Luminance,
+    /// `ΔE₀₀`, beside the white of the space. What is minimised channel by channel is `w |f - F|`, w the ΔE₀₀ per unit of
+    /// that channel at the true colour: right for one channel that errs alone, and for small errors. Channels that err
+    /// together are seen as more or as less than their largest: the figure that reports tell is of all three, and where even
+    /// weights make it smaller they are taken. There is no iteration: it is no optimum.
+    DeltaE,
+}
+
+/// What reflects less counts as this in relative errors: nothing has no share.
+const LEAST: f64 = 1e-6;
+/// The step of a channel by which its ΔE₀₀ is taken.
+const STEP: f64 = 1e-4;
+
+impl Weight {
+    /// All of them; the first is the default.
+    pub const ALL: [Weight; 4] = [
+        Weight::Absolute,
+        Weight::Relative,
+        Weight::Luminance,
+        Weight::DeltaE,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Weight::Absolute => "absolute",
+            Weight::Relative => "relative",
+            Weight::Luminance => "luminance",
+            Weight::DeltaE => "delta-e",
+        }
+    }
+
+    /// Whether it needs the working space of the colours, and not only single channels.
+    pub fn is_of_colours(self) -> bool {
+        matches!(self, Weight::Luminance | Weight::DeltaE)
+    }
+
+    /// The factors of the errors of each channel, near a reference reflectance.
+    pub(super) fn of_channels(self, reference: [f64; 3], space: Space) -> [f64; 3] {
+        match self {
+            Weight::Absolute | Weight::Luminance => [1.0; 3],
+            Weight::Relative => reference.map(|reflectance| 1.0 / reflectance.abs().max(LEAST)),
+            Weight::DeltaE => each_channel(|channel| {
+                let mut moved = reference;
+                moved[channel] += STEP;
+                self.error(moved, reference, space) / STEP
+            }),
+        }
+    }
+
+    /// The error of a reflectance against the reference, in this measure. Unit: reflectance, a ratio, or ΔE₀₀.
+    pub fn error(self, reflectance: [f64; 3], reference: [f64; 3], space: Space) -> f64 {
+        let difference = (DVec3::from(reflectance) - DVec3::from(reference)).abs();
+        match self {
+            Weight::Absolute => difference.max_element(),
+            Weight::Relative => {
+                (difference / DVec3::from(reference).abs().max(DVec3::splat(LEAST))).max_element()
+            }
+            Weight::Luminance => {
+                (luminance(reflectance, space) - luminance(reference, space)).abs()
+            }
+            Weight::DeltaE => {
+                ciede2000(lab(reflectance.into(), space), lab(reference.into(), space))
+            }
+        }
+    }
+}
+
+/// The luminance of three channels, 1 for (1, 1, 1).
+pub(super) fn luminance(rgb: [f64; 3], space: Space) -> f64 {
+    shares(space).dot(rgb.into())
+}
+
+/// The share of each channel in luminance.
+pub(super) fn shares(space: Space) -> DVec3 {
+    space.rgb_to_xyz().row(1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -345,5 +474,39 @@ mod tests {
                 );
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod weight_tests {
+    use super::*;
+
+    const GOLD: [f64; 3] = [1.03, 0.71, 0.29];
+
+    #[test]
+    fn an_error_is_told_in_each_measure() {
+        let given = [1.02, 0.72, 0.29];
+        for (weight, wanted) in [
+            (Weight::Absolute, 0.01),
+            (Weight::Relative, 0.01 / 0.71),
+            (Weight::Luminance, 0.01 * (0.7152 - 0.2126)),
+        ] {
+            let found = weight.error(given, GOLD, Space::Srgb);
+            assert!((found - wanted).abs() < 1e-5, "{weight:?}: {found}");
+        }
+    }
+
+    /// Of one channel that errs a little alone the weight tells the ΔE₀₀, within a hundredth.
+    #[test]
+    fn the_weight_of_a_channel_is_what_is_seen_of_it() {
+        let weights = Weight::DeltaE.of_channels(GOLD, Space::Srgb);
+        for (channel, weight) in weights.into_iter().enumerate() {
+            let mut given = GOLD;
+            given[channel] -= 0.001;
+            let seen = Weight::DeltaE.error(given, GOLD, Space::Srgb);
+            assert!((seen / (0.001 * weight) - 1.0).abs() < 0.01, "{channel}");
+        }
+        let nothing = Weight::Relative.of_channels([0.0; 3], Space::Srgb);
+        assert!(nothing.iter().all(|weight| weight.is_finite()));
     }
 }

@@ -5,10 +5,13 @@
 //! to the first; all paths are tried but those that cannot become the best, for a form with free coefficients is never worse
 //! than one with rounded ones. Land and Doig, "An Automatic Method of Solving Discrete Programming Problems", Econometrica 28, 1960,
 //! <https://doi.org/10.2307/1910129>, with two branches a coefficient.
-
-use crate::physics::num::Precision;
+//!
+//! The texels of a table as the method `table` reads it where nothing else is asked for, in half precision.
 
 use super::minimax::{Limit, Minimax, Points, minimax};
+use crate::language::ir::{Function, Texels, Ty, Value};
+use crate::language::methods::{TEXELS, WARP, unwarped};
+use crate::physics::num::{Half, Num, Precision};
 
 /// By how much a number grows to reach its neighbour in half precision: more than half of its last place, less than one and a
 /// half, on both sides of a power of two.
@@ -98,6 +101,26 @@ fn neighbours(x: f64) -> [f64; 2] {
     let step = NEIGHBOUR * nearest.abs();
     let beyond = if x < nearest { -step } else { step };
     [nearest, Precision::F16.rounded(nearest + beyond)]
+}
+
+/// The table of what is seen at a cosine.
+pub fn texels(seen: impl Fn(f64) -> [f64; 3]) -> Texels {
+    let centre = |i: usize| unwarped(WARP, i as f64 / (TEXELS - 1) as f64);
+    let half = |value: f64| Half::from_f64(value).to_f32();
+    let texels: Vec<_> = (0..TEXELS).map(|i| seen(centre(i)).map(half)).collect();
+    Texels::row(&texels)
+}
+
+/// The table that a function with a material's constants folded in reads, where it reads one.
+pub fn table_of(function: &Function, seen: impl Fn(f64) -> [f64; 3]) -> Option<Texels> {
+    let is_textured = function.params.iter().any(|param| param.ty == Ty::Texture);
+    is_textured.then(|| texels(seen))
+}
+
+/// The arguments of such a function.
+pub fn arguments<N: Num>(cosines: Vec<N>, table: Option<&Texels>) -> Vec<Value<N>> {
+    let table = table.map(|table| Value::Texture(Some(table.clone())));
+    [Value::each(cosines)].into_iter().chain(table).collect()
 }
 
 #[cfg(test)]

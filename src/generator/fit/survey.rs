@@ -1,11 +1,10 @@
 //! A survey of pages of refractiveindex.info: what each is, its colour, or why it cannot be used.
 
+use super::material_params::ior_in;
 use crate::physics::materials::{
     DispersionCurve, Extrapolate, Material, Page, Surface, ViewingConditions,
 };
 use crate::physics::optics::{COS_82, cosine};
-
-use super::params::ior_in;
 
 /// Angles at which each surface is seen: every degree from 0 to 90.
 pub const SURVEYED_ANGLES: usize = 91;

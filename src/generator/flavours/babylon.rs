@@ -1,8 +1,7 @@
 //! Babylon.js: a module with a plugin for PBR materials.
 
-use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {

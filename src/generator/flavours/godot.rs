@@ -1,8 +1,7 @@
 //! Godot 4: functions for its shading language, as files to be included.
 
-use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {

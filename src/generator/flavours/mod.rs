@@ -6,12 +6,10 @@
 //!
 //! To add one, write its file with a `pub static FLAVOUR: Flavour` and its templates, and run `tests/lists`.
 
-mod adapter;
 mod flavour;
 mod view;
 
-pub use adapter::{Commands, Error, Fitted, FlavourFile, files};
-pub use flavour::{Flavour, FlavourPage};
+pub use flavour::{Commands, Error, Fitted, Flavour, FlavourFile, FlavourPage, files};
 
 // BEGIN list (written by tests/lists)
 mod babylon;

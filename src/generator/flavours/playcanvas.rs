@@ -1,8 +1,7 @@
 //! PlayCanvas: a module that patches the shader chunks of standard materials.
 
-use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {

@@ -1,8 +1,7 @@
 //! three.js: a module that patches materials of `WebGLRenderer`, and one of nodes for `WebGPURenderer`.
 
-use crate::generator::lut::SplitSumAxis;
-
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {

@@ -7,6 +7,7 @@ use base64::prelude::BASE64_STANDARD;
 use half::f16;
 use serde::Serialize;
 
+use super::flavour::Flavour;
 use crate::generator::emit::{
     self, CatalogueRow, Emitted, MARK, Naming, OUTPUT_LICENCE, comment_lines, library_functions,
     xml_comment,
@@ -16,8 +17,6 @@ use crate::generator::lut::{Depth, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
 use crate::generator::reference::FITTED_WITH_FOUR;
 use crate::language::methods::{self, Class, Method};
 use crate::language::targets::{self, Target};
-
-use super::flavour::Flavour;
 
 /// What a template sees.
 #[derive(Clone, Debug, Serialize)]
@@ -121,7 +120,7 @@ pub(super) fn view(
     rows: &[CatalogueRow],
     reference: &str,
     command: &str,
-) -> Result<AdapterView, super::adapter::Error> {
+) -> Result<AdapterView, super::flavour::Error> {
     let methods = FITTED_WITH_FOUR.map(|name| methods::find(name).expect("a test finds it"));
     let naming = Naming::default();
     Ok(AdapterView {

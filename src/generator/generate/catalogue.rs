@@ -9,15 +9,14 @@ use crate::generator::emit::{
     CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
 };
 use crate::generator::envelope::{Origin, TOOL};
-use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
-use crate::generator::reference::MaterialInMedium;
-use crate::physics::spectra::Space;
-
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
+use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
 use crate::generator::output::artifact::Artifact;
 use crate::generator::output::ours::SHARED;
+use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, Source};
+use crate::physics::spectra::Space;
 
 /// The version of the form of `catalogue.json`. In the first one coefficients stood by channel.
 const SCHEMA: u32 = 2;

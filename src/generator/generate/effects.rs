@@ -2,17 +2,15 @@
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, EffectRequest, Emitted, Naming};
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::{Error, RequestFault};
+use crate::generator::generate::written::Owners;
+use crate::generator::generate::{Made, Run};
 use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::Request;
 use crate::language::effects::{self, Effect, USUAL_METHOD};
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
-
-use crate::generator::generate::owners::Owners;
-use crate::generator::generate::{Made, Run};
 
 /// The effects of a request, with what they are written for.
 #[derive(Debug, Default)]

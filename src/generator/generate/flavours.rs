@@ -2,17 +2,15 @@
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
+use crate::generator::generate::Run;
 use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use crate::language::methods::Method;
 use crate::language::targets::Target;
 use crate::physics::materials::ViewingConditions;
-
-use crate::generator::generate::Run;
 
 /// The material that files show which a run with other materials does not change.
 const EXAMPLE: &str = "gold";

@@ -1,34 +1,28 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
-mod again;
 pub mod catalogue;
 mod effects;
 mod flavours;
-pub mod kept;
-mod owners;
-mod single;
 pub mod tables;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::generator::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
+use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
+use crate::generator::output::artifact::{Artifact, Scope, sha256};
+use crate::generator::output::manifest::{Input, Provenance};
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::source::Subjects;
+use crate::generator::request::{Materials, Request};
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::materials::Unseen;
-
-use crate::generator::error::Error;
-use crate::generator::output::artifact::{Artifact, sha256};
-use crate::generator::output::manifest::{Input, Provenance};
-use crate::generator::output::scope::Scope;
-use crate::generator::request::subjects::Subjects;
-use crate::generator::request::{Materials, Request};
 use effects::WantedEffects;
-use owners::Owners;
+use written::Owners;
 
-pub use single::generate_single;
+pub use written::{generate_single, kept};
 
 /// What a request comes to.
 #[derive(Clone, Debug)]

@@ -7,16 +7,14 @@ use serde::Serialize;
 use crate::generator::bake::{self, Baked, TableMaterial, usual_request};
 use crate::generator::emit::{Detail, OUTPUT_LICENCE, TableDetail};
 use crate::generator::envelope::Report;
-use crate::generator::lut::TABLES;
-use crate::generator::reference::Typed;
-use crate::physics::materials::ViewingConditions;
-
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
+use crate::generator::lut::TABLES;
 use crate::generator::output::artifact::Artifact;
-use crate::generator::request::loaded::{Loaded, load};
-use crate::generator::request::subjects::same_name;
+use crate::generator::reference::Typed;
+use crate::generator::request::source::{Loaded, load, same_name};
 use crate::generator::request::{Materials, Source, check_transparent};
+use crate::physics::materials::ViewingConditions;
 
 /// The tables that are wanted, of which materials.
 #[derive(Clone, Debug)]

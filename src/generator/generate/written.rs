@@ -1,12 +1,26 @@
 //! Which methods are written: those asked for, those that a file holds already, and in half precision those that it can bear.
+//!
+//! Whose function a name is: two of one name must not meet.
+//!
+//! What earlier runs put into an output folder by name, and a run of other names leaves there.
+//!
+//! The command that makes a file again, and the form of its comments.
+//!
+//! One file of functions to be pasted: what `-o` puts out.
 
-use crate::generator::error::Error;
-use crate::generator::reference::MaterialInMedium;
-use crate::generator::request::Request;
-use crate::language::methods::{self, InHalf, Method};
-use crate::language::targets::Target;
-
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{self, HeaderForm, Heading, Naming, PlaceInFile};
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::{Kept, Run};
+use crate::generator::output::folder;
+use crate::generator::output::manifest::{self, Manifest};
+use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::{Materials, Request};
+use crate::language::methods::{self, InHalf, Method};
+use crate::language::targets::{Finish, Target};
+use crate::physics::num::Precision;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 type Named<'a> = Option<&'a [&'static Method]>;
 
@@ -102,4 +116,183 @@ pub fn check(request: &Request, named: Named, no_materials: bool) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// Which part of the output holds a function, by its name.
+#[derive(Default)]
+pub struct Owners(BTreeMap<String, String>);
+
+impl Owners {
+    /// Refuses two functions of one name: a material called `gold_schlick` meets gold's `schlick` so.
+    pub fn claim(&mut self, name: &str, owner: &str) -> Result<(), Error> {
+        let other = self.0.insert(name.to_owned(), owner.to_owned());
+        match other.filter(|other| other != owner) {
+            None => Ok(()),
+            Some(other) => Err(Error::Usage {
+                what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
+            }),
+        }
+    }
+}
+
+/// The methods that the folder's material files of this precision hold, by its manifest.
+///
+/// # Errors
+/// The manifest cannot be read, or is not ours.
+pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
+    let path: PathBuf = out_dir.join(manifest::FILE);
+    let Some(text) = folder::read(&path)? else {
+        return Ok(Kept::new());
+    };
+    let mut kept = Kept::new();
+    let mut entries = Manifest::parse(&path, &text)?.files;
+    entries.retain(|entry| entry.effect.is_none() && entry.precision() == precision.name());
+    for entry in entries {
+        let Some(material) = &entry.material else {
+            continue;
+        };
+        kept.entry((entry.target.clone(), material.clone()))
+            .or_default()
+            .extend(entry.function_methods().map(str::to_owned));
+    }
+    Ok(kept)
+}
+
+impl Run<'_> {
+    /// The form of the comments of a file, named without its ending. Modules have no comments.
+    pub(super) fn form(&self, target: &Target, stem: &str) -> HeaderForm {
+        let held = self.held.map(|held| &held.full_headers);
+        let is_full = held.is_some_and(|full| full.contains(&format!("{}/{stem}", target.name)));
+        match target.finish {
+            Finish::Spirv => HeaderForm::Short,
+            _ if is_full => HeaderForm::Full,
+            _ => self.request.header,
+        }
+    }
+
+    /// The command that makes a file again.
+    pub(super) fn command(
+        &self,
+        target: &Target,
+        methods: Option<&[&str]>,
+        subject: Option<&MaterialInMedium>,
+        form: HeaderForm,
+    ) -> String {
+        let request = self.request;
+        let precision =
+            Some(request.precision).filter(|precision| *precision != Precision::default());
+        let medium = subject.and_then(|subject| subject.medium.as_ref());
+        let seen = subject.map(|subject| {
+            crate::generator::command_line::surface_flags(
+                &request.viewing,
+                &subject.reference.surface,
+            )
+        });
+        CommandLine::new("fresnel-gen")
+            .list("target", [target.name])
+            .list("method", methods.into_iter().flatten())
+            .list("material", subject.map(|subject| &subject.argument))
+            .list("medium", medium.map(|(argument, _)| argument))
+            .list("prefix", Naming::flag_of_prefix(&request.prefix))
+            .list("precision", precision.map(Precision::name))
+            .switch("force", request.force && request.precision.is_half())
+            .with(&seen.unwrap_or_default())
+            .list(
+                "matching-angle",
+                request.matching_angle.filter(|_| subject.is_some()),
+            )
+            .list("header", form.flag())
+            .into()
+    }
+}
+
+/// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
+///
+/// ```
+/// use fresnel_gen::{Materials, Request, Source, generate_single};
+///
+/// let request = Request {
+///     targets: vec!["gles".into()],
+///     materials: Materials::These(vec![Source::Named("gold".into())]),
+///     ..Request::default()
+/// };
+/// let text = String::from_utf8(generate_single(&request)?).expect("UTF-8");
+/// assert!(text.contains("vec3 fresnel_gold("));
+/// # Ok::<(), fresnel_gen::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`generate()`](crate::generator::generate::generate); also where the request has several targets.
+pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
+    let mut request = request.clone();
+    if request.targets.is_empty() {
+        request.targets = vec!["wgsl".to_owned()];
+    }
+    if request.materials == Materials::Default {
+        request.materials = Materials::None;
+    }
+    let run = Run::new(&request)?;
+    let [target] = run.targets.as_slice() else {
+        return Err(RequestFault::conflict("-o takes one --target").into());
+    };
+    if run.is_of_effects() {
+        return effects(&run, target);
+    }
+    let (mut pages, mut owners) = (Vec::new(), Owners::default());
+    for (subject, _) in &run.subjects {
+        let methods = named_or(&run, &subject.name, &[subject.exact_method()]);
+        for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
+            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
+            let (place, of) = (PlaceInFile::behind(&pages), Some(subject));
+            let form = run.form(target, "");
+            let command = run.command(target, Some(&[emitted.method.name]), of, form) + " -o -";
+            let heading = Heading {
+                form,
+                command: &command,
+            };
+            pages.push(emit::single(target, &emitted, of, heading, place)?);
+        }
+    }
+    if run.subjects.is_empty() {
+        for method in library_methods(run.request, run.named.as_deref()) {
+            // Of a module one function can be put out, the method's own.
+            let functions = match target.pages.len() {
+                1 => run.library_functions(method)?,
+                _ => emit::library_functions(method, &run.naming)?,
+            };
+            for emitted in emit::written_for(target, functions) {
+                let form = run.form(target, "");
+                let command = run.command(target, Some(&[method.name]), None, form) + " -o -";
+                let (place, heading) = (
+                    PlaceInFile::behind(&pages),
+                    Heading {
+                        form,
+                        command: &command,
+                    },
+                );
+                pages.push(emit::single(target, &emitted, None, heading, place)?);
+            }
+        }
+    }
+    if target.pages.len() > 1 && pages.len() > 1 {
+        let target = target.name;
+        let why = format!("-o takes one function for {target}: name one --method");
+        return Err(RequestFault::conflict(why).into());
+    }
+    Ok(pages.join(&b"\n"[..]))
+}
+
+/// The functions of effects, one behind the other; what the method and the material do not change in its usual form.
+fn effects(run: &Run, target: &'static Target) -> Result<Vec<u8>, Error> {
+    let all = run.whole_effects()?;
+    if target.finish == Finish::Spirv && all.len() > 1 {
+        let why = format!("-o takes one effect for {}: name one --effect", target.name);
+        return Err(RequestFault::conflict(why).into());
+    }
+    let mut pages = Vec::new();
+    for (request, functions) in &all {
+        let command = run.effect_command(target, request) + " -o -";
+        pages.push(emit::effect_text(target, request, functions, &command)?);
+    }
+    Ok(pages.join(&b"\n"[..]))
 }

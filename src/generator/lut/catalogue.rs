@@ -2,13 +2,12 @@
 
 use serde::Serialize;
 
-use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
-use crate::physics::spectra::Space;
-
 use super::axis::TableAxis;
-use super::depth::Depth;
+use super::format::Depth;
 use super::ktx2::ktx2;
 use super::picture::Picture;
+use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
+use crate::physics::spectra::Space;
 
 /// The kind of number that the catalogue's texels hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

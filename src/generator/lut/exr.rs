@@ -12,10 +12,9 @@ use exr::prelude::{
     LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
 };
 
-use crate::physics::spectra::Space;
-
-use super::depth::Depth;
+use super::format::Depth;
 use super::picture::Picture;
+use crate::physics::spectra::Space;
 
 /// ZIP over sixteen lines: lossless, and every reader has it.
 const ENCODING: Encoding = Encoding {

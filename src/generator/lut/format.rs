@@ -1,8 +1,14 @@
 //! Formats: the files that a table can be written as.
+//!
+//! What cannot be baked.
+//!
+//! Depth: the kind of number that a texel holds, and what becomes of a table in it.
 
-use super::depth::Depth;
-use super::error::Error;
+use super::axis::TableAxis;
 use super::picture::Picture;
+use super::split_sum::MOST_SIDE;
+use super::table::Table;
+use crate::physics::num::{Half, Num};
 
 /// The folder of lookup tables in an output folder: those of a run without flags, and any that `bake` put beside them, which no
 /// manifest lists.
@@ -117,5 +123,214 @@ impl Format {
             format: self.name(),
             why,
         }
+    }
+}
+
+/// A fault of what was asked for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A size that no texture has.
+    #[error("a table of {texels} texels cannot be: it has 2 to 16384")]
+    Size {
+        /// The size.
+        texels: usize,
+    },
+    /// No table is good enough.
+    #[error(
+        "no table meets an error of {budget:?}: the best of {tried} reaches {best:.2e}, with 8-bit filtering weights and up to 16384 texels. Allow more, or more axes and formats"
+    )]
+    Budget {
+        /// What was asked for.
+        budget: f64,
+        /// The least error that was reached.
+        best: f64,
+        /// The axes and depths.
+        tried: String,
+    },
+    /// A size that a split-sum table cannot have.
+    #[error("a split-sum table of {size} texels a side cannot be: it has 2 to {MOST_SIDE}")]
+    Side {
+        /// The size.
+        size: usize,
+    },
+    /// A split-sum table of too many terms.
+    #[error(
+        "a split-sum table has a channel for each coefficient, and a texture has 4: {terms} do not fit (fitted and fitted_dielectric have 4)"
+    )]
+    Terms {
+        /// The coefficients.
+        terms: usize,
+    },
+    /// A split-sum table whose terms lie beyond 1.
+    #[error(
+        "the terms of this form reach beyond 4, which integers cannot hold and half precision holds poorly: fitted and fitted_dielectric stay below 1"
+    )]
+    Range,
+    /// An encoder refused.
+    #[error("the table cannot be written as {format}: {why}")]
+    Encode {
+        /// The format's name.
+        format: &'static str,
+        /// The encoder's reason.
+        why: String,
+    },
+}
+
+/// The kind of number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Depth {
+    /// 8 bits, i/255 for 0 to 1.
+    Unorm8,
+    /// binary16: 11 significant bits.
+    Half,
+    /// 16 bits, i/65535 for 0 to 1. GLES and WebGPU sample it by extension only.
+    Unorm16,
+    /// binary32. GLES and WebGPU filter it by extension only.
+    Float,
+}
+
+impl Depth {
+    /// All depths, the smallest first; of equal sizes, the one that more devices can filter comes first.
+    pub const ALL: [Depth; 4] = [Depth::Unorm8, Depth::Half, Depth::Unorm16, Depth::Float];
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Depth::Unorm8 => "unorm8",
+            Depth::Half => "half",
+            Depth::Unorm16 => "unorm16",
+            Depth::Float => "float",
+        }
+    }
+
+    /// Bytes of a texel in the memory of a GPU, which has four channels.
+    pub fn bytes(self) -> usize {
+        match self {
+            Depth::Unorm8 => 4,
+            Depth::Half | Depth::Unorm16 => 8,
+            Depth::Float => 16,
+        }
+    }
+
+    /// The largest integer, for depths that divide by it.
+    pub fn largest(self) -> Option<f32> {
+        match self {
+            Depth::Unorm8 => Some(255.0),
+            Depth::Unorm16 => Some(65_535.0),
+            Depth::Half | Depth::Float => None,
+        }
+    }
+
+    /// The nearest value, as a sampler gives it back. An integer depth holds 0 to 1 only.
+    pub fn nearest(self, value: f64) -> f32 {
+        match self {
+            Depth::Half => Half::from_f64(value).to_f32(),
+            Depth::Float => value as f32,
+            Depth::Unorm8 | Depth::Unorm16 => {
+                let largest = self.largest().unwrap_or(1.0);
+                let steps = value.clamp(0.0, 1.0) * f64::from(largest);
+                steps.round() as f32 / largest
+            }
+        }
+    }
+
+    /// What tables in this depth must be multiplied by: 1, or for integers the largest channel of all where that is
+    /// above 1, rounded up to binary32.
+    pub fn scale(self, tables: &[&Table]) -> f32 {
+        if self.largest().is_none() {
+            return 1.0;
+        }
+        let texels = tables.iter().flat_map(|table| &table.texels);
+        let most = texels.flatten().copied().fold(1.0, f64::max);
+        let near = most as f32;
+        if f64::from(near) < most {
+            near.next_up()
+        } else {
+            near
+        }
+    }
+}
+
+/// A table as a GPU has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stored {
+    /// How cosines are spread.
+    pub axis: TableAxis,
+    /// The kind of number.
+    pub depth: Depth,
+    /// value = texel × scale.
+    pub scale: f32,
+    /// What a sampler gives back for each texel.
+    pub texels: Vec<[f32; 3]>,
+}
+
+impl Stored {
+    /// A table rounded, divided by its own scale.
+    pub fn new(table: &Table, depth: Depth) -> Stored {
+        Stored::scaled(table, depth, depth.scale(&[table]))
+    }
+
+    /// A table rounded, divided by a scale that it may share with others.
+    pub fn scaled(table: &Table, depth: Depth, scale: f32) -> Stored {
+        let rounded = |value: f64| depth.nearest(value / f64::from(scale));
+        Stored {
+            axis: table.axis,
+            depth,
+            scale,
+            texels: table
+                .texels
+                .iter()
+                .map(|texel| texel.map(rounded))
+                .collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(texels: &[[f64; 3]]) -> Table {
+        Table {
+            name: "invented".to_owned(),
+            axis: TableAxis::Cos,
+            texels: texels.to_vec(),
+        }
+    }
+
+    #[test]
+    fn each_depth_rounds_to_its_nearest() {
+        for (depth, value, want) in [
+            (Depth::Unorm8, 0.5, 128.0 / 255.0),
+            (Depth::Unorm8, 1.2, 1.0),
+            (Depth::Unorm8, -0.1, 0.0),
+            (Depth::Unorm8, f64::NAN, f32::NAN),
+            (Depth::Unorm16, 0.25, 16384.0 / 65535.0),
+            (Depth::Half, 1.0 + 0.000_6, 1.000_976_6),
+            (Depth::Half, 0.1, 0.099_975_586),
+            (Depth::Float, 0.1, 0.1),
+            (Depth::Float, 1.06, 1.06),
+        ] {
+            let got = depth.nearest(value);
+            assert!(
+                got == want || got.is_nan() && want.is_nan(),
+                "{depth:?} {value}: {got}"
+            );
+        }
+    }
+
+    #[test]
+    fn integers_are_scaled_where_a_channel_is_above_one() {
+        let gold = table(&[[1.0, 1.0, 1.0], [1.058_7, 0.77, 0.31]]);
+        for depth in Depth::ALL {
+            let stored = Stored::new(&gold, depth);
+            let is_integer = depth.largest().is_some();
+            assert_eq!(stored.scale > 1.0, is_integer, "{depth:?}");
+            let most = f64::from(stored.texels[1][0]) * f64::from(stored.scale);
+            assert!((most - 1.058_7).abs() < 4e-4, "{depth:?} {most}");
+            assert!(!is_integer || stored.texels[1][0] == 1.0);
+        }
+        let glass = table(&[[1.0; 3], [0.04; 3]]);
+        assert_eq!(Stored::new(&glass, Depth::Unorm8).scale, 1.0);
     }
 }

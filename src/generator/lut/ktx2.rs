@@ -6,10 +6,9 @@
 //! channels of 16 bits that all can filter, so that there is an alpha of 1. The transfer function is linear, the
 //! orientation `rd`: the first row is the top one.
 
-use crate::physics::spectra::Space;
-
-use super::depth::Depth;
+use super::format::Depth;
 use super::picture::Picture;
+use crate::physics::spectra::Space;
 
 const IDENTIFIER: [u8; 12] = [
     0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n',

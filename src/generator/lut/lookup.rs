@@ -4,11 +4,10 @@
 //! cosine, the texture, and the row where there are several. [`Stored::lookup`](super::Stored::lookup) is what it
 //! gives.
 
+use super::axis::TableAxis;
 use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check, fold};
 use crate::language::methods::{Input, Inputs, ONLY_ROW, fetch, warped_step};
 use crate::physics::num::Precision;
-
-use super::axis::TableAxis;
 
 /// The function that reads a table of so many texels along an axis.
 ///

@@ -14,16 +14,11 @@
 //! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
 
 mod axis;
-mod bounces;
 mod catalogue;
-mod depth;
-mod error;
 mod exr;
-mod filter;
 mod format;
 mod ktx2;
 mod lookup;
-mod measure;
 mod picture;
 mod png;
 mod search;
@@ -31,23 +26,19 @@ mod split_sum;
 mod split_sum_design;
 mod table;
 mod text;
-mod thesis_measure;
 
 pub use axis::TableAxis;
-pub use bounces::{WHITE_MEAN_LOST, compensation, series_of_bounces, white_mean};
 pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
-pub use depth::{Depth, Stored};
-pub use error::Error;
-pub use format::{Format, TABLES};
+pub use format::{Depth, Error, Format, Stored, TABLES};
 pub use ktx2::KTX2_MARK;
 pub use lookup::lookup;
-pub use measure::{BetweenTexels, table_error};
 pub use picture::{Picture, TermChannels};
-pub use search::{TableKind, smallest};
+pub use search::{
+    BetweenTexels, TableKind, ThesisMeasure, smallest, table_error, thesis_table_errors,
+};
 pub use split_sum::{
     BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
-    check_side, term_range,
+    WHITE_MEAN_LOST, check_side, compensation, series_of_bounces, term_range, white_mean,
 };
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};
-pub use thesis_measure::{ThesisMeasure, thesis_table_errors};

@@ -1,10 +1,9 @@
 //! A picture: tables of one size, axis and depth as the rows of a texture, with what a file says about them.
 
-use crate::physics::spectra::Space;
-
 use super::axis::TableAxis;
-use super::depth::{Depth, Stored};
+use super::format::{Depth, Stored};
 use super::split_sum::{StoredSplitSum, TERMS};
+use crate::physics::spectra::Space;
 
 /// Which terms of a split-sum table a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

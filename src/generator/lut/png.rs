@@ -7,10 +7,9 @@
 
 use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
 
-use crate::physics::spectra::Space;
-
-use super::depth::Depth;
+use super::format::Depth;
 use super::picture::Picture;
+use crate::physics::spectra::Space;
 
 /// The file, or why there is none.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, String> {

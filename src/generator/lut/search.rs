@@ -1,13 +1,17 @@
 //! The smallest table that is good enough.
-
-use crate::generator::reference::ReferenceCurve;
+//!
+//! The error of a table: its filtered lookup against the reference, between texels as well as on them.
+//!
+//! The thesis's measure of functions (section 5.2), for lookup tables: the mean relative difference from the exact law at angles
+//! that are even from 0 to 90 degrees.
 
 use super::axis::TableAxis;
-use super::depth::{Depth, Stored};
-use super::error::Error;
-use super::measure::{BetweenTexels, table_error};
-use super::table::{LEAST_TEXELS, MOST_TEXELS, Table};
-use crate::language::ir::Weights;
+use super::format::{Depth, Error, Stored};
+use super::table::{LEAST_TEXELS, MOST_TEXELS, Table, centre};
+use crate::generator::fit::{ModelError, error_of};
+use crate::generator::reference::{ReferenceCurve, reference_reflectance};
+use crate::language::ir::{Column, Value, Weights};
+use crate::physics::num::each_channel;
 
 /// A kind of table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,4 +151,126 @@ impl TableFamily<'_> {
         }
         worst
     }
+}
+
+/// Places between texels at which the reference is known: the error of filtering is largest there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BetweenTexels {
+    points: Vec<(f64, [f64; 3])>,
+}
+
+/// Places between two texels: the middle, where a smooth curve is furthest from its chord, and others half a weight
+/// step away from where weights of 1/256 are exact.
+const SHARES: [f64; 4] = [
+    0.5,
+    0.5 + 1.0 / 512.1,
+    0.3 + 1.0 / 512.1,
+    0.75 - 1.0 / 512.1,
+];
+
+impl BetweenTexels {
+    /// The reference between the texels of tables of this size.
+    pub fn new(reference: &ReferenceCurve, axis: TableAxis, texels: usize) -> BetweenTexels {
+        let place = |i: usize| SHARES.map(|share| centre(axis, i as f64 + share, texels));
+        let places = (0..texels.saturating_sub(1)).flat_map(place);
+        BetweenTexels {
+            points: places.map(|c| (c, reference.at(c))).collect(),
+        }
+    }
+}
+
+/// The error of the lookup: the largest over angles, places between texels and channels, and the mean as [`ModelError`]
+/// has it, even in angle.
+pub fn table_error(
+    stored: &Stored,
+    weights: Weights,
+    reference: &ReferenceCurve,
+    between: &BetweenTexels,
+) -> ModelError {
+    let mut error = error_of(reference, &|cosines| looked_up(stored, weights, cosines));
+    for (c, want) in &between.points {
+        let got = stored.lookup(weights, *c as f32).map(f64::from);
+        for (got, want) in got.iter().zip(want) {
+            if (got - want).abs() > error.max_abs {
+                (error.max_abs, error.worst_cos) = ((got - want).abs(), *c);
+            }
+        }
+    }
+    error
+}
+
+/// Lookups at these cosines.
+fn looked_up(stored: &Stored, weights: Weights, cosines: &[f64]) -> Value<f64> {
+    let values: Vec<[f32; 3]> = cosines
+        .iter()
+        .map(|c| stored.lookup(weights, *c as f32))
+        .collect();
+    let channel = |i: usize| values.iter().map(|value| f64::from(value[i])).collect();
+    Value::Rgb(each_channel(|i| Column::Each(channel(i))))
+}
+
+/// The exact law at the middles of equal steps of angle: cosines, and reflectance in three channels.
+pub struct ThesisMeasure(Vec<(f64, [f64; 3])>);
+
+impl ThesisMeasure {
+    /// At so many angles.
+    pub fn new(reference: &ReferenceCurve, angles: usize) -> ThesisMeasure {
+        ThesisMeasure::part(reference, 0..angles, angles)
+    }
+
+    /// At some of these angles.
+    fn part(
+        reference: &ReferenceCurve,
+        some: std::ops::Range<usize>,
+        angles: usize,
+    ) -> ThesisMeasure {
+        let at = |i: usize| {
+            let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
+            let cos_theta = libm::cos(theta);
+            (
+                cos_theta,
+                reference_reflectance(&reference.surface, reference.light, cos_theta),
+            )
+        };
+        ThesisMeasure(some.map(at).collect())
+    }
+
+    /// The sum over angles and channels of relative differences.
+    fn sum(&self, stored: &Stored) -> f64 {
+        let differences = self.0.iter().map(|(cos_theta, want)| {
+            let got = stored.lookup(Weights::Steps256, *cos_theta as f32);
+            let relative = |i: usize| (f64::from(got[i]) - want[i]).abs() / want[i];
+            (0..3).map(relative).sum::<f64>()
+        });
+        differences.sum()
+    }
+
+    /// The mean relative difference of a lookup, in per cent.
+    pub fn error(&self, stored: &Stored) -> f64 {
+        percent(self.sum(stored), self.0.len())
+    }
+}
+
+fn percent(sum: f64, angles: usize) -> f64 {
+    100.0 * sum / (3 * angles) as f64
+}
+
+/// The thesis's measure of several tables of one reference, in per cent: mean relative difference of the lookup at `angles`
+/// angles, even in angle, over three channels. `progress` hears how many angles are done.
+pub fn thesis_table_errors(
+    reference: &ReferenceCurve,
+    tables: &[Stored],
+    angles: usize,
+    progress: &mut dyn FnMut(usize),
+) -> Vec<f64> {
+    const CHUNK: usize = 4096;
+    let mut sums = vec![0.0; tables.len()];
+    for start in (0..angles).step_by(CHUNK) {
+        let part = ThesisMeasure::part(reference, start..(start + CHUNK).min(angles), angles);
+        for (sum, stored) in sums.iter_mut().zip(tables) {
+            *sum += part.sum(stored);
+        }
+        progress(part.0.len());
+    }
+    sums.into_iter().map(|sum| percent(sum, angles)).collect()
 }

@@ -1,9 +1,14 @@
 //! A table: reflectance at the centres of texels, along an axis.
-
-use crate::generator::reference::ReferenceCurve;
+//!
+//! The filter: what a linear sampler that clamps to the edge gives back for a cosine.
+//!
+//! The coordinate is computed as a shader does, in binary32 and unfused; the texels are then mixed as [`filtered`] says.
 
 use super::axis::TableAxis;
-use super::error::Error;
+use super::format::{Error, Stored};
+use crate::generator::reference::ReferenceCurve;
+use crate::language::ir::{Weights, filtered};
+use crate::physics::num::Num;
 
 /// Reflectance along an axis, cos θ = 0 first.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +64,25 @@ pub(super) fn centre(axis: TableAxis, texel: f64, texels: usize) -> f64 {
     axis.cosine(texel / (texels - 1) as f64)
 }
 
+impl Stored {
+    /// The filtered lookup at a cosine, scale included. A NaN is looked up at 0.
+    pub fn lookup(&self, weights: Weights, cos_theta: f32) -> [f32; 3] {
+        self.sample(weights, self.coordinate(cos_theta))
+            .map(|value| value * self.scale)
+    }
+
+    /// u of a cosine: clamped, warped, and half a texel left at each end.
+    pub fn coordinate(&self, cos_theta: f32) -> f32 {
+        let (scale, offset) = TableAxis::half_texel(self.texels.len());
+        self.axis.warp(cos_theta.saturate()) * scale as f32 + offset as f32
+    }
+
+    /// What a sampler gives at u, before the scale.
+    pub fn sample(&self, weights: Weights, u: f32) -> [f32; 3] {
+        filtered(&self.texels, weights, f64::from(u)).map(|channel| channel as f32)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,5 +106,70 @@ mod tests {
             let error = Table::new("glass", &reference, TableAxis::Cos, texels).unwrap_err();
             assert!(error.to_string().contains("2 to 16384"), "{error}");
         }
+    }
+}
+
+#[cfg(test)]
+mod filter_tests {
+    use super::*;
+    use crate::generator::lut::format::Depth;
+
+    fn ramp(axis: TableAxis, texels: usize) -> Stored {
+        let value = |i: usize| [i as f32, 2.0 * i as f32, 1.0];
+        Stored {
+            axis,
+            depth: Depth::Float,
+            scale: 1.0,
+            texels: (0..texels).map(value).collect(),
+        }
+    }
+
+    #[test]
+    fn ends_and_centres_are_hit() {
+        for axis in TableAxis::ALL {
+            for texels in [2, 3, 64, 255, 256, 1000, 16_384] {
+                let ramp = ramp(axis, texels);
+                for weights in [Weights::Exact, Weights::Steps256] {
+                    let last = (texels - 1) as f32;
+                    let at = |c: f32| ramp.lookup(weights, c)[0];
+                    // u has 24 bits, of which the number of texels takes some.
+                    let within = last * 4e-7;
+                    assert!(at(0.0) <= within && at(-1.0) <= within && at(f32::NAN) <= within);
+                    assert!((at(1.0) - last).abs() <= within && (at(2.0) - last).abs() <= within);
+                }
+                for i in [0, 1, texels / 2, texels - 1] {
+                    let c = axis.cosine(i as f64 / (texels - 1) as f64) as f32;
+                    let got = ramp.lookup(Weights::Steps256, c);
+                    assert_eq!(got, ramp.texels[i], "{axis:?} {texels} {i}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn between_centres_it_mixes() {
+        let ramp = ramp(TableAxis::Cos, 5);
+        let at = |weights, c| ramp.lookup(weights, c)[0];
+        assert!((at(Weights::Exact, 0.3) - 1.2).abs() < 1e-6);
+        // 1.2 lies between 307/256 and 308/256.
+        assert_eq!(at(Weights::Steps256, 0.3), 307.0 / 256.0);
+    }
+
+    #[test]
+    fn an_empty_table_is_black() {
+        assert_eq!(
+            ramp(TableAxis::Cos, 0).lookup(Weights::Exact, 0.5),
+            [0.0; 3]
+        );
+    }
+
+    #[test]
+    fn the_usual_mistakes_are_seen() {
+        // A table whose ends differ: without the half texel, and with repeat in place of clamp, its ends are wrong.
+        let ramp = ramp(TableAxis::Cos, 8);
+        let naive = ramp.sample(Weights::Exact, 0.25)[0];
+        assert!((naive - 7.0 * 0.25).abs() > 0.2, "{naive}");
+        let flipped = ramp.lookup(Weights::Exact, 1.0 - 0.25)[0];
+        assert!((flipped - 7.0 * 0.25).abs() > 3.0);
     }
 }

@@ -1,9 +1,8 @@
 //! Text: the bits of binary16 as arrays, for engines that cannot read a float texture. RGBA with an alpha of 1, ready
 //! for an upload as RGBA16F; one texel a line.
 
-use crate::generator::emit::comment_lines;
-
 use super::picture::Picture;
+use crate::generator::emit::comment_lines;
 
 /// A C header, for C99 and C++.
 pub fn c(picture: &Picture) -> String {

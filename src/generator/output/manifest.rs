@@ -10,13 +10,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
 use crate::generator::envelope::TOOL;
+use crate::generator::error::Error;
+use crate::generator::output::artifact::{Artifact, Scope, check_path};
+use crate::generator::output::ours::{could_be_written, listed_hash};
 use crate::physics::num::Precision;
 use crate::physics::spectra::without_mark;
-
-use crate::generator::error::Error;
-use crate::generator::output::artifact::{Artifact, check_path};
-use crate::generator::output::ours::{could_be_written, listed_hash};
-use crate::generator::output::scope::Scope;
 
 /// The manifest's name in the output folder.
 pub const FILE: &str = "manifest.json";

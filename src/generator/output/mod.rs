@@ -1,23 +1,15 @@
 //! The output folder: what lies in it, which of its files are ours, and how a run's files get there.
 //!
-//! [`tree::plan`] compares a run's artifacts with the folder, [`check::report`] says what differs, [`write::write`] writes.
+//! [`tree::plan`] compares a run's artifacts with the folder, [`tree::report`] says what differs, [`write::write`] writes.
 //! Only [`write`](mod@write) changes the disk, but for the file of the [`lock`].
 
 pub mod artifact;
-pub mod atlas_rows;
-pub mod check;
 pub mod depfile;
 pub mod folder;
-mod held;
 pub mod lock;
 pub mod manifest;
-pub mod namesake;
 pub mod ours;
-pub mod reading;
-mod removal;
-pub mod scope;
 mod stage;
-mod stays;
 pub mod tree;
 pub mod write;
 

@@ -5,16 +5,26 @@
 //! itself: the file must bear the mark. Formats without room for a mark need an entry that this program could have written for
 //! that path. A run replaces a file that bears the mark, listed or not. It removes a file only where all is proved
 //! ([`is_as_written`]), since a mark can be pasted.
+//!
+//! Removing from an output folder: orphans that are as this program wrote them, what a killed run left, and folders left empty.
+//!
+//! Files of an output folder that a run leaves alone though they are not what it writes, and why: each is named.
 
 use crate::generator::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
+use crate::generator::error::Error;
 use crate::generator::flavours;
 use crate::generator::lut::{CatalogueTexture, Format, KTX2_MARK, TABLES};
+use crate::generator::output::artifact::Scope;
+use crate::generator::output::folder;
+use crate::generator::output::manifest::Entry;
+use crate::generator::output::tree::Planned;
 use crate::language::targets::{self, Finish};
 use crate::language::{effects, methods};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-
-use crate::generator::output::manifest::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
 
 /// What stands for a target of `catalogue.json`, which is for no language.
 const JSON: &str = "json";
@@ -254,6 +264,116 @@ fn without_carriage_returns(bytes: &[u8]) -> Vec<u8> {
     let pairs = bytes.iter().copied().zip(followed);
     let kept = pairs.filter(|pair| *pair != (b'\r', Some(b'\n')));
     kept.map(|(byte, _)| byte).collect()
+}
+
+/// Removes an orphan and the folders that it leaves empty. False: it is gone, or no longer what the manifest lists.
+///
+/// # Errors
+/// The system refuses.
+pub fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
+    let path = out_dir.join(&orphan.file);
+    let is_ours = |bytes: Vec<u8>| is_as_written(orphan, &bytes);
+    if !folder::is_plain_file(&path) || !folder::read(&path)?.is_some_and(is_ours) {
+        return Ok(false);
+    }
+    fs::remove_file(&path).map_err(|source| Error::Remove {
+        path: path.clone(),
+        source,
+    })?;
+    remove_empty_folders(out_dir, &path);
+    Ok(true)
+}
+
+/// Removes a temporary file that a killed run left behind, with the folders that it leaves empty. If it cannot be, nothing is lost.
+pub fn remove_leftover(out_dir: &Path, name: &str) {
+    let path = out_dir.join(name);
+    // A lock can be forged: folders are removed only above a file that was there, and never beyond a link.
+    let is_inside = folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none();
+    if is_inside && fs::remove_file(&path).is_ok() {
+        remove_empty_folders(out_dir, &path);
+    }
+}
+
+/// Removes the folders above a path, up to the output folder, as far as they are empty.
+fn remove_empty_folders(out_dir: &Path, path: &Path) {
+    let above = path.ancestors().skip(1);
+    for folder in above.take_while(|folder| *folder != out_dir) {
+        if fs::remove_dir(folder).is_err() {
+            break;
+        }
+    }
+}
+
+/// A file that a run leaves where it is, and says so.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Stay {
+    /// The path, relative to the output folder.
+    pub path: String,
+    /// Why it is not removed.
+    pub why: &'static str,
+}
+
+/// What the manifest lists in the scope of the run, and this program could not have written: the entry and the file stay.
+pub fn unknown<'a>(
+    out_dir: &'a Path,
+    old: &'a [Entry],
+    files: &'a [Planned],
+    scope: &'a Scope,
+) -> impl Iterator<Item = Stay> + 'a {
+    let is_made = |entry: &&Entry| files.iter().any(|file| file.path == entry.file);
+    old.iter()
+        .filter(|entry| scope.owns(entry) && !could_be_written(entry))
+        .filter(move |entry| !is_made(entry))
+        .filter(|entry| fs::symlink_metadata(out_dir.join(&entry.file)).is_ok())
+        .map(|entry| Stay {
+            path: entry.file.clone(),
+            why: "the manifest lists it with a method, an effect or a target that this fresnel-gen does not write there",
+        })
+}
+
+/// Files in the targets' folders that nothing lists: a run without flags names them.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn strangers(
+    out_dir: &Path,
+    expected: &BTreeSet<&str>,
+    listed: &BTreeMap<&str, &Entry>,
+    scope: &Scope,
+) -> Result<Vec<Stay>, Error> {
+    let first = |path: &&str| path.split_once('/').map(|(first, _)| first.to_owned());
+    let paths = expected.iter().chain(listed.keys());
+    let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
+    folders.extend(scope.targets.iter().chain(&scope.flavours).cloned());
+    // `bake` puts tables there under any name.
+    folders.remove(crate::generator::lut::TABLES);
+    // These stand beside the targets' folders and have none.
+    for (_, target) in SHARED {
+        folders.remove(target);
+    }
+    let mut present = folder::list(out_dir, &folders)?;
+    present.retain(|path| {
+        let is_known = expected.contains(path.as_str()) || listed.contains_key(path.as_str());
+        path.contains('/') && !is_known && !is_hidden(path) && is_of_precision(path, scope)
+    });
+    let stay = |path| Stay {
+        path,
+        why: "fresnel-gen did not write it, or no manifest lists it",
+    };
+    Ok(present.into_iter().map(stay).collect())
+}
+
+/// Has a file the name of this run's precision? Those of the other are not its own.
+fn is_of_precision(path: &str, scope: &Scope) -> bool {
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let stem = name.split('.').next().unwrap_or(name);
+    let half = Precision::F16.suffix();
+    stem.ends_with(half) == (scope.precision.suffix() == half)
+}
+
+/// Desktops and version control leave such files anywhere.
+fn is_hidden(path: &str) -> bool {
+    path.split('/').any(|part| part.starts_with('.'))
 }
 
 #[cfg(test)]

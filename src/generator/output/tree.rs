@@ -2,25 +2,31 @@
 //!
 //! An *orphan* is in the scope of the run, is no longer generated, and is removed: it is proved to be as this program wrote it. What else lies in the folder *stays*. Where a file that is not ours lies in the place of an artifact,
 //! it is an *obstacle*: the run ends before it writes anything. What is ours and by what proof: [`ours`](crate::generator::output::ours).
+//!
+//! What `--check` prints: what a run would write or remove. It changes nothing. A file that a run leaves alone is no
+//! difference.
+//!
+//! Which material stands in which row of an atlas, before a run and after it. A function that reads a row by its number shows
+//! another material where the rows change.
+//!
+//! Two files whose materials come out with one name: `Gläser.csv` and `Glaser.csv`. The second run would take the place of the first
+//! one's functions without a word.
 
+use crate::generator::emit::{Detail, FunctionDetail};
+use crate::generator::error::{Error, RequestFault};
+use crate::generator::output::artifact::{self, Artifact, Scope, sha256};
+use crate::generator::output::folder;
+use crate::generator::output::manifest::{self, Entry, Manifest, Provenance};
+pub use crate::generator::output::ours::Stay;
+use crate::generator::output::ours::{
+    bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash, strangers,
+    unknown,
+};
+use crate::physics::foreign::{Foreign, line_of_file, one_line};
+use similar::TextDiff;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-use crate::generator::emit::FunctionDetail;
-use crate::generator::error::Error;
-use crate::generator::output::artifact::{self, Artifact};
-use crate::generator::output::atlas_rows::{ChangedRows, changed_rows};
-use crate::generator::output::folder;
-use crate::generator::output::manifest::{self, Entry, Manifest, Provenance};
-use crate::generator::output::namesake::refuse_namesakes;
-use crate::generator::output::ours::{
-    bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash,
-};
-use crate::generator::output::scope::Scope;
-use crate::generator::output::stays::{strangers, unknown};
-
-pub use crate::generator::output::stays::Stay;
 
 /// The difference between the artifacts and the folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -345,4 +351,199 @@ fn interim(
     interim.files.extend(orphans.iter().cloned());
     interim.files.sort_by(|a, b| a.file.cmp(&b.file));
     interim.to_json().into_bytes()
+}
+
+const CONTEXT_LINES: usize = 3;
+
+/// The report, sorted by path, and whether there is anything in it.
+pub fn report(plan: &TreePlan) -> (String, bool) {
+    let mut parts = BTreeMap::new();
+    for file in plan.all() {
+        parts.insert(&file.path, report_file(file));
+    }
+    for orphan in &plan.orphans {
+        parts.insert(&orphan.file, format!("orphan: {}\n", Foreign(&orphan.file)));
+    }
+    let text: String = parts.into_values().collect();
+    let drift = !text.is_empty();
+    (text, drift)
+}
+
+fn report_file(file: &Planned) -> String {
+    match &file.old {
+        None => format!("missing: {}\n", file.path),
+        Some(_) if file.state() == State::Unchanged => String::new(),
+        Some(old) => difference(&file.path, old, &file.new),
+    }
+}
+
+fn difference(path: &str, old: &[u8], new: &[u8]) -> String {
+    match (std::str::from_utf8(old), std::str::from_utf8(new)) {
+        (Ok(old), Ok(new)) if !path.ends_with(".spv") => text_difference(path, old, new),
+        _ => format!(
+            "binary file {path} differs (sha256 {} → {})\n",
+            sha256(old),
+            sha256(new)
+        ),
+    }
+}
+
+fn text_difference(path: &str, old: &str, new: &str) -> String {
+    let text = TextDiff::from_lines(old, new)
+        .unified_diff()
+        .context_radius(CONTEXT_LINES)
+        .header(&format!("a/{path}"), &format!("b/{path}"))
+        .to_string();
+    text.split_terminator('\n').map(difference_line).collect()
+}
+
+/// A line of a difference: its mark, and what a file holds there.
+fn difference_line(line: &str) -> String {
+    let (mark, held) = line.split_at(line.len().min(1));
+    format!("{mark}{}\n", line_of_file(held))
+}
+
+/// Files of an atlas whose rows change.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChangedRows {
+    /// The files, relative to the output folder.
+    files: Vec<String>,
+    /// The materials of the rows before.
+    old: Vec<String>,
+    /// Those after.
+    new: Vec<String>,
+}
+
+impl ChangedRows {
+    /// For people.
+    pub fn words(&self) -> String {
+        let lost = self.old.iter().filter(|name| !self.new.contains(name));
+        let lost: Vec<String> = lost.map(|name| Foreign(name).to_string()).collect();
+        let lost = if lost.is_empty() {
+            "its rows have other numbers than before".to_owned()
+        } else {
+            format!(
+                "rows that an earlier run put there leave it: {}",
+                lost.join(", ")
+            )
+        };
+        let files: Vec<String> = self
+            .files
+            .iter()
+            .map(|file| Foreign(file).to_string())
+            .collect();
+        let rows = self.new.iter().enumerate();
+        let rows: Vec<String> = rows
+            .map(|(row, name)| format!("{row} {}", Foreign(name)))
+            .collect();
+        one_line(&format!(
+            "{}: {lost}; its rows are {}. --out-dir writes another atlas elsewhere",
+            files.join(", "),
+            rows.join(", ")
+        ))
+    }
+}
+
+/// The atlases of a run whose rows are others than the manifest lists.
+pub fn changed_rows(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<ChangedRows> {
+    let mut changed: Vec<ChangedRows> = Vec::new();
+    for artifact in artifacts {
+        let Some(entry) = listed.get(artifact.path.as_str()) else {
+            continue;
+        };
+        let (old, new) = (entry.row_materials(), artifact.detail.row_materials());
+        if old.is_empty() || new.is_empty() || old == *new {
+            continue;
+        }
+        let same = |one: &&mut ChangedRows| one.old == old && one.new == *new;
+        match changed.iter_mut().find(same) {
+            Some(one) => one.files.push(artifact.path.clone()),
+            None => changed.push(ChangedRows {
+                files: vec![artifact.path.clone()],
+                old: old.into_iter().map(str::to_owned).collect(),
+                new: new.to_vec(),
+            }),
+        }
+    }
+    changed
+}
+
+/// Refuses to write what is made of a table or page beside what is made of another, or of a material of the catalogue with its name: a table
+/// and a page are named after their files, and the data differ.
+/// A material file says its name itself, and is taken to be a newer one of that name.
+///
+/// # Errors
+/// The manifest lists something of another's.
+pub fn refuse_namesakes(
+    artifacts: &[Artifact],
+    files: &[Planned],
+    old: &Manifest,
+    provenance: &Provenance,
+) -> Result<(), Error> {
+    for (artifact, file) in artifacts.iter().zip(files) {
+        let (Some(name), Some(new)) = (&artifact.material, wanted(artifact)) else {
+            continue;
+        };
+        let [known_data, new_data] = [&old.inputs, &provenance.inputs]
+            .map(|inputs| inputs.iter().find(|input| input.name == *name));
+        // Whatever of that material lies in the folder counts, in every language and format: a manifest has one hash for all of it.
+        let of_name = |entry: &&Entry| entry.material.as_ref() == Some(name);
+        for entry in old.files.iter().filter(of_name) {
+            let Some(known) = listed(entry).filter(|known| *known != new) else {
+                continue;
+            };
+            // A manifest does not say what tables were made of.
+            let is_same = match (known_data, new_data) {
+                (Some(known), Some(new)) => known.sha256 == new.sha256,
+                _ => entry.file == artifact.path && file.state() == State::Unchanged,
+            };
+            if !is_same && [known, new].into_iter().all(names_no_material_file) {
+                return Err(RequestFault::Namesake {
+                    file: entry.file.clone(),
+                    words: [known, new].map(str::to_owned),
+                }
+                .into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The material in the command of an entry.
+fn listed(entry: &Entry) -> Option<&str> {
+    material_word(entry.detail.get("command")?.as_str()?)
+}
+
+/// The material in the command of an artifact.
+fn wanted(artifact: &Artifact) -> Option<&str> {
+    match &artifact.detail {
+        Detail::Functions(detail) => material_word(&detail.command),
+        Detail::Table(detail) => material_word(&detail.command),
+        Detail::Adapter(detail) => material_word(&detail.command),
+        Detail::Catalogue(_) => None,
+    }
+}
+
+/// The word after the flag, as a shell takes it: to the first blank that is not quoted.
+fn material_word(command: &str) -> Option<&str> {
+    let (_, rest) = command.split_once(" --material ")?;
+    let (mut quote, mut is_escaped) = (None, false);
+    let end = rest.find(|c| {
+        match (quote, c) {
+            _ if is_escaped => is_escaped = false,
+            (None | Some('"'), '\\') => is_escaped = true,
+            (None, '\'' | '"') => quote = Some(c),
+            (None, ' ') => return true,
+            (Some(open), _) if open == c => quote = None,
+            _ => {}
+        }
+        false
+    });
+    Some(&rest[..end.unwrap_or(rest.len())])
+}
+
+/// Whether a word, as a shell takes it, is no material file: a table, a page, or a name of the catalogue.
+fn names_no_material_file(word: &str) -> bool {
+    let word = word.trim_end_matches(['\'', '"', ')']).to_lowercase();
+    !word.ends_with(".toml")
 }

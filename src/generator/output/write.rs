@@ -12,11 +12,9 @@ use std::path::{Path, PathBuf};
 
 use crate::generator::error::Error;
 use crate::generator::output::folder;
-use crate::generator::output::held::Before;
 use crate::generator::output::lock::Lock;
-use crate::generator::output::ours::bears_mark;
-use crate::generator::output::removal::{remove, remove_leftover};
-use crate::generator::output::stage::{Pending, StagedFiles, stage_fault};
+use crate::generator::output::ours::{bears_mark, remove, remove_leftover};
+use crate::generator::output::stage::{Before, Pending, StagedFiles, stage_fault};
 use crate::generator::output::tree::{Obstacle, Planned, State, TreePlan};
 
 /// What a write did, in files, the manifest included.

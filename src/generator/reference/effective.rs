@@ -4,12 +4,11 @@
 //! No index has an F0 above 1 (the red of saturated gold), and the mean of several dielectrics is not quite a
 //! dielectric. There the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves it.
 
+use super::reference_curve::{ReferenceCurve, reference_reflectance};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Index, MaterialKind};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, COS_82, index_from_f0_f82};
-
-use super::reference_curve::{ReferenceCurve, reference_reflectance};
 
 /// The index per channel, and how it was come by.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,14 +1,13 @@
 //! The reference: a material in its medium as it is seen, its reference reflectance, and the index per channel that stands for
 //! its spectrum. Methods are fitted to it and held against it.
 
-mod class;
-mod derivation;
 mod effective;
 mod material_in_medium;
 mod reference_curve;
 
-pub use class::MaterialClass;
-pub use derivation::{Derivation, THESIS_MATCHING_COS};
 pub use effective::{By, Effective, effective};
-pub use material_in_medium::{FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialInMedium, Typed};
+pub use material_in_medium::{
+    Derivation, FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialClass, MaterialInMedium,
+    THESIS_MATCHING_COS, Typed,
+};
 pub use reference_curve::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};

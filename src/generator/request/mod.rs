@@ -1,25 +1,20 @@
 //! The request: what a run is asked for, with names resolved. The input of the pure library.
 
-pub mod loaded;
 pub mod source;
-pub mod subjects;
 
 use std::collections::BTreeMap;
 
 use crate::generator::emit::{HeaderForm, Naming};
+use crate::generator::error::{Error, RequestFault, unknown};
 use crate::generator::flavours::{self, Flavour};
 use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::generator::request::source::{Loaded, Subjects, load};
 use crate::language::effects::{self, Effect};
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
-
-use crate::generator::error::{Error, unknown};
-use crate::generator::fault::RequestFault;
-use crate::generator::request::loaded::{Loaded, load};
-use crate::generator::request::subjects::Subjects;
 
 /// What to generate. `Request::default()` is what the program does without flags.
 #[derive(Clone, Debug)]

@@ -1,15 +1,19 @@
 //! Reading the files that a user names.
+//!
+//! The materials of a request, each in its medium.
+//!
+//! A source read: a material of the catalogue, of a text at hand, or a medium that is a number.
 
+use crate::generator::command_line::path_again;
+use crate::generator::error::{Error, RequestFault, unknown};
+use crate::generator::output::folder::{self, is_below};
+use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::Source;
+use crate::physics::foreign::{self, one_line};
+use crate::physics::materials::{self, ConstantIndex, FileFault, Material, Unseen};
+use crate::physics::spectra::{TextFault, mesh_text, user_text};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
-
-use crate::physics::foreign;
-use crate::physics::materials::FileFault;
-use crate::physics::spectra::{TextFault, mesh_text, user_text};
-
-use crate::generator::error::Error;
-use crate::generator::output::folder::is_below;
-use crate::generator::output::reading;
 
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
@@ -117,7 +121,7 @@ fn bytes_within(largest: u64, path: &Path) -> Result<Vec<u8>, Error> {
         path: path.to_owned(),
         source,
     };
-    reading::bytes(path, largest).map_err(fail)
+    folder::bytes(path, largest).map_err(fail)
 }
 
 fn read_within(largest: u64, path: &Path) -> Result<String, Error> {
@@ -181,4 +185,116 @@ fn is_page(name: &str) -> bool {
         && name != "about.yml"
         && !name.starts_with("catalog-")
         && name != "library.yml"
+}
+
+/// The materials of a request.
+#[derive(Clone, Debug, Default)]
+pub struct Subjects {
+    /// Each in its medium, with the text of both files; sorted by name, each once.
+    pub ready: Vec<(MaterialInMedium, String)>,
+    /// Why some of those that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
+}
+
+impl Subjects {
+    /// The materials alone.
+    pub fn materials(self) -> Vec<MaterialInMedium> {
+        self.ready
+            .into_iter()
+            .map(|(material, _)| material)
+            .collect()
+    }
+
+    /// A line for each material that is left out.
+    pub fn left_out_lines(&self) -> Vec<String> {
+        let each = self.left_out.iter();
+        each.map(|unseen| format!("left out: {}", one_line(&unseen.why)))
+            .collect()
+    }
+
+    pub(super) fn sorted(mut self) -> Result<Subjects, Error> {
+        self.ready.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));
+        let twice = |pair: &&[(MaterialInMedium, String)]| {
+            pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1
+        };
+        if let Some(pair) = self.ready.windows(2).find(twice) {
+            let [one, other] = [0, 1].map(|i| pair[i].0.argument.as_str());
+            return Err(same_name(&pair[0].0.name, [one, other]));
+        }
+        self.ready.dedup_by(|(a, _), (b, _)| a.name == b.name);
+        match self.left_out.first() {
+            Some(fault) if self.ready.is_empty() => Err(fault.clone().into()),
+            _ => Ok(self),
+        }
+    }
+}
+
+/// Two materials of one name, and the words that name them.
+pub fn same_name(name: &str, words: [&str; 2]) -> Error {
+    RequestFault::SameName {
+        name: name.to_owned(),
+        words: words.map(str::to_owned),
+    }
+    .into()
+}
+
+/// A source read: the material, and what it was read from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The record.
+    pub material: Material,
+    /// What a user types to name it again.
+    pub argument: String,
+    /// Its file's text.
+    pub text: String,
+}
+
+/// Reads a material from the catalogue, or from a text at hand.
+///
+/// # Errors
+/// The catalogue has no material of this name, the number lies outside its limits, or the text is not a material.
+pub fn load(source: &Source) -> Result<Loaded, Error> {
+    match source {
+        Source::Named(word) if ConstantIndex::parse(word).is_some() => constant(word),
+        Source::Named(name) | Source::BroughtAlong(name) => {
+            let found = materials::find(name).zip(materials::source(name));
+            let (material, text) =
+                found.ok_or_else(|| unknown("material", name, &materials::names()))?;
+            Ok(Loaded {
+                material: material?,
+                argument: name.clone(),
+                text: text.to_owned(),
+            })
+        }
+        Source::File { file, text } => {
+            let material = Material::read(file, text)?;
+            Ok(Loaded {
+                argument: argument(file, &material.page),
+                material,
+                text: text.clone(),
+            })
+        }
+    }
+}
+
+/// A medium that is a number.
+fn constant(word: &str) -> Result<Loaded, Error> {
+    let index = ConstantIndex::parse(word).expect("it was found to be a number");
+    let index = index.map_err(|fault| RequestFault::conflict(fault.to_string()))?;
+    Ok(Loaded {
+        material: index.material(),
+        argument: index.to_string(),
+        text: index.to_string(),
+    })
+}
+
+/// What a user types to name a file again. A page at an absolute path is named by its place in the database that it lies in, since its
+/// name is made of that.
+fn argument(file: &str, page: &str) -> String {
+    let is_absolute = Path::new(file).is_absolute();
+    if is_absolute && !page.is_empty() && file.replace('\\', "/").ends_with(page) {
+        page.to_owned()
+    } else {
+        path_again(file)
+    }
 }

@@ -1,13 +1,11 @@
 //! What a user's text may hold. What could read another file, hide a name, or be read in two ways is refused before any compiler sees it.
 
-use crate::generator::emit::shader_words::tokens;
-
-use super::condition::definition;
+use super::condition::{Language, bare, definition};
 use super::directives::{self, TextFault};
 use super::error::Error;
-use super::language::{Language, bare};
 use super::loops::is_in_macro;
 use super::preprocess::{Define, Preprocessed, joined_comments, joined_lines, preprocessed};
+use crate::generator::emit::shader_words::tokens;
 
 /// The text as compilers would see it: behind the preprocessor, without comments.
 ///

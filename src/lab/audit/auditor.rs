@@ -4,30 +4,28 @@
 use core::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
+use super::bind::{self, Bound, BoundArgument};
+use super::choose::{Accepted, choose};
+use super::comparison::{self, ExactFit, recognised};
+use super::compile::Compilers;
+use super::condition::Language;
+use super::cosine::CosineForm;
+use super::cost::{self, AuditCost};
+use super::error::{self, Error};
+use super::loops::{Branch, branch};
+use super::ours::{CostedMethods, Ours};
+use super::program::AuditProgram;
+use super::row::{AuditRow, Audited, Ran};
+use super::runner::{Runner, Trouble};
+use super::scan::FoundFunction;
+use super::slice::{Slice, SlicedText};
+use super::{Audit, admission, edges};
 use crate::generator::emit::FunctionForm;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::gpu::Uniform;
 use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::compilers::{CompilerFault, Verdict};
 use crate::physics::num::each_channel;
-
-use super::accept::Accepted;
-use super::bind::{self, Bound, BoundArgument};
-use super::choose::choose;
-use super::compile::Compilers;
-use super::control_flow::{Branch, branch};
-use super::cosine::CosineForm;
-use super::cost_row::AuditCost;
-use super::error::Error;
-use super::language::Language;
-use super::ours::{CostedMethods, Ours};
-use super::program::AuditProgram;
-use super::recognised::{self, ExactFit, recognised};
-use super::row::{AuditRow, Audited, Ran};
-use super::runner::{Runner, Trouble};
-use super::scan::FoundFunction;
-use super::slice::{Slice, SlicedText};
-use super::{Audit, admission, cost, edges, place};
 
 /// An audit under way.
 pub struct Auditor<'a> {
@@ -256,7 +254,7 @@ impl<'a> Auditor<'a> {
         };
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,
-            Err(Trouble::Refused(_, words)) if place::names_place(words) => {
+            Err(Trouble::Refused(_, words)) if error::names_place(words) => {
                 Some(Verdict::No(words.clone()))
             }
             // It may be a fault of the driver, or of the machine.
@@ -270,7 +268,7 @@ impl<'a> Auditor<'a> {
         let lines = self.audit.text.lines().count();
         for (_, verdict) in verdicts {
             if let Verdict::No(words) = verdict {
-                *words = place::placed(&self.audit.file, lines, words);
+                *words = error::placed(&self.audit.file, lines, words);
             }
         }
     }
@@ -352,7 +350,7 @@ fn compared_form(bound: &Bound) -> Option<FunctionForm> {
 
 /// The method of ours that a function computes with these values.
 fn computed(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Option<&'static str> {
-    let results = runner.run(&recognised::cosines()).ok()?;
+    let results = runner.run(&comparison::cosines()).ok()?;
     recognised(&results, bound, subject)
 }
 
@@ -362,7 +360,7 @@ fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Opt
         .iter()
         .filter(|(_, form)| *form != bound.form);
     others.into_iter().find_map(|(name, form)| {
-        let results = runner.run_as(*form, &recognised::cosines()).ok()?;
+        let results = runner.run_as(*form, &comparison::cosines()).ok()?;
         let method = recognised(&results, bound, subject)?;
         let error = runner.error_as(*form, &subject.reference).ok()?;
         // What is constant is so of everything.

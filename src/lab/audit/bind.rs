@@ -1,16 +1,15 @@
 //! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
 
-use crate::generator::emit::shader_words::tokens;
-use crate::generator::reference::MaterialInMedium;
-use crate::physics::names::UnknownName;
-
 use super::cosine::{CosineForm, cosine, is_named};
 use super::error::{Error, FunctionPlace, MissingArgument, MissingCosine};
-use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::hidden::HiddenInput;
+use super::inputs::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::quantity::{Quantity, meanings, plain};
 use super::scan::{FoundFunction, NumberShape, Parameter};
 use super::slice::Slice;
+use crate::generator::emit::shader_words::tokens;
+use crate::generator::reference::MaterialInMedium;
+use crate::physics::names::UnknownName;
 
 /// A function with all that it takes.
 #[derive(Clone, Debug)]

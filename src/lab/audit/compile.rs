@@ -3,13 +3,12 @@
 use core::cell::RefCell;
 use core::time::Duration;
 
+use super::choose::Accepted;
+use super::condition::Language;
+use super::runner::{AuditRequest, AuditResponse};
 use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::lab::verify::compilers::{CompilerFault, Verdict};
 use crate::physics::num::Precision;
-
-use super::accept::Accepted;
-use super::language::Language;
-use super::protocol::{AuditRequest, AuditResponse};
 
 /// The process that asks them.
 pub struct Compilers {

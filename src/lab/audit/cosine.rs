@@ -3,10 +3,9 @@
 //! The function is run over cosines, and an argument that is another thing gets that of each cosine. A name tells what it is, and the
 //! function itself where it takes the cosine of it, or one minus it. What neither tells is asked for.
 
-use crate::generator::emit::shader_words::Token;
-
 use super::quantity::{meanings, plain};
 use super::scan::{FoundFunction, NumberShape, behind};
+use crate::generator::emit::shader_words::Token;
 
 /// What an argument is of the angle of incidence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -333,7 +332,7 @@ pub fn cosine(
 
 #[cfg(test)]
 mod tests {
-    use super::super::language::Language;
+    use super::super::condition::Language;
     use super::super::scan::functions;
     use super::*;
     use crate::generator::emit::shader_words::tokens;

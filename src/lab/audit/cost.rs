@@ -1,24 +1,24 @@
 //! What a user's function costs by the compilers of GPUs, measured as for our functions: what further evaluations in a chain
 //! add, less what they add for the empty function.
+//!
+//! What a user's function costs on a family of GPUs, as the report has it.
 
-use core::time::Duration;
-
-use crate::lab::cost::foreign::ForeignFunction;
+use super::compile::Compilers;
+use super::condition::Language;
+use super::error::placed;
+use super::program::AuditProgram;
+use crate::lab::cost::foreign::{self, ForeignFunction};
 use crate::lab::cost::{
-    CompilerSession, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe, foreign, launch,
-    told,
+    CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe,
+    launch, told,
 };
 use crate::lab::process::{Error, Surroundings, Worker};
 use crate::lab::verify::compilers::CompilerFault;
 use crate::lab::verify::naga_translation;
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
-
-use super::compile::Compilers;
-use super::cost_row::AuditCost;
-use super::language::Language;
-use super::place::placed;
-use super::program::AuditProgram;
+use core::time::Duration;
+use serde::Serialize;
 
 /// Asks the compiler of a family.
 ///
@@ -227,6 +227,51 @@ fn unblocked(text: &str) -> String {
     };
     let lines: Vec<String> = text.lines().map(line).collect();
     lines.join("\n") + "\n"
+}
+
+/// What a function costs on a family of GPUs, or why that is not known.
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "AuditCostJson")]
+pub struct AuditCost {
+    /// The family.
+    pub family: &'static Family,
+    /// The compiler with its version, where one was asked.
+    pub compiler: Option<String>,
+    /// What is known, or why nothing is.
+    pub figures: Result<CostFigures, String>,
+}
+
+/// The cost in a report's JSON.
+#[derive(Serialize)]
+struct AuditCostJson {
+    gpu: &'static str,
+    compiler: Option<String>,
+    measure: &'static str,
+    instructions: Option<f64>,
+    latency: Option<f64>,
+    inverse_throughput: Option<f64>,
+    net_instructions: Option<f64>,
+    net_inverse_throughput: Option<f64>,
+    net: Option<f64>,
+    reason: Option<String>,
+}
+
+impl From<AuditCost> for AuditCostJson {
+    fn from(cost: AuditCost) -> AuditCostJson {
+        let figures = cost.figures.as_ref().ok();
+        AuditCostJson {
+            gpu: cost.family.name,
+            compiler: cost.compiler,
+            measure: cost.family.columns.measure,
+            instructions: figures.map(|figures| figures.shader.instructions),
+            latency: figures.and_then(|figures| figures.shader.latency),
+            inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
+            net_instructions: figures.map(|figures| figures.net.instructions),
+            net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
+            net: figures.map(CostFigures::cost),
+            reason: cost.figures.err(),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -4,9 +4,8 @@
 //! Comments are passed over before this, and lines that go on behind their end are refused before it. So a directive is what
 //! begins a line with `#`, and a `#` anywhere else is refused.
 
+use super::condition::bare;
 use crate::generator::emit::shader_words::{Token, tokens};
-
-use super::language::bare;
 
 /// Directives that read no file. Includes, imports, embeds and what else a compiler knows are not among them.
 const ALLOWED: [&str; 13] = [

@@ -3,13 +3,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::generator::emit::shader_words::tokens;
-
 use super::parts::{Part, PartKind};
 use super::reach::Use;
 use super::scan::{NumberShape, type_shape};
 use super::type_names::TypeNames;
 use super::variables::Variable;
+use crate::generator::emit::shader_words::tokens;
 
 /// A number, or three, that a function reads from outside of itself.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,44 +5,33 @@
 //! worker (`runner`, `serve`), so that a function that hangs or crashes a driver is a line of the report. Compilers run in workers too
 //! (`compile`).
 
-mod accept;
 mod admission;
-mod annotations;
 mod auditor;
 mod bind;
 mod choose;
 mod comparison;
 mod compile;
 mod condition;
-mod control_flow;
 mod cosine;
 mod cost;
-mod cost_row;
 mod directives;
 mod edges;
 mod error;
-mod given;
 mod hidden;
 mod inputs;
-mod language;
 mod loops;
 mod ours;
 mod parts;
-mod place;
 mod preprocess;
 mod program;
-mod protocol;
 mod quantity;
 mod reach;
-mod recognised;
 mod row;
 mod runner;
 mod scan;
-mod serve;
 mod slice;
 mod type_names;
 mod variables;
-mod verdict;
 
 use core::time::Duration;
 use std::path::PathBuf;
@@ -51,19 +40,18 @@ use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::Family;
 use crate::physics::spectra::Space;
 
-pub use cost_row::AuditCost;
+pub use comparison::ExactFit;
+pub use condition::Language;
+pub use cost::AuditCost;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, MissingArgument, ValueFault};
-pub use given::Given;
-pub use language::Language;
+pub use inputs::Given;
 pub use preprocess::Define;
-pub use recognised::ExactFit;
-pub use row::{ArgumentValue, AuditRow, ConditionRow, Dominating, PerceivedFigures};
-pub use serve::serve;
-pub use verdict::Checked;
+pub use row::{ArgumentValue, AuditRow, Checked, ConditionRow, Dominating, PerceivedFigures};
+pub use runner::serve;
 
 use auditor::Auditor;
-use language::desktop_version;
+use condition::desktop_version;
 
 /// What is audited.
 #[derive(Clone, Debug)]

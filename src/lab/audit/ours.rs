@@ -1,5 +1,7 @@
 //! Our methods for the same material: their errors in single precision, and their costs.
 
+use super::comparison::Competitor;
+use super::error::Error;
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::{error_of, values_for_material};
 use crate::generator::reference::MaterialInMedium;
@@ -11,9 +13,6 @@ use crate::lab::process::{Pool, Surroundings};
 use crate::language::ir::{Checked, Column, Value, evaluate};
 use crate::language::methods::{self, Contract, Light, Method};
 use crate::physics::num::{Precision, each_channel};
-
-use super::comparison::Competitor;
-use super::error::Error;
 
 /// A method with its error, and its cost on each family where it is known.
 #[derive(Clone, Debug)]

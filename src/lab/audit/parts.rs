@@ -1,12 +1,11 @@
 //! A user's text as parts that stand outside of all others: functions, structs, variables, blocks of inputs. What stands in bodies is for
 //! compilers to judge.
 
-use crate::generator::emit::shader_words::Token;
-
-use super::language::Language;
+use super::condition::Language;
 use super::scan::{FoundFunction, behind, function, parts_between_commas};
 use super::type_names::TypeNames;
 use super::variables::{Variable, c_variables, wgsl_member, wgsl_variable};
+use crate::generator::emit::shader_words::Token;
 
 /// A part, by places of words.
 #[derive(Clone, Debug)]

@@ -4,13 +4,11 @@
 //! Other files are not read, so a name that nothing defines counts as not defined; `-D` defines it. WGSL has no preprocessor;
 //! lines that begin with `#` are read as those of naga_oil, which Bevy uses.
 
-use crate::generator::emit::shader_words::{Token, tokens};
-use crate::physics::foreign::Foreign;
-
-use super::condition::{Macros, condition_value, definition, plain_macro, words};
+use super::condition::{Language, Macros, condition_value, definition, plain_macro, words};
 use super::directives::{self, TextFault};
 use super::error::Error;
-use super::language::Language;
+use crate::generator::emit::shader_words::{Token, tokens};
+use crate::physics::foreign::Foreign;
 
 /// A name that the user defines for the preprocessor.
 #[derive(Clone, Debug, PartialEq, Eq)]

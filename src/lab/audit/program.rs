@@ -1,17 +1,16 @@
 //! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
 
+use super::bind::{Bound, BoundArgument};
+use super::condition::Language;
+use super::directives;
+use super::inputs::DefaultArgument;
+use super::loops::{MARK, TURNS, counted, counter};
+use super::scan::NumberShape;
+use super::slice::Slice;
 use crate::lab::gpu::{Argument as Value, Uniform};
 use crate::lab::verify::harness::{self, Call};
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
-
-use super::bind::{Bound, BoundArgument};
-use super::directives;
-use super::given::DefaultArgument;
-use super::language::Language;
-use super::loops::{MARK, TURNS, counted, counter};
-use super::scan::NumberShape;
-use super::slice::Slice;
 
 /// What our function around theirs is called: as [`crate::lab::cost::Probe`] calls what it measures.
 pub const NAME: &str = "fg_measured";

@@ -3,14 +3,13 @@
 
 use std::collections::BTreeSet;
 
+use super::scan::FoundFunction;
 use crate::generator::fit::values_for_material;
 use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::Ty;
 use crate::language::methods::{self, Class, Input, InputSource, Method, find_input};
 use crate::physics::names::UnknownName;
 use crate::physics::num::each_channel;
-
-use super::scan::FoundFunction;
 
 /// A quantity that a material has a value for.
 #[derive(Clone, Copy, Debug)]
@@ -277,7 +276,7 @@ fn is_given(method: &Method) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::language::Language;
+    use super::super::condition::Language;
     use super::super::scan::functions;
     use super::*;
 

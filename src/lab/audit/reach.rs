@@ -2,10 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::generator::emit::shader_words::Token;
-
-use super::language::Language;
+use super::condition::Language;
 use super::parts::{Part, PartKind};
+use crate::generator::emit::shader_words::Token;
 
 /// The words of a macro's definitions; its arguments are not among them.
 pub type MacroBodies<'t, 'a> = BTreeMap<&'a str, Vec<Vec<&'t Token<'a>>>>;

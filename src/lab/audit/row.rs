@@ -1,27 +1,24 @@
 //! The row of the report: a user's function for a material.
+//!
+//! What was checked of a function, and how it came out. A check that was not made is not passed.
 
-use serde::Serialize;
-
+use super::Audit;
+use super::bind::{Bound, BoundArgument};
+use super::comparison::{Comparison, Competitor, ExactFit, Own, dominating, sentence};
+use super::cost::AuditCost;
+use super::edges::{EdgeRow, Edges};
+use super::inputs::{DefaultArgument, Initialised};
+use super::ours::Ours;
+use super::preprocess::Condition;
+use super::runner::Trouble;
+use super::slice::Slice;
 use crate::generator::fit::{ModelError, Perceived};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::CostAndError;
 use crate::lab::verify::compilers::Verdict;
 use crate::lab::verify::{Answer, Status, as_object};
 use crate::physics::foreign::Foreign;
-
-use super::Audit;
-use super::bind::{Bound, BoundArgument};
-use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
-use super::cost_row::AuditCost;
-use super::edges::{EdgeRow, Edges};
-use super::given::DefaultArgument;
-use super::inputs::Initialised;
-use super::ours::Ours;
-use super::preprocess::Condition;
-use super::recognised::ExactFit;
-use super::runner::Trouble;
-use super::slice::Slice;
-use super::verdict::{Checked, is_within};
+use serde::Serialize;
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
 #[derive(Clone, Debug, Serialize)]
@@ -398,4 +395,139 @@ fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
         quantity: argument.quantity.map(|quantity| quantity.name),
     };
     (argument.name.clone(), value)
+}
+
+/// The checks; none where one was not made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Checked {
+    /// Whether compilers accept it.
+    pub accepted: Option<bool>,
+    /// Whether its results are reflectances: numbers from 0 to 1, or to an F0 above 1.
+    pub within_range: Option<bool>,
+    /// The error that it may have.
+    pub max_error: Option<f64>,
+    /// Whether its error is no larger.
+    pub within_max_error: Option<bool>,
+}
+
+impl Checked {
+    /// What was checked of a function.
+    pub fn new(
+        verdicts: &[(String, Verdict)],
+        ran: &Result<Ran, Trouble>,
+        max_error: Option<f64>,
+    ) -> Checked {
+        let refuses = |(_, verdict): &(String, Verdict)| matches!(verdict, Verdict::No(_));
+        let accepts = |(_, verdict): &(String, Verdict)| *verdict == Verdict::Yes;
+        let accepted = if verdicts.iter().any(refuses) {
+            Some(false)
+        } else {
+            verdicts.iter().any(accepts).then_some(true)
+        };
+        let ran = ran.as_ref().ok();
+        Checked {
+            accepted,
+            within_range: ran.map(|ran| ran.edges.findings.is_empty() && ran.error.undefined == 0),
+            max_error,
+            within_max_error: ran
+                .zip(max_error)
+                .map(|(ran, most)| is_within(&ran.error, most)),
+        }
+    }
+
+    /// In words, for a function that has this status.
+    pub fn words(&self, status: Status) -> String {
+        let parts = [
+            self.accepted.map(|accepted| {
+                if accepted {
+                    "compilers accept it".to_owned()
+                } else {
+                    "a compiler refuses it".to_owned()
+                }
+            }),
+            self.within_range.map(|within| {
+                if within {
+                    "all results are reflectances".to_owned()
+                } else {
+                    "a result is no reflectance".to_owned()
+                }
+            }),
+            self.error_words(),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        let checks = parts.join("; ");
+        match status {
+            Status::Pass => checks,
+            _ if parts.is_empty() => status.words().to_owned(),
+            Status::Fail | Status::NotChecked => format!("{}: {checks}", status.words()),
+        }
+    }
+
+    fn error_words(&self) -> Option<String> {
+        match (self.within_range, self.max_error, self.within_max_error) {
+            (_, Some(most), Some(true)) => Some(format!("its error is at most {most}")),
+            (_, Some(most), Some(false)) => Some(format!("its error is above {most}")),
+            (Some(_), None, _) => {
+                Some("its error is not judged (--max-error sets a limit)".to_owned())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Whether an error is no larger than it may be. One that is no number is.
+pub fn is_within(error: &ModelError, most: f64) -> bool {
+    error.max_abs <= most
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: Checked = Checked {
+        accepted: Some(true),
+        within_range: Some(true),
+        max_error: None,
+        within_max_error: None,
+    };
+
+    #[test]
+    fn words_say_what_was_checked() {
+        assert_eq!(
+            ALL.words(Status::Pass),
+            "compilers accept it; all results are reflectances; its error is not judged (--max-error sets a limit)"
+        );
+        let above = Checked {
+            max_error: Some(0.01),
+            within_max_error: Some(false),
+            ..ALL
+        };
+        assert_eq!(
+            above.words(Status::Fail),
+            "fail: compilers accept it; all results are reflectances; its error is above 0.01"
+        );
+        let within = Checked {
+            within_max_error: Some(true),
+            ..above
+        };
+        assert!(
+            within
+                .words(Status::Pass)
+                .ends_with("its error is at most 0.01")
+        );
+    }
+
+    /// What never ran has no word about its results or its error.
+    #[test]
+    fn what_was_not_checked_is_not_said() {
+        let refused = Checked {
+            accepted: Some(false),
+            max_error: Some(0.01),
+            ..Checked::default()
+        };
+        assert_eq!(refused.words(Status::Fail), "fail: a compiler refuses it");
+        assert_eq!(Checked::default().words(Status::NotChecked), "not checked");
+        let failed = Checked::default().words(Status::Fail);
+        assert_eq!(failed, "fail");
+    }
 }

@@ -1,19 +1,28 @@
 //! A user's function run in a process of its own, within a time.
+//!
+//! What a worker is asked about a user's function, and what it answers. Numbers go as bits: what is run may give NaN.
+//!
+//! A worker: compiles the program that it is handed, and runs it. A driver that crashes ends only this process.
 
-use core::cell::{Cell, OnceCell, RefCell};
-use core::time::Duration;
-
-use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
-use crate::generator::reference::ReferenceCurve;
-use crate::lab::gpu::Uniform;
-use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
-use crate::language::ir::{Column, Value};
-use crate::physics::num::each_channel;
-use crate::physics::spectra::Space;
-
+use super::choose::{self, Accepted};
+use super::condition::Language;
 use super::cosine::CosineForm;
 use super::loops::{MARK, TURNS};
-use super::protocol::{AuditRequest, AuditResponse, ProgramCode, UniformBits};
+use crate::generator::emit::validate_wgsl;
+use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
+use crate::generator::reference::ReferenceCurve;
+use crate::lab::gpu::{self, Argument, Kernel, Program, Uniform, Wanted};
+use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker};
+use crate::lab::verify::compilers::CompilerFault;
+use crate::lab::verify::harness::ENTRY;
+use crate::lab::verify::run::Devices;
+use crate::language::ir::{Column, Value};
+use crate::physics::num::{Precision, each_channel};
+use crate::physics::spectra::Space;
+use core::cell::{Cell, OnceCell, RefCell};
+use core::time::Duration;
+use serde::{Deserialize, Serialize};
+use std::io;
 
 /// What sees cosines, and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
@@ -188,5 +197,163 @@ fn trouble(response: AuditResponse) -> Trouble {
         AuditResponse::Absent(why) => Trouble::Absent(why),
         AuditResponse::Refused(who, words) => Trouble::Refused(who, words),
         _ => Trouble::Failed("it answers another question".to_owned()),
+    }
+}
+
+/// What a worker is asked.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum AuditRequest {
+    /// To ask the compilers of a language about a whole program whose `half` computes in this.
+    Accept(Language, Precision, String),
+    /// To make SPIR-V of a shader.
+    Module(Language, Precision, String),
+    /// To compile a program.
+    Prepare(ProgramCode, Vec<UniformBits>),
+    /// To run it over cosines.
+    Run(Vec<u32>),
+}
+
+/// What a worker answers.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum AuditResponse {
+    /// What the compilers say.
+    Accepted(Accepted),
+    /// What the compiler has made, or why it has not.
+    Module(Result<Vec<u8>, CompilerFault>),
+    /// It is compiled, for this device.
+    Ready(String),
+    /// Something is missing here.
+    Absent(String),
+    /// A compiler refused it, or the device failed: its name, and its message.
+    Refused(String, String),
+    /// The results.
+    Ran(Vec<[u32; 3]>),
+}
+
+/// A program.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum ProgramCode {
+    /// In WGSL.
+    Wgsl(String),
+    /// In GLSL ES 3.00.
+    Gles(String),
+    /// A module that DXC or slangc has made.
+    Spirv(Vec<u8>),
+}
+
+/// A uniform with its value as bits.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct UniformBits {
+    name: String,
+    is_rgb: bool,
+    bits: [u32; 3],
+}
+
+impl UniformBits {
+    /// As it is sent.
+    pub fn new(uniform: &Uniform) -> UniformBits {
+        let (is_rgb, value) = match uniform.value {
+            Argument::Rgb(value) => (true, value),
+            Argument::Scalar(value) => (false, [value; 3]),
+        };
+        UniformBits {
+            name: uniform.name.clone(),
+            is_rgb,
+            bits: value.map(f32::to_bits),
+        }
+    }
+
+    /// As it is bound.
+    pub fn uniform(&self) -> Uniform {
+        let value = self.bits.map(f32::from_bits);
+        Uniform {
+            name: self.name.clone(),
+            value: if self.is_rgb {
+                Argument::Rgb(value)
+            } else {
+                Argument::Scalar(value[0])
+            },
+        }
+    }
+}
+
+/// Serves until the supervisor is gone.
+///
+/// # Errors
+/// The pipe is gone.
+pub fn serve() -> io::Result<()> {
+    let (inbox, devices) = (Inbox::open(), Devices::new(Wanted::default()));
+    let mut ready: Option<(Kernel, Vec<Uniform>)> = None;
+    inbox.serve(|request| match request {
+        AuditRequest::Accept(language, precision, program) => {
+            AuditResponse::Accepted(choose::accepted(language, precision, program))
+        }
+        AuditRequest::Module(language, precision, shader) => {
+            AuditResponse::Module(choose::module(language, precision, &shader))
+        }
+        AuditRequest::Prepare(code, values) => {
+            let uniforms: Vec<Uniform> = values.iter().map(UniformBits::uniform).collect();
+            match prepare(&devices, &code, &uniforms) {
+                Ok((kernel, device)) => {
+                    ready = Some((kernel, uniforms));
+                    AuditResponse::Ready(device)
+                }
+                Err(refusal) => refusal,
+            }
+        }
+        AuditRequest::Run(bits) => run(ready.as_ref(), &bits),
+    })
+}
+
+fn prepare(
+    devices: &Devices,
+    code: &ProgramCode,
+    uniforms: &[Uniform],
+) -> Result<(Kernel, String), AuditResponse> {
+    if let ProgramCode::Wgsl(text) = code {
+        validate_wgsl(text).map_err(|words| AuditResponse::Refused("naga".to_owned(), words))?;
+    }
+    let device = match code {
+        ProgramCode::Gles(_) => devices.gles(),
+        ProgramCode::Wgsl(_) | ProgramCode::Spirv(_) => devices.compute(),
+    };
+    let device = device.map_err(|fault| AuditResponse::Absent(fault.to_string()))?;
+    let (code, entry) = match code {
+        ProgramCode::Wgsl(text) => (gpu::ShaderCode::Wgsl(text), ENTRY),
+        ProgramCode::Gles(text) => (gpu::ShaderCode::Gles(text), "main"),
+        ProgramCode::Spirv(bytes) => (gpu::ShaderCode::Spirv(bytes), ENTRY),
+    };
+    let program = Program {
+        code,
+        entry,
+        uniforms,
+        texture: None,
+    };
+    let name = device.adapter.to_string();
+    match device.prepare(&program) {
+        Ok(kernel) => Ok((kernel, name)),
+        Err(fault) => Err(refusal(&name, &fault)),
+    }
+}
+
+fn refusal(who: &str, fault: &gpu::DeviceFault) -> AuditResponse {
+    match fault {
+        gpu::DeviceFault::Absent { .. } | gpu::DeviceFault::Unable { .. } => {
+            AuditResponse::Absent(fault.to_string())
+        }
+        _ => AuditResponse::Refused(who.to_owned(), fault.to_string()),
+    }
+}
+
+fn run(ready: Option<&(Kernel, Vec<Uniform>)>, bits: &[u32]) -> AuditResponse {
+    let Some((kernel, uniforms)) = ready else {
+        return AuditResponse::Absent("there is nothing to run".to_owned());
+    };
+    let cosines: Vec<f32> = bits.iter().copied().map(f32::from_bits).collect();
+    match kernel.run(&cosines, uniforms, None) {
+        Ok(results) => {
+            AuditResponse::Ran(results.iter().map(|rgb| rgb.map(f32::to_bits)).collect())
+        }
+        Err(fault) => refusal("the device", &fault),
     }
 }

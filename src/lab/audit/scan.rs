@@ -1,10 +1,9 @@
 //! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
 
-use crate::generator::emit::shader_words::Token;
-
-use super::language::Language;
+use super::condition::Language;
 use super::parts::{functions_of, parts};
 use super::type_names::TypeNames;
+use crate::generator::emit::shader_words::Token;
 
 /// A function as its head tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -335,7 +334,7 @@ fn shape(written: &str) -> NumberShape {
 /// The functions of a text in order.
 #[cfg(test)]
 pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
-    let code = super::language::bare(text, language.has_preprocessor());
+    let code = super::condition::bare(text, language.has_preprocessor());
     let tokens = crate::generator::emit::shader_words::tokens(&code);
     let names = TypeNames::of_text(text, language);
     let found = bodies(&tokens, &names, language);

@@ -1,18 +1,16 @@
 //! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers. Inputs
 //! from outside become variables that our function sets.
 
-use crate::generator::emit::shader_words::{Token, tokens};
-
-use super::annotations::without_annotations;
-use super::condition::definition;
+use super::condition::{Language, bare, definition};
 use super::hidden::{HiddenInput, UnreadFault};
 use super::inputs::{Initialised, Inputs};
-use super::language::{Language, bare};
 use super::parts::{Part, PartKind, functions_of, parts};
 use super::preprocess::{Condition, Define, Preprocessed};
 use super::reach::{MacroBodies, Reached, reached};
 use super::scan::FoundFunction;
 use super::type_names::TypeNames;
+use super::variables::without_annotations;
+use crate::generator::emit::shader_words::{Token, tokens};
 
 /// What compilers see of a text.
 #[derive(Clone, Debug, Default)]

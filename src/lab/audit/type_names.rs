@@ -3,10 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::generator::emit::shader_words::{Token, tokens};
-
-use super::language::{Language, bare};
+use super::condition::{Language, bare};
 use super::scan::{TypeShape, type_shape};
+use crate::generator::emit::shader_words::{Token, tokens};
 
 /// A name may stand for a name that stands for a name; one that stands for itself ends here.
 const DEPTH: usize = 8;

@@ -1,8 +1,18 @@
 //! The cheapest function within a budget, and the errors of cheaper ones. Pure.
+//!
+//! How far published measurements of a material differ: fitting one of them better than this gains nothing.
+//!
+//! Why no function can be chosen.
 
-use core::cmp::Ordering;
-
+use crate::generator::emit;
+use crate::generator::fit::{FitCurve, rounded_up};
+use crate::generator::reference::{MaterialInMedium, reference_reflectance};
 use crate::lab::cost::CostAndError;
+use crate::language::methods::Light;
+use crate::physics::materials::{self, Material, Surface, ViewingConditions};
+use crate::physics::num::each_channel;
+use core::cmp::Ordering;
+use core::fmt;
 
 /// A function that could be taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +72,150 @@ fn first<'a>(
     candidates.min_by(|a, b| order(&a.point, &b.point)).copied()
 }
 
+/// How far measurements differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// The largest difference of two at one angle in one channel.
+    pub most: f64,
+    /// How many there are.
+    pub sources: usize,
+}
+
+/// The spread of the catalogue's pages of a material's substance that can be seen so. None for a user's own file, for what is known
+/// at three wavelengths only, seen from itself, and where there is one page.
+pub fn spread(
+    subject: &MaterialInMedium,
+    catalogue: &[Material],
+    viewing: &ViewingConditions,
+) -> Option<Spread> {
+    let own = &subject.material;
+    if materials::source(&subject.argument).is_none() || own.rgb_nm.is_some() {
+        return None;
+    }
+    let medium = subject.medium.as_ref().map(|(_, medium)| medium);
+    if medium.is_some_and(|medium| medium.substance == own.substance) {
+        return None;
+    }
+    let curve = |(_, surface): (_, Surface)| {
+        FitCurve::new(|c| reference_reflectance(&surface, Light::Unpolarised, c)).seen
+    };
+    let pages = materials::surfaces_of(&own.substance, catalogue, medium, viewing);
+    let curves: Vec<Vec<[f64; 3]>> = pages.map(curve).collect();
+    (curves.len() > 1).then(|| Spread {
+        most: apart(&curves),
+        sources: curves.len(),
+    })
+}
+
+/// The largest difference of two curves, over all points and channels.
+fn apart(curves: &[Vec<[f64; 3]>]) -> f64 {
+    let points = curves.iter().map(Vec::len).min().unwrap_or(0);
+    let at = |point: usize, channel: usize| {
+        let values = curves.iter().map(move |curve| curve[point][channel]);
+        let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| {
+            (a.min(value), b.max(value))
+        });
+        most - least
+    };
+    let all = (0..points).flat_map(|point| each_channel(|channel| at(point, channel)));
+    all.fold(0.0, f64::max)
+}
+
+/// How many materials without a function an error names.
+const NAMED: usize = 3;
+
+/// Why no function can be chosen.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A budget that is no error of reflectance.
+    #[error("--budget is {most}; it is an error of reflectance, above 0, such as 0.001")]
+    OutOfRange {
+        /// The budget.
+        most: f64,
+    },
+    /// GPUs of which no costs are recorded.
+    #[error("no costs are recorded of {gpu}: {reason}; name another --gpu")]
+    NoCosts {
+        /// The family.
+        gpu: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// No method among which a budget chooses.
+    #[error(
+        "--budget chooses among methods for unpolarised light that keep the contract; none of --method is one"
+    )]
+    NoMethod,
+    /// Materials that have no function within the budget.
+    #[error("nothing is within --budget {most}; {}", named(faults))]
+    NothingWithin {
+        /// The budget.
+        most: f64,
+        /// The materials.
+        faults: Vec<NoFunction>,
+    },
+    /// A function cannot be made.
+    #[error(transparent)]
+    Function(#[from] emit::Error),
+    /// A material of the catalogue has a fault.
+    #[error(transparent)]
+    Material(materials::FileFault),
+}
+
+/// A material of which no function is within the budget.
+#[derive(Clone, Debug)]
+pub struct NoFunction {
+    /// The material's name.
+    pub material: String,
+    /// The GPUs whose costs decide.
+    pub gpu: &'static str,
+    /// The function with the smallest error; none where no cost is known.
+    pub best: Option<BudgetCandidate>,
+}
+
+impl fmt::Display for NoFunction {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        let NoFunction {
+            material,
+            gpu,
+            best,
+        } = self;
+        match best {
+            None => write!(
+                to,
+                "{material}: no method that describes it has a known cost on {gpu}"
+            ),
+            Some(best) => write!(
+                to,
+                "{material}: {} has the smallest error, {}, and costs {} on {gpu}",
+                best.method,
+                rounded_error(best.point.error),
+                best.point.cost
+            ),
+        }
+    }
+}
+
+/// An error rounded up, or with two digits where it is below 1e-4.
+pub fn rounded_error(error: f64) -> String {
+    if error < 1e-4 {
+        format!("{error:.1e}")
+    } else {
+        rounded_up(error)
+    }
+}
+
+/// The first faults, and how many more there are.
+fn named(faults: &[NoFunction]) -> String {
+    let named = faults.iter().take(NAMED);
+    let named: Vec<String> = named.map(NoFunction::to_string).collect();
+    let more = match faults.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!("; and {more} more"),
+    };
+    named.join("; ") + &more
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,5 +263,31 @@ mod tests {
         assert_eq!(cheapest(&[], 1.0), None);
         assert_eq!(most_accurate(ALL.iter()).map(|c| c.method), Some("table"));
         assert_eq!(most_accurate([].iter()), None);
+    }
+}
+
+#[cfg(test)]
+mod spread_tests {
+    use super::apart;
+
+    #[test]
+    fn curves_lie_as_far_apart_as_at_their_worst_point() {
+        let grey = |values: &[f64]| values.iter().map(|v| [*v; 3]).collect::<Vec<_>>();
+        let (a, b, c) = (grey(&[0.5, 0.9]), grey(&[0.25, 0.8]), grey(&[0.625, 0.9]));
+        assert_eq!(apart(&[a.clone(), b.clone()]), 0.25);
+        assert_eq!(apart(&[a.clone(), b, c]), 0.375);
+        assert_eq!(apart(&[a]), 0.0);
+        assert_eq!(apart(&[]), 0.0);
+    }
+}
+
+#[cfg(test)]
+mod error_tests {
+    use super::rounded_error;
+
+    #[test]
+    fn an_error_is_not_rounded_down() {
+        assert_eq!(rounded_error(0.001_931), "0.00194");
+        assert_eq!(rounded_error(6.0e-8), "6.0e-8");
     }
 }

@@ -2,11 +2,8 @@
 //! Pure: nothing is measured here.
 
 mod choice;
-mod error;
-mod spread;
 
-use crate::generator::emit::FunctionForm;
-use crate::generator::emit::{Bounds, specialised_graph};
+use crate::generator::emit::{Bounds, FunctionForm, specialised_graph};
 use crate::generator::fit::single_error;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{
@@ -17,12 +14,9 @@ use crate::language::methods::{Contract, Light, Method};
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::num::{Precision, in_parallel};
 
-use choice::{cheapest, most_accurate};
-use spread::spread;
+use choice::{cheapest, most_accurate, spread};
 
-pub use choice::{BudgetCandidate, CheapestFunction};
-pub use error::{Error, NoFunction, rounded_error};
-pub use spread::Spread;
+pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, Spread, rounded_error};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]

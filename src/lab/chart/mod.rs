@@ -2,26 +2,20 @@
 //! beats in both. Pages and pictures of it stand in `report/frontier/`.
 
 mod audited;
-mod costs;
-mod curves;
 mod data;
-mod left_out;
-mod own;
 mod sets;
-mod without;
 
 use serde::Serialize;
 
 use crate::generator::fit::MethodErrors;
 use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::language::methods::{Contract, Method};
-pub use audited::charted_function;
-pub use curves::{Reflectances, exact_and_approximated};
-pub use data::{chart_data, cost_names};
-pub use left_out::{LeftOutErrors, left_out};
-pub use own::ChartedFunction;
+pub use audited::{ChartedFunction, charted_function};
+pub use data::{
+    LeftOutErrors, Reflectances, chart_data, cost_names, exact_and_approximated, left_out,
+    without_point,
+};
 pub use sets::{STATISTICS, set_name};
-pub use without::without_point;
 
 /// A measure of error.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,9 @@
 //! What errors are of: a material alone, or a class with its materials taken together in some way.
 
+use super::MaterialSet;
 use crate::generator::fit::MethodErrors;
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::physics::num::statistics::{median, medians, quantile};
-
-use super::MaterialSet;
 
 /// How a class is taken together: the middle of its materials, where nine of ten end, the worst, or the middle over substances,
 /// each with one vote however often it was measured.

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::lab::process::{Error, Launch, Pool, Surroundings, Task, Worker};
-
 use super::family::{Dialect, Family};
 use super::function::CostedFunction;
 use super::session::{CompilerFigures, CompilerSession, launch, told};
+use crate::lab::process::{Error, Launch, Pool, Surroundings, Task, Worker};
 
 /// What came of asking a family's compiler.
 #[derive(Clone, Debug)]

@@ -3,12 +3,11 @@
 //!
 //! The function is `fg_measured`, with its cosine first and one channel or three out.
 
+use super::chain::{Chain, ChainLanguage};
+use super::probe::{BLOCKS, ENTRY};
 use crate::language::ir::Param;
 use crate::language::targets::{GLES, HLSL};
 use crate::physics::num::Precision;
-
-use super::chain::{Chain, ChainLanguage};
-use super::probe::{BLOCKS, ENTRY};
 
 /// A function that gives its cosine: what a chain costs where nothing is evaluated in it.
 pub const EMPTY_HLSL: &str = "float3 fg_measured(float c) { return float3(c, c, c); }\n";

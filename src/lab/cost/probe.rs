@@ -7,15 +7,13 @@
 //! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
 //! evaluation, [`BLOCKS`] or more in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
+use super::chain::{Chain, ChainLanguage, MEASURED, uniforms, without_numbers};
+use super::family::Dialect;
 use crate::generator::emit::bare;
 use crate::language::ir::{Checked, Param, Ty};
 use crate::language::targets::{GLES, Target, WGSL};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-
-use super::chain::{Chain, ChainLanguage, MEASURED, uniforms};
-use super::family::Dialect;
-use super::text_shape::without_numbers;
 
 /// Blocks of arguments in a shader of no more evaluations; a longer chain has one for each.
 pub const BLOCKS: usize = 8;

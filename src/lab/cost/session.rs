@@ -1,17 +1,23 @@
 //! A family's compiler in a process of its own: how it starts, what it is asked, and what it says.
-
-use core::time::Duration;
-use std::collections::BTreeMap;
-use std::ffi::OsString;
-use std::path::{Path, PathBuf};
-
-use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker, beside};
-use crate::language::ir::Ty;
+//!
+//! What a process with a family's compiler is asked, and what it answers.
+//!
+//! A worker: opens the compiler that its environment tells, and answers who it is and what it says of shaders.
 
 use super::family::{Dialect, Family, GpuCompiler};
-use super::figures::{CostFigures, Statistics, figures};
+use super::figures::{CostFigures, Statistics, figures, remarked};
 use super::function::CostedFunction;
-use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
+use super::probe::{ENTRY, VERTEX, WGSL_VERTEX, gles_vertex};
+use crate::generator::emit::wgsl_to_spirv;
+use crate::lab::gpu::{DeviceFault, GlesCompiler, ModuleEntry, VulkanCompiler};
+use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker, beside};
+use crate::language::ir::Ty;
+use core::time::Duration;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::ffi::{CString, OsString};
+use std::io;
+use std::path::{Path, PathBuf};
 
 /// What a compiler says of a function, or why it says nothing.
 pub type CompilerFigures = Result<CostFigures, String>;
@@ -214,4 +220,138 @@ fn environment(
         GpuCompiler::Operations | GpuCompiler::None(_) => {}
     }
     Ok(all)
+}
+
+/// What it is asked.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum CompilerRequest {
+    /// Who it is.
+    Name,
+    /// What a shader becomes.
+    Measure(FragmentShader),
+}
+
+/// A fragment shader.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum FragmentShader {
+    /// In the compiler's language, or in WGSL for one that takes SPIR-V.
+    Text(String),
+    /// A module of SPIR-V.
+    Module(Vec<u8>),
+}
+
+/// What it answers.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum CompilerResponse {
+    /// It is here: its name and version.
+    Name(String),
+    /// It is not, and why.
+    Absent(String),
+    /// What it says of a shader.
+    Statistics(Statistics),
+    /// It refuses a shader, and why.
+    Refused(String),
+}
+
+impl CompilerResponse {
+    /// The compiler's name and version.
+    pub fn name(self) -> Result<String, String> {
+        match self {
+            CompilerResponse::Name(name) => Ok(name),
+            CompilerResponse::Absent(why) | CompilerResponse::Refused(why) => Err(why),
+            CompilerResponse::Statistics(_) => Err("it answers another question".to_owned()),
+        }
+    }
+
+    /// What it says of a shader.
+    pub fn statistics(self) -> Result<Statistics, String> {
+        match self {
+            CompilerResponse::Statistics(statistics) => Ok(statistics),
+            CompilerResponse::Refused(why)
+            | CompilerResponse::Absent(why)
+            | CompilerResponse::Name(why) => Err(why),
+        }
+    }
+}
+
+/// A compiler at work.
+enum Open {
+    Radv(Box<VulkanCompiler>, [CString; 2]),
+    Mesa(Box<GlesCompiler>, Dialect),
+}
+
+/// Serves until the supervisor is gone.
+///
+/// # Errors
+/// The pipe is gone.
+pub fn serve(family: &Family) -> io::Result<()> {
+    let inbox = Inbox::open();
+    let opened = open(family);
+    inbox.serve(|request| match (&opened, request) {
+        (Err(fault), _) => CompilerResponse::Absent(fault.to_string()),
+        (Ok(open), CompilerRequest::Name) => CompilerResponse::Name(open.compiler()),
+        (Ok(open), CompilerRequest::Measure(shader)) => match open.measure(&shader) {
+            Ok(statistics) => CompilerResponse::Statistics(statistics),
+            Err(why) => CompilerResponse::Refused(why),
+        },
+    })
+}
+
+fn open(family: &Family) -> Result<Open, DeviceFault> {
+    match family.compiler {
+        GpuCompiler::Radv(_) => {
+            let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
+            let names = [VERTEX, ENTRY].map(|name| CString::new(name).unwrap_or_default());
+            Ok(Open::Radv(Box::new(VulkanCompiler::open(&vertex)?), names))
+        }
+        GpuCompiler::Mesa { dialect, .. } => {
+            let major = if dialect == Dialect::Es100 { 2 } else { 3 };
+            Ok(Open::Mesa(Box::new(GlesCompiler::open(major)?), dialect))
+        }
+        GpuCompiler::Operations | GpuCompiler::None(_) => Err(DeviceFault::Absent {
+            what: format!("{} has no compiler", family.name),
+            get: "none is needed".to_owned(),
+        }),
+    }
+}
+
+impl Open {
+    fn compiler(&self) -> String {
+        match self {
+            Open::Radv(null, _) => format!("{}, {}", null.driver, null.name),
+            Open::Mesa(node, _) => format!("{}, {}", node.driver, node.name),
+        }
+    }
+
+    fn measure(&self, shader: &FragmentShader) -> Result<Statistics, String> {
+        match (self, shader) {
+            (Open::Radv(null, [vertex, entry]), shader) => {
+                let lowered;
+                let module = match shader {
+                    FragmentShader::Module(module) => module,
+                    FragmentShader::Text(text) => {
+                        lowered = wgsl_to_spirv(text)?;
+                        &lowered
+                    }
+                };
+                let fragment = ModuleEntry {
+                    module,
+                    name: entry,
+                };
+                let told = null.measure(vertex, fragment);
+                told.map(Statistics::from_iter)
+                    .map_err(|why| why.to_string())
+            }
+            (Open::Mesa(..), FragmentShader::Module(_)) => {
+                Err("it takes GLSL ES, no SPIR-V".to_owned())
+            }
+            (Open::Mesa(node, dialect), FragmentShader::Text(text)) => {
+                let remarks = node
+                    .link(&gles_vertex(*dialect), text)
+                    .map_err(|why| why.to_string())?;
+                let silent = || format!("the driver does not say what became of it: {remarks:?}");
+                remarked(&remarks).ok_or_else(silent)
+            }
+        }
+    }
 }

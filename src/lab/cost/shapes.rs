@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
+use super::pareto::{CostAndError, pareto_frontier};
 use crate::generator::fit::{Candidate, ErrorQuantiles, LeaveOneOut, Tried, TriedShapes, Weight};
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::language::methods::Method;
-
-use super::pareto::{CostAndError, pareto_frontier};
 
 /// The materials that shapes are searched for together.
 #[derive(Debug)]

@@ -8,11 +8,9 @@ use std::rc::Rc;
 
 use wgpu::{BufferUsages, Features};
 
-use super::adapter::Adapter;
-use super::compute::Compute;
-use super::fault::DeviceFault;
-use super::kernel;
-use super::texture::Texture;
+use super::adapter::{Adapter, DeviceFault};
+use super::kernel::{self, Compute};
+use super::slot::Texture;
 
 /// What a target holds: half floats blend everywhere.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

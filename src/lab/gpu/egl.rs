@@ -6,8 +6,7 @@ use std::sync::OnceLock;
 use glow::HasContext;
 use khronos_egl as egl;
 
-use super::adapter::{Adapter, AdapterKind, Backend, OPENGL_PACKAGES};
-use super::fault::DeviceFault;
+use super::adapter::{Adapter, AdapterKind, Backend, DeviceFault, OPENGL_PACKAGES};
 use super::quiet::hush;
 
 pub(super) type Egl = egl::DynamicInstance<egl::EGL1_5>;

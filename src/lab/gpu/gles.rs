@@ -5,10 +5,10 @@ use std::rc::Rc;
 
 use glow::{HasContext, PixelUnpackData};
 
+use super::adapter::DeviceFault;
 use super::egl::Context;
-use super::fault::DeviceFault;
 use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
-use super::texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+use super::slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 
 /// Cosines of a draw.
 const BLOCK: usize = 1 << 18;

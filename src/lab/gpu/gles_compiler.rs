@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glow::HasContext;
 use khronos_egl as egl;
 
+use super::adapter::DeviceFault;
 use super::egl::{Egl, absent, address, enter, library};
-use super::fault::DeviceFault;
 use super::gles::build;
 
 /// A context on a render node. It lives as long as the process.

@@ -8,10 +8,8 @@
 //! Nothing is linked. What is not there is a [`DeviceFault`] that says what to install, never a result.
 
 mod adapter;
-mod compute;
 mod draw;
 mod egl;
-mod fault;
 mod gles;
 mod gles_compiler;
 mod kernel;
@@ -20,18 +18,14 @@ mod passthrough;
 mod program;
 mod quiet;
 mod slot;
-mod stream;
-mod texture;
 mod vulkan_compiler;
 
-pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
+pub use adapter::{Adapter, AdapterKind, Backend, DeviceFault, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
-pub use fault::DeviceFault;
 pub use gles_compiler::GlesCompiler;
 pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
-pub use program::{Argument, Program, ShaderCode, Uniform};
-pub use stream::Stream;
-pub use texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+pub use program::{Argument, Program, ShaderCode, Stream, Uniform};
+pub use slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
 use std::rc::Rc;
@@ -46,7 +40,7 @@ pub struct Device {
 }
 
 enum Stack {
-    Compute(Rc<compute::Compute>),
+    Compute(Rc<kernel::Compute>),
     Gles(Rc<egl::Context>),
 }
 
@@ -74,7 +68,7 @@ impl Device {
             return Device::gles();
         }
         let found = adapter::choose(wanted)?;
-        let compute = compute::Compute::open(found)?;
+        let compute = kernel::Compute::open(found)?;
         Ok(Device {
             adapter: compute.adapter.clone(),
             stack: Stack::Compute(Rc::new(compute)),

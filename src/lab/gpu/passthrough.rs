@@ -1,9 +1,8 @@
 //! SPIR-V handed to the driver as it is.
 #![allow(unsafe_code)]
 
-use super::adapter::Backend;
-use super::compute::Compute;
-use super::fault::DeviceFault;
+use super::adapter::{Backend, DeviceFault};
+use super::kernel::Compute;
 
 /// The first word of every module, the number of words before the first instruction, and what a compute entry point
 /// begins with. Source: Khronos Group, *SPIR-V Specification*, version 1.6, 2021, sections 2.3, 3.3 and 3.42.5,

@@ -8,7 +8,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
-use super::fault::DeviceFault;
+use super::adapter::DeviceFault;
 
 /// A device that compiles. It lives as long as the process: drivers leave threads behind.
 pub struct VulkanCompiler {

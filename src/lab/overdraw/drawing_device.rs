@@ -2,14 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::clock::timed;
+use super::measure::Reading;
+use super::plan::{Drawing, DrawingPlan};
 use crate::lab::gpu::{
     AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat,
     TextureShape, Wrap,
 };
-
-use super::clock::timed;
-use super::measure::Reading;
-use super::plan::{Drawing, DrawingPlan};
 
 /// Pixels a side where nothing is said: a processor is busy with little, a card is not.
 const ON_A_PROCESSOR: u32 = 256;

@@ -1,15 +1,19 @@
 //! Who draws for the measurement: a process of its own, and a new one whenever it hangs or falls over.
+//!
+//! What the process that draws is asked, and what it answers.
+//!
+//! The process that draws: opens the device, and answers what it is and how long its drawings take.
 
-use core::time::Duration;
-use std::collections::BTreeSet;
-
-use crate::lab::process::{Launch, Silence, Surroundings, Worker};
-
-use super::drawing_device::DeviceFacts;
-use super::error::Error;
+use super::drawing_device::{DeviceFacts, DrawingDevice};
 use super::measure::{Draw, Reading, Stop};
 use super::plan::DrawingPlan;
-use super::protocol::{DrawRequest, DrawResponse};
+use super::row::Error;
+use crate::lab::gpu::{AdapterKind, Backend, Device, DeviceFault, Wanted};
+use crate::lab::process::{Inbox, Launch, Silence, Surroundings, Worker};
+use core::time::Duration;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::io;
 
 /// How long opening a device and compiling a shader may take: both are seconds where they are slow.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -125,5 +129,86 @@ fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
         Ok(DrawResponse::Reading(_)) => Err(Error::Protocol),
         Err(Silence::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
         Err(Silence::Ended(status)) => Err(Error::Ended(status)),
+    }
+}
+
+/// What it is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DrawRequest {
+    /// What it draws on.
+    Device,
+    /// A reading.
+    Draw {
+        /// The place of a drawing in the plan.
+        drawing: usize,
+        /// How often it is drawn.
+        draws: u32,
+    },
+}
+
+/// What it answers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum DrawResponse {
+    /// What it draws on.
+    Device(DeviceFacts),
+    /// A reading.
+    Reading(Reading),
+    /// Something is missing on this machine.
+    Absent(String),
+    /// The shader or the device failed.
+    Failed(String),
+}
+
+impl From<DeviceFault> for DrawResponse {
+    fn from(fault: DeviceFault) -> DrawResponse {
+        match fault {
+            DeviceFault::Absent { .. } | DeviceFault::Unable { .. } => {
+                DrawResponse::Absent(fault.to_string())
+            }
+            _ => DrawResponse::Failed(fault.to_string()),
+        }
+    }
+}
+
+/// Serves until the supervisor is gone. Only drawings of the plan are drawn; what is planned depends on whether the device is software.
+///
+/// # Errors
+/// The pipe is gone.
+pub fn serve(
+    inbox: Inbox,
+    plan: &dyn Fn(bool) -> DrawingPlan,
+    wanted: &Wanted,
+    size: Option<u32>,
+) -> io::Result<()> {
+    let opened = open(wanted);
+    let plan = &plan(
+        opened
+            .as_ref()
+            .is_ok_and(|device| device.adapter.kind == AdapterKind::Software),
+    );
+    let mut device = opened.and_then(|device| DrawingDevice::new(plan, &device, size));
+    inbox.serve(|request| match (&mut device, request) {
+        (Err(fault), _) => fault.clone().into(),
+        (Ok(device), DrawRequest::Device) => DrawResponse::Device(device.facts()),
+        (Ok(_), DrawRequest::Draw { drawing, .. }) if drawing >= plan.drawings.len() => {
+            DrawResponse::Failed("the plan has no such drawing".to_owned())
+        }
+        (Ok(device), DrawRequest::Draw { drawing, draws }) => device
+            .draw(drawing, draws)
+            .map_or_else(DrawResponse::from, DrawResponse::Reading),
+    })
+}
+
+/// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
+fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
+    let opengl = Wanted {
+        backend: Some(Backend::OpenGl),
+        ..wanted.clone()
+    };
+    match Device::open(wanted) {
+        Err(fault @ DeviceFault::Absent { .. }) if wanted.backend.is_none() => {
+            Device::open(&opengl).map_err(|_| fault)
+        }
+        opened => opened,
     }
 }

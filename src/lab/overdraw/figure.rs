@@ -2,10 +2,9 @@
 
 use serde::Serialize;
 
-use crate::physics::num::statistics::{interval, median, quantile, resamples, spread};
-
 use super::measure::{Clock, MeasuredDrawings};
 use super::plan::{DrawingPlan, DrawnChain};
+use crate::physics::num::statistics::{interval, median, quantile, resamples, spread};
 
 /// Interference only lengthens a reading, so we take the 10th percentile: the very quickest reading is a matter of luck.
 const QUICK: f64 = 0.1;

@@ -1,6 +1,7 @@
 //! What is measured: functions, and what is drawn for them. Worker and supervisor come to the same from the same flags, so that
 //! a number names a drawing.
 
+use super::plan::{DrawingPlan, TimedFunction};
 use crate::generator::emit::{
     Bounds, Emitted, Error, Naming, library_functions, specialised_function,
 };
@@ -9,8 +10,6 @@ use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::REFERENCE;
 use crate::language::methods::{self, Class, Method, Values};
 use crate::physics::num::Precision;
-
-use super::plan::{DrawingPlan, TimedFunction};
 
 /// What lies below everything: the dearest of the library.
 const HEAVY: &str = "conductor_from_f0_f82";

@@ -5,9 +5,8 @@ use core::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::physics::num::statistics::{median, quantile};
-
 use super::plan::DrawingPlan;
+use crate::physics::num::statistics::{median, quantile};
 
 /// How many readings decide how often a shader is drawn, and by which clock.
 const TRIALS: usize = 3;

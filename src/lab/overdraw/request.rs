@@ -1,13 +1,11 @@
 //! What `time` is asked for: from the names of methods and materials to the functions that are drawn.
 
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::{Materials, Request, Source};
 use crate::lab::overdraw::{LibraryMaterials, TimedFunctions};
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
-
-use crate::generator::error::Error;
-use crate::generator::fault::RequestFault;
-use crate::generator::request::{Materials, Request, Source};
 
 /// Materials that functions are specialised to where none is named: a metal and a dielectric.
 const USUAL: [&str; 2] = ["gold", "water"];

@@ -1,16 +1,21 @@
 //! What a function costs by overdraw, as a row of reports.
-
-use serde::Serialize;
-
-use crate::generator::emit::FunctionForm;
-use crate::language::ir::Ty;
-use crate::physics::num::Precision;
+//!
+//! Why nothing can be drawn.
+//!
+//! The record of times: what `fresnel-gen time` measured, and on what. `tests/times` writes it.
 
 use super::drawing_device::DeviceFacts;
 use super::figure::OverdrawFigure;
 use super::functions::TimedFunctions;
 use super::measure::{Clock, MeasuredDrawings};
 use super::plan::TimedFunction;
+use crate::generator::emit::FunctionForm;
+use crate::lab::process;
+use crate::language::ir::Ty;
+use crate::physics::num::Precision;
+use crate::physics::records;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// A function and what it costs.
 #[derive(Clone, Debug, Serialize)]
@@ -130,6 +135,87 @@ impl TimeRow {
                 Some("an interval takes 29 rounds".to_owned())
             }
             Ok(_) => None,
+        }
+    }
+}
+
+/// Why nothing can be drawn.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// The process that draws cannot be started.
+    #[error(transparent)]
+    Process(#[from] process::Error),
+    /// There is no graphics device, or its driver fails: what it said.
+    #[error("{0}")]
+    Device(String),
+    /// The process that should open the device answers another question.
+    #[error("a process that does not greet")]
+    Protocol,
+    /// The driver hangs.
+    #[error("no graphics device opened within {0} s: its driver hangs")]
+    Hangs(u64),
+    /// The driver takes its process down.
+    #[error("the process that opens the graphics device ended ({0}): its driver failed")]
+    Ended(String),
+}
+
+impl Error {
+    /// Whether the machine lacks something; otherwise the user's words are at fault.
+    pub fn is_lacking(&self) -> bool {
+        match self {
+            Error::Process(error) => error.is_lacking(),
+            _ => true,
+        }
+    }
+}
+
+static RECORD: &str = include_str!("../../../data/records/times.csv");
+
+/// A line of the record.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Time {
+    /// The method.
+    pub method: String,
+    /// The material that it is specialised to; empty for the library.
+    pub material: String,
+    /// What it takes and gives.
+    pub form: FunctionForm,
+    /// 1 or 3.
+    pub channels: u8,
+    /// What it computes in.
+    pub precision: Precision,
+    /// Nanoseconds a pixel of a draw that evaluates it once.
+    pub ns_per_pixel: f64,
+    /// Its net cost over that of `dielectric_exact`.
+    pub share: f64,
+    /// The range of the middle half of single rounds' shares, over their median.
+    pub spread: f64,
+    /// The device.
+    pub device: String,
+    /// Its driver.
+    pub driver: String,
+}
+
+/// All lines, in the record's order.
+pub fn times() -> Vec<Time> {
+    records::rows(RECORD)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::methods;
+
+    #[test]
+    fn every_line_of_the_record_is_read() {
+        for time in times() {
+            assert!(methods::find(&time.method).is_some(), "{time:?}");
+            assert_eq!(
+                time.channels == 1,
+                time.form == FunctionForm::Scalar,
+                "{time:?}"
+            );
+            assert!(time.share > 0.0 && time.spread >= 0.0, "{time:?}");
         }
     }
 }

@@ -4,16 +4,10 @@
 //! milliseconds that the response may take. `Worker` asks, `Inbox` answers, `Pool` shares jobs out among workers.
 //! What requests and responses are, each room says in types of its own.
 
-mod error;
-mod inbox;
 mod pool;
 mod surroundings;
-mod tools;
 mod worker;
 
-pub use error::Error;
-pub use inbox::Inbox;
-pub use pool::{Pool, Task};
-pub use surroundings::Surroundings;
-pub use tools::{TEMPORARY, beside};
-pub use worker::{Launch, Silence, Worker};
+pub use pool::{Error, Pool, Task};
+pub use surroundings::{Surroundings, TEMPORARY, beside};
+pub use worker::{Inbox, Launch, Silence, Worker};

@@ -2,19 +2,19 @@
 //!
 //! The run holds a lock in its folder, and removes the folder at its end, and where a signal ends it too. A run that is killed leaves
 //! its folder behind. The next run removes every such folder whose lock is free.
+//!
+//! Where tools and temporary files lie.
 
+use super::pool::Error;
 use std::collections::BTreeSet;
-use std::env::{join_paths, split_paths, temp_dir, var_os};
+use std::env::{current_exe, join_paths, split_paths, temp_dir, var_os};
 use std::ffi::OsString;
 use std::fs::{self, File, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-
 use tempfile::TempDir;
-
-use super::error::Error;
 
 /// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";
@@ -251,6 +251,24 @@ mod signals {
     pub fn listen() {}
 }
 
+/// The variable that says where temporary files go.
+pub const TEMPORARY: &str = if cfg!(windows) { "TMP" } else { "TMPDIR" };
+
+/// The folders of tools that belong to this program: `tools` beside it and, where Cargo has built it, `tools` in the target
+/// folder, where `tests/run` puts what it fetches.
+pub fn beside() -> Vec<PathBuf> {
+    let program = current_exe().unwrap_or_default();
+    let Some(folder) = program.parent().filter(|folder| folder.is_absolute()) else {
+        return Vec::new();
+    };
+    // Cargo keeps its own notes beside a program, and one folder above a test.
+    let mut above = folder.ancestors().take(2);
+    let built = above.find(|folder| folder.join(".fingerprint").is_dir());
+    let target = built.and_then(Path::parent);
+    let places = [Some(folder), target].into_iter().flatten();
+    places.map(|place| place.join("tools")).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use std::time::SystemTime;
@@ -300,5 +318,17 @@ mod tests {
         std::os::unix::fs::symlink(elsewhere.path(), &link).unwrap();
         sweep(place.path());
         assert!(link.exists() && elsewhere.path().join(LOCK).exists());
+    }
+}
+
+#[cfg(test)]
+mod tools_tests {
+    use super::*;
+
+    #[test]
+    fn tools_of_a_build_lie_beside_its_profiles() {
+        let target = current_exe().unwrap();
+        let target = target.ancestors().nth(3).unwrap();
+        assert!(beside().contains(&target.join("tools")));
     }
 }

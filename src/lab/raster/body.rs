@@ -11,7 +11,7 @@
 
 use glam::DVec3;
 
-use super::mesh::{Mesh, Vertex};
+use super::draw::{Mesh, Vertex};
 
 /// The longest side of a body's box, in metres.
 const EXTENT: f64 = 1.0;

@@ -12,26 +12,20 @@
 //! koeficijenata Frenelove refleksije u programima za senčenje", diploma thesis, University of Belgrade, 2014.
 
 mod body;
-mod camera;
 mod draw;
 mod ears;
 mod histogram;
-mod mesh;
 mod obj;
-mod painted;
 mod rendered_error;
-mod row;
-mod shown;
 
 pub use body::{Body, CUBE, RELIEF, SPHERE};
-pub use camera::{Camera, Lens, Turntable, rotated};
-pub use draw::{Frame, SurfacePoint, draw, surface_points, surface_points_of};
-pub use histogram::{BINS, CosineHistogram};
-pub use mesh::{Mesh, Vertex};
-pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
-pub use painted::{MAGNIFIED, Painted};
-pub use rendered_error::{
-    RelativeErrors, RenderedError, drawn_errors, mean_relative, rendered_error,
+pub use draw::{
+    Camera, Frame, Lens, Mesh, SurfacePoint, Turntable, Vertex, draw, rotated, surface_points,
+    surface_points_of,
 };
-pub use row::{ChannelErrors, SceneErrorRow};
-pub use shown::{Shown, shown};
+pub use histogram::{BINS, CosineHistogram, Shown, shown};
+pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
+pub use rendered_error::{
+    ChannelErrors, MAGNIFIED, Painted, RelativeErrors, RenderedError, SceneErrorRow, drawn_errors,
+    mean_relative, rendered_error,
+};

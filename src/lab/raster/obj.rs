@@ -12,8 +12,8 @@ use std::io::{self, BufRead, Read};
 use glam::DVec3;
 use thiserror::Error;
 
+use super::draw::{Mesh, Vertex};
 use super::ears::{MOST_CONCAVE, triangles_of_faces};
-use super::mesh::{Mesh, Vertex};
 
 /// A mesh has at most so many triangles, and as many corners.
 pub const MOST_TRIANGLES: usize = 4_000_000;

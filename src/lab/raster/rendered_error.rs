@@ -1,12 +1,16 @@
 //! The rendered error of a method: over the angles that pictures show.
+//!
+//! A row of the report: the error of a method on a material, over the angles that an object shows.
+//!
+//! A frame painted with reflectance: by a method, by the reference, and their difference.
 
+use super::draw::Frame;
+use super::histogram::{CosineHistogram, Shown};
 use crate::generator::fit::{arguments, table_of};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Checked, evaluate};
 use crate::physics::num::each_channel;
-
-use super::draw::Frame;
-use super::histogram::CosineHistogram;
+use serde::Serialize;
 
 /// Mean relative errors of the channels, as shares; none where the reference is 0 and the method says otherwise.
 pub type RelativeErrors = Option<[f64; 3]>;
@@ -91,4 +95,140 @@ pub fn mean_relative(got: &[[f64; 3]], want: &[[f64; 3]], weights: &[f64]) -> Re
     }
     let mean = sum.map(|sum| sum / total);
     mean.iter().all(|mean| mean.is_finite()).then_some(mean)
+}
+
+/// The rendered error of a method on a material.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneErrorRow {
+    /// The object: a body's name, or a file's.
+    pub object: String,
+    /// `turntable` or `fixed`.
+    pub view: &'static str,
+    /// Frames that show anything of it.
+    pub frames: usize,
+    /// The pixels that it covers in all of them.
+    pub pixels: u64,
+    /// The material, with its medium.
+    pub material: String,
+    /// The method.
+    pub method: String,
+    /// Mean relative errors in per cent.
+    pub mean_rel: Option<ChannelErrors>,
+    /// The largest absolute difference of a channel at an angle that is seen.
+    pub max_abs: f64,
+    /// The cosine at which it stands.
+    pub worst_cos: f64,
+    /// Why the mean is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<&'static str>,
+}
+
+/// Errors of three channels in per cent.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ChannelErrors {
+    /// Of each channel.
+    pub red: f64,
+    /// Of each channel.
+    pub green: f64,
+    /// Of each channel.
+    pub blue: f64,
+    /// Their mean.
+    pub mean: f64,
+    /// Their mean by what each adds to luminance in the working space: no error of luminance, in which channels make up for each other.
+    pub by_luminance: f64,
+}
+
+const NO_REFERENCE: &str = "the reference reflects nothing at an angle that is seen";
+
+impl SceneErrorRow {
+    /// A row. `luminance` are the weights of the channels.
+    pub fn new(
+        object: &str,
+        view: &'static str,
+        shown: &Shown,
+        [material, method]: [&str; 2],
+        error: &RenderedError,
+        luminance: [f64; 3],
+    ) -> SceneErrorRow {
+        let mean_rel = error.mean_rel.map(|shares| {
+            let [red, green, blue] = shares.map(|share| 100.0 * share);
+            ChannelErrors {
+                red,
+                green,
+                blue,
+                mean: (red + green + blue) / 3.0,
+                by_luminance: red * luminance[0] + green * luminance[1] + blue * luminance[2],
+            }
+        });
+        SceneErrorRow {
+            object: object.to_owned(),
+            view,
+            frames: shown.frames,
+            pixels: shown.pixels,
+            material: material.to_owned(),
+            method: method.to_owned(),
+            mean_rel,
+            max_abs: error.max_abs,
+            worst_cos: error.worst_cos,
+            reason: mean_rel.is_none().then_some(NO_REFERENCE),
+        }
+    }
+}
+
+/// How many times a difference is magnified, as in the thesis's figure 21.
+pub const MAGNIFIED: f64 = 8.0;
+
+/// A picture of three channels, row by row; what the object does not cover is 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Painted {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The channels of every pixel, linear.
+    pub pixels: Vec<[f64; 3]>,
+}
+
+impl Painted {
+    /// cos θ in all three channels.
+    pub fn angles(frame: &Frame) -> Painted {
+        let cosines = frame.covered.iter().map(|(_, cos_theta)| [*cos_theta; 3]);
+        Painted::new(frame, cosines)
+    }
+
+    /// The reference reflectance.
+    pub fn reference(frame: &Frame, reference: &ReferenceCurve) -> Painted {
+        let covered = frame.covered.iter();
+        Painted::new(
+            frame,
+            covered.map(|(_, cos_theta)| reference.at(*cos_theta)),
+        )
+    }
+
+    /// A function's reflectance.
+    pub fn function(frame: &Frame, function: &Checked, reference: &ReferenceCurve) -> Painted {
+        let cosines: Vec<f64> = frame.covered.iter().map(|(_, c)| *c).collect();
+        Painted::new(frame, values(function, reference, &cosines).into_iter())
+    }
+
+    /// The magnitude of the difference from another picture of the same size, magnified.
+    #[must_use]
+    pub fn difference(&self, other: &Painted) -> Painted {
+        let pixels = self.pixels.iter().zip(&other.pixels);
+        let difference = pixels.map(|(a, b)| each_channel(|i| MAGNIFIED * (a[i] - b[i]).abs()));
+        Painted {
+            size: self.size,
+            pixels: difference.collect(),
+        }
+    }
+
+    fn new(frame: &Frame, values: impl Iterator<Item = [f64; 3]>) -> Painted {
+        let [width, height] = frame.size.map(|side| side as usize);
+        let mut pixels = vec![[0.0; 3]; width * height];
+        for ((place, _), value) in frame.covered.iter().zip(values) {
+            pixels[*place as usize] = value;
+        }
+        Painted {
+            size: frame.size,
+            pixels,
+        }
+    }
 }

@@ -6,6 +6,8 @@
 
 use serde::Deserialize;
 
+use super::ThesisSection;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use crate::generator::emit::FunctionForm;
 use crate::lab::cost::{self, GpuCompiler, find};
 use crate::lab::overdraw::{Time, times};
@@ -13,9 +15,6 @@ use crate::language::methods;
 use crate::physics::num::Precision;
 use crate::physics::num::statistics::{least_squares, rank_correlation};
 use crate::physics::records;
-
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::{ThesisSection, thesis};
 
 const TIMES: &str = "table6_relative_time_percent";
 
@@ -98,7 +97,7 @@ impl Pairs {
                 .iter()
                 .map(|method| printed(family, method).map(share))
                 .collect(),
-            times: thesis::numbers(&[TIMES, device]),
+            times: comparison::numbers(&[TIMES, device]),
             counts: counts
                 .iter()
                 .map(|count| 100.0 * count / counts[0])
@@ -117,7 +116,7 @@ impl Pairs {
 }
 
 fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
-    let names = thesis::names(&[TIMES, "columns"]);
+    let names = comparison::names(&[TIMES, "columns"]);
     let Some(pairs) = Pairs::recorded(device, family) else {
         return unmeasured(device, family, &names);
     };
@@ -175,7 +174,7 @@ fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Compari
         Some(GpuCompiler::None(why)) => why,
         _ => "nothing is recorded",
     };
-    let times = thesis::numbers(&[TIMES, device]);
+    let times = comparison::numbers(&[TIMES, device]);
     let row = |(name, time): (&&'static str, &f64)| {
         ComparisonRow::new("table6", device, name)
             .thesis(Figure::Number(*time, 0, " %"))

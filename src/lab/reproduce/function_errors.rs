@@ -1,14 +1,13 @@
 //! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
 
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::rendered::Meter;
+use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
+use super::{ThesisSection, specialised};
 use crate::generator::fit::{thesis_error_in_floats, thesis_errors};
 use crate::generator::reference::{Derivation, THESIS_MATCHING_COS};
 use crate::language::methods::lambda;
 use crate::physics::materials::Channels;
-
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::luminance::{BY_LUMINANCE, by_luminance, mean};
-use super::meter::Meter;
-use super::{ThesisSection, specialised, thesis};
 
 const METALS: &str = "table2_function_error_metals_percent";
 const DIELECTRICS: &str = "table3_function_error_dielectrics_percent";
@@ -35,7 +34,7 @@ const AT_81: Derivation = Derivation {
     matching_cos: THESIS_MATCHING_COS,
 };
 const AT_84: Derivation = Derivation {
-    matching_cos: thesis::TEXT_MATCHING_COS,
+    matching_cos: comparison::TEXT_MATCHING_COS,
 };
 
 /// Table 2.
@@ -72,7 +71,7 @@ fn metal(name: &str, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
     let by_channel = percent(name, &channels, &wanted, angles, meter);
     let errors: Vec<f64> = by_channel.iter().copied().map(mean).collect();
     let [rescaled, corrected] =
-        ["rescaled", "corrected"].map(|column| thesis::number(&[METALS, name, column]));
+        ["rescaled", "corrected"].map(|column| comparison::number(&[METALS, name, column]));
     let mut rows = vec![
         rescaled_row(name, rescaled, errors[0]),
         explained(name, "corrected", corrected, errors[1], MATCHED_AT_81),
@@ -166,7 +165,7 @@ fn dielectric(name: &str, angles: usize, meter: &mut Meter) -> [ComparisonRow; 3
     let channels = specialised::channels(name);
     let wanted = [("schlick_ior", Derivation::default())];
     let errors = percent(name, &channels, &wanted, angles, meter);
-    let printed = thesis::number(&[DIELECTRICS, name, "schlick"]);
+    let printed = comparison::number(&[DIELECTRICS, name, "schlick"]);
     [
         must_agree("table3", name, "schlick", printed, mean(errors[0])),
         in_floats("table3", name, "schlick", printed, &channels, angles),

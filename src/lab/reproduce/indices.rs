@@ -1,7 +1,7 @@
 //! Table 1: the indices of refraction, as our material files hold them.
 
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::{ThesisSection, specialised, thesis};
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::{ThesisSection, specialised};
 
 /// The materials in the order of the thesis.
 const MATERIALS: [&str; 4] = ["gold", "platinum", "water", "diamond"];
@@ -37,7 +37,7 @@ fn unrounded(
     let ours = specialised::unrounded(page);
     let source = specialised::material(page).page;
     CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
-        let printed = thesis::numbers(&["table1_index", material, channel]);
+        let printed = comparison::numbers(&["table1_index", material, channel]);
         let apart = (ours.n[i] - printed[0])
             .abs()
             .max((ours.k[i] - printed[1]).abs());
@@ -59,7 +59,7 @@ fn unrounded(
 fn channel_rows(material: &'static str) -> impl Iterator<Item = ComparisonRow> {
     let ours = specialised::channels(material);
     CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
-        let printed = thesis::numbers(&["table1_index", material, channel]);
+        let printed = comparison::numbers(&["table1_index", material, channel]);
         let printed = [printed[0], printed[1]];
         let ours = [ours.n[i], ours.k[i]];
         ComparisonRow::new("table1", material, channel)

@@ -4,16 +4,15 @@
 //! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
 //! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::rendered::{self, Meter};
+use super::{ThesisSection, specialised};
 use crate::generator::lut::{
     Depth, LEAST_TEXELS, Stored, Table, TableAxis, ThesisMeasure, thesis_table_errors,
 };
 use crate::generator::reference::ReferenceCurve;
 use crate::language::methods::Light;
 use crate::physics::materials::Surface;
-
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::meter::Meter;
-use super::{ThesisSection, rendered, specialised, thesis};
 
 const METALS: &str = "table4_rendered_error_metals_percent";
 const DIELECTRICS: &str = "table5_rendered_error_dielectrics_percent";
@@ -91,7 +90,7 @@ struct ThesisMaterial<'a> {
 
 impl ThesisMaterial<'_> {
     fn new<'a>(table: &'static str, record: &str, name: &'a str) -> ThesisMaterial<'a> {
-        let printed = |object| thesis::number(&[record, name, object, "table"]);
+        let printed = |object| comparison::number(&[record, name, object, "table"]);
         let surface = Surface::of_channels(&specialised::channels(name));
         ThesisMaterial {
             table,

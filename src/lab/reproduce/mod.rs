@@ -5,26 +5,22 @@
 //!
 //! Pure: no disk, no terminal. A part is a file: to add one, write it and give it an entry in [`Part`].
 
-mod angle;
 mod claims;
-mod comparison;
+pub mod comparison;
 mod counts;
 mod figures;
 mod function_errors;
 mod indices;
 mod lookup_tables;
-mod luminance;
-mod meter;
 mod rendered;
 mod specialised;
-pub mod thesis;
 mod three_wavelengths;
 mod times;
 
 pub use comparison::{ComparisonRow, ComparisonVerdict, Figure};
 pub use figures::{DrawnCurve, POINTS as FIGURE_POINTS, ThesisFigure};
 
-use meter::Meter;
+use rendered::Meter;
 
 /// What can be reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,7 +128,7 @@ pub struct Reproduction {
     pub figures: Vec<ThesisFigure>,
 }
 
-/// Reproduces parts; function errors are taken at `angles` angles ([`thesis::ANGLES`] in the thesis).
+/// Reproduces parts; function errors are taken at `angles` angles ([`comparison::ANGLES`] in the thesis).
 /// `say` hears how far the work is: done, of how much, what.
 pub fn reproduce(
     parts: &[Part],

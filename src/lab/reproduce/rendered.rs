@@ -3,9 +3,12 @@
 //! The thesis drew a cube and a sculpture. Its cube is ours but for what it does not state: resolution, field of view, where the
 //! camera starts. Its sculpture was a download of 2014; a relief in closed form stands in its place, and beside both the closed form of
 //! any convex body, seen from everywhere.
+//!
+//! How far the work is, in angles.
 
-use std::sync::LazyLock;
-
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::specialised;
+use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
 use crate::generator::fit::arguments;
 use crate::generator::lut::{Depth, Stored, Table, TableAxis};
 use crate::generator::reference::{Derivation, ReferenceCurve, THESIS_MATCHING_COS};
@@ -14,11 +17,7 @@ use crate::language::ir::{Checked, Weights, evaluate};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::{Half, Num};
-
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::luminance::{BY_LUMINANCE, by_luminance, mean};
-use super::meter::Meter;
-use super::{specialised, thesis};
+use std::sync::LazyLock;
 
 /// The texels of the thesis's tables, as far as it draws one.
 const TEXELS: usize = 256;
@@ -145,7 +144,7 @@ impl Rendered<'_> {
         };
         let rescaled = function("schlick_rescaled", THESIS_MATCHING_COS);
         let corrected = function("schlick_corrected", THESIS_MATCHING_COS);
-        let as_in_text = function("schlick_corrected", thesis::TEXT_MATCHING_COS);
+        let as_in_text = function("schlick_corrected", comparison::TEXT_MATCHING_COS);
         vec![
             self.beside("rescaled", "rescaled", self.error(&rescaled)),
             self.beside("corrected", "corrected", self.error(&corrected)),
@@ -208,7 +207,7 @@ impl Rendered<'_> {
         let Some(object) = self.view.printed else {
             return row.thesis(Figure::Missing("the thesis does not derive it"));
         };
-        let printed = thesis::number(&[self.record, self.name, object, key]);
+        let printed = comparison::number(&[self.record, self.name, object, key]);
         let verdict = match ComparisonVerdict::of_digits(printed, ours, 2) {
             ComparisonVerdict::Differs => ComparisonVerdict::Explained,
             same => same,
@@ -258,4 +257,28 @@ impl Rendered<'_> {
 fn in_bytes(values: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let byte = |value: f64| f64::from(Depth::Unorm8.nearest(value));
     values.iter().map(|values| values.map(byte)).collect()
+}
+
+/// Counts angles and tells whoever asked.
+pub struct Meter<'a> {
+    done: usize,
+    whole: usize,
+    say: &'a mut dyn FnMut(u64, u64, &str),
+}
+
+impl<'a> Meter<'a> {
+    /// Nothing is done yet.
+    pub fn new(whole: usize, say: &'a mut dyn FnMut(u64, u64, &str)) -> Meter<'a> {
+        Meter {
+            done: 0,
+            whole,
+            say,
+        }
+    }
+
+    /// So many more angles are done.
+    pub fn add(&mut self, angles: usize, what: &str) {
+        self.done += angles;
+        (self.say)(self.done as u64, self.whole as u64, what);
+    }
 }

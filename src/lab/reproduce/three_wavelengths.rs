@@ -1,11 +1,17 @@
 //! Table 8: what it costs to take three wavelengths for a spectrum; and the third error, of three channels of colour.
+//!
+//! Errors of three channels as one: their mean, as the thesis takes it, and weighted by what each adds to luminance, which its
+//! last section leaves open.
+//!
+//! Source of the weights: ITU-R BT.709-6, 2015, <https://www.itu.int/rec/R-REC-BT.709>, from the chromaticities of sRGB. The
+//! thesis's three wavelengths are no primaries; its programs show them as if they were.
 
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::{ThesisSection, specialised};
 use crate::generator::fit;
 use crate::physics::materials::{Material, Surface, THESIS_NM, ViewingConditions};
-use crate::physics::spectra::{Gamut, Illuminant, Integration, Step};
-
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::{ThesisSection, specialised, thesis};
+use crate::physics::num::each_channel;
+use crate::physics::spectra::{Gamut, Illuminant, Integration, Space, Step};
 
 const TABLE: &str = "table8_three_wavelength_colour_error_percent";
 /// The thesis's metals, and the pages that it most probably took: gold and platinum are those of Table 1, aluminium
@@ -43,7 +49,7 @@ pub fn section() -> ThesisSection {
 }
 
 fn page_row((metal, page): (&'static str, &'static str)) -> ComparisonRow {
-    let printed = thesis::number(&[TABLE, metal]);
+    let printed = comparison::number(&[TABLE, metal]);
     let ours = 100.0 * three_against_all(&specialised::material(page));
     let verdict = match ComparisonVerdict::of_digits(printed, ours, 2) {
         ComparisonVerdict::Differs if (printed - ours).abs() < INFERRED => {
@@ -102,4 +108,19 @@ fn colour_errors(page: &'static str) -> Vec<ComparisonRow> {
     let thrice =
         thrice.map(|(light, error)| row(format!("under {}, 3 bounces", light.name()), error[2]));
     once.chain(thrice).collect()
+}
+
+/// Why the weighted figures stand there.
+pub const BY_LUMINANCE: &str = "the channels weighted by what they add to luminance in sRGB (.2126, .7152, .0722) and not by a third \
+    each: the question with which the thesis ends";
+
+/// The mean of three channels.
+pub fn mean(errors: [f64; 3]) -> f64 {
+    errors.iter().sum::<f64>() / 3.0
+}
+
+/// The mean of three channels by luminance.
+pub fn by_luminance(errors: [f64; 3]) -> f64 {
+    let weights = Space::Srgb.rgb_to_xyz().row(1).to_array();
+    each_channel(|i| weights[i] * errors[i]).iter().sum()
 }

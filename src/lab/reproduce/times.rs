@@ -3,8 +3,8 @@
 //! Each of Table 7's seven columns, over the first, must be one of Table 6's. Which one is not taken from anywhere:
 //! it is the column with the least largest deviation over the five devices.
 
-use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use super::{ThesisSection, thesis};
+use super::ThesisSection;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 
 const RELATIVE: &str = "table6_relative_time_percent";
 const ABSOLUTE: &str = "table7_absolute_ms";
@@ -12,7 +12,7 @@ const ABSOLUTE: &str = "table7_absolute_ms";
 /// Table 7 over its first column, beside Table 6.
 pub fn section() -> ThesisSection {
     let order = order();
-    let devices = thesis::devices(ABSOLUTE);
+    let devices = comparison::devices(ABSOLUTE);
     let worst = |places: &[usize]| {
         let pairs = places.iter().enumerate();
         let all = pairs.map(|(column, place)| deviation(column, *place));
@@ -35,7 +35,7 @@ pub fn section() -> ThesisSection {
 
 /// For each column of Table 7 as it stands, the column of Table 6 that it is.
 pub fn order() -> Vec<usize> {
-    let columns = thesis::names(&[RELATIVE, "columns"]).len();
+    let columns = comparison::names(&[RELATIVE, "columns"]).len();
     let nearest = |column| {
         (0..columns).min_by(|a, b| deviation(column, *a).total_cmp(&deviation(column, *b)))
     };
@@ -44,21 +44,22 @@ pub fn order() -> Vec<usize> {
 
 /// Largest difference over the devices, in percentage points.
 fn deviation(column: usize, place: usize) -> f64 {
-    let devices = thesis::devices(ABSOLUTE).into_iter();
-    let differences = devices
-        .map(|device| (share(device, column) - thesis::numbers(&[RELATIVE, device])[place]).abs());
+    let devices = comparison::devices(ABSOLUTE).into_iter();
+    let differences = devices.map(|device| {
+        (share(device, column) - comparison::numbers(&[RELATIVE, device])[place]).abs()
+    });
     differences.fold(0.0, f64::max)
 }
 
 /// A time over the device's first one, in per cent.
 fn share(device: &str, column: usize) -> f64 {
-    let times = thesis::numbers(&[ABSOLUTE, device]);
+    let times = comparison::numbers(&[ABSOLUTE, device]);
     100.0 * times[column] / times[0]
 }
 
 fn device_rows(device: &'static str, order: &[usize]) -> Vec<ComparisonRow> {
-    let names = thesis::names(&[RELATIVE, "columns"]);
-    let printed = thesis::numbers(&[RELATIVE, device]);
+    let names = comparison::names(&[RELATIVE, "columns"]);
+    let printed = comparison::numbers(&[RELATIVE, device]);
     let row = |(column, place): (usize, &usize)| {
         let ours = share(device, column);
         let row = ComparisonRow::new("table7", device, names[*place])

@@ -1,12 +1,10 @@
 //! Maps: how wrong a method is over the angle and an index.
 
-use crate::language::methods::{Class, Method};
-use crate::physics::num::Precision;
-
-use super::axis::{ScanAxis, logarithmic};
 use super::failure::{Failure, ResultPoint};
 use super::scan::{Scan, ScannedFunction};
-use super::space::{ScanSpace, law};
+use super::space::{ScanAxis, ScanSpace, law, logarithmic};
+use crate::language::methods::{Class, Method};
+use crate::physics::num::Precision;
 
 /// Errors over angle and index.
 #[derive(Clone, Debug)]

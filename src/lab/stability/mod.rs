@@ -4,19 +4,16 @@
 //! itself (against the law). Points are media where the method has a law to be held against, and its arguments
 //! themselves, beyond what any medium gives them.
 
-mod axis;
 mod failure;
 mod map;
 mod region;
-mod row;
 mod scan;
 mod space;
 mod study;
 
-pub use axis::ScanAxis;
 pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;
-pub use row::StabilityRow;
 pub use scan::{Finding, ScanProgress, ScannedFunction, WorstPoint, scan, scan_specialised};
-pub use study::{Study, StudyProgress};
+pub use space::ScanAxis;
+pub use study::{StabilityRow, Study, StudyProgress};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::axis::ScanAxis;
+use super::space::ScanAxis;
 
 /// A grid of up to four axes, and at each point by how much it fails; 0 where it does not.
 #[derive(Clone, Debug)]

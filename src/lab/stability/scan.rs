@@ -1,14 +1,12 @@
 //! The scan: a method at all points of its spaces, in a kind of number, against what it means in f64 and against the law.
 
+use super::failure::{Failure, NEAR, ResultPoint, is_flushed};
+use super::region::{FailureGrid, Region};
+use super::space::{ScanAxis, ScanPoint, ScanSpace, dense, is_lawful, law, spaces};
+use crate::lab::verify::limits;
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::Method;
 use crate::physics::num::{Half, Num, Precision, in_parallel};
-
-use super::axis::{ScanAxis, dense};
-use super::failure::{Failure, NEAR, ResultPoint, is_flushed};
-use super::region::{FailureGrid, Region};
-use super::space::{ScanPoint, ScanSpace, is_lawful, law, spaces};
-use crate::lab::verify::limits;
 
 /// A failure of a method, and where it happens.
 #[derive(Clone, Debug)]

@@ -3,14 +3,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::points::{Random, cosines};
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
 use crate::language::ir::{Checked, Ty, Value, evaluate};
 use crate::language::methods::{Class, Contract, Input, Method, Over};
 use crate::physics::materials::Channels;
 use crate::physics::num::{Precision, ulp_distance};
-
-use super::points::{Random, cosines};
 
 /// How far the code is from what it means.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,6 +2,11 @@
 
 use std::cell::OnceCell;
 
+use super::judge::{PathRun, RanFunction};
+use super::requested::{PlannedFile, VerifyPlan};
+use super::row::VerifyRow;
+use super::run;
+use super::trial::{TrialCase, cases};
 use crate::generator::emit::Emitted;
 use crate::generator::fit::{self, ModelError};
 use crate::generator::reference::ReferenceCurve;
@@ -11,12 +16,6 @@ use crate::lab::verify::{Outcome, beyond, cosines_around, share};
 use crate::language::ir::Column;
 use crate::language::targets::Stack;
 use crate::physics::num::each_channel;
-
-use super::half_run;
-use super::judge::{PathRun, RanFunction};
-use super::plan::{PlannedFile, VerifyPlan};
-use super::row::VerifyRow;
-use super::trial_case::{TrialCase, cases};
 
 /// How a file is tried.
 #[derive(Clone, Copy, Debug)]
@@ -166,7 +165,7 @@ impl<'a> FileTrial<'a> {
             &other
         };
         if self.emitted.precision.is_half() {
-            let ran = half_run::run_in_half(runnable, &shown, &case.trial)?;
+            let ran = run::run_in_half(runnable, &shown, &case.trial)?;
             let device = self
                 .devices
                 .device_for(shown.target, path)?

@@ -2,15 +2,14 @@
 //! same f16 inputs. Most graphics stacks of desktops compute in f32 whatever the text says, so that this emulation is
 //! the judge, at every f16 from 0 to 1.
 
+use super::code_error::random_medium;
+use super::points::Random;
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
 use crate::language::ir::{Checked, Param, Texels, Ty, Value, evaluate};
 use crate::language::methods::Method;
 use crate::physics::materials::Channels;
 use crate::physics::num::{Half, Num, Precision};
-
-use super::code_error::random_medium;
-use super::points::Random;
 
 /// How far half precision is from what is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,14 @@
 //! Harnesses: what is put around the text of a file so that one of its functions can be run over cosines. The text itself
 //! stays as it is, to the byte. What each language puts around it stands in its target's [`Harness`].
+//!
+//! Pairs as an object of JSON, in order.
 
+use super::naga_translation::Gles;
 use crate::generator::emit::{Emitted, uniform_offsets};
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
 use crate::physics::num::Precision;
-
-use super::naga_translation::Gles;
+use serde::{Serialize, Serializer};
 
 /// A function as a harness calls it.
 #[derive(Clone, Copy, Debug)]
@@ -176,4 +178,15 @@ pub fn renamed(made: &Gles) -> String {
             Some(from) => text.replace(from.as_str(), to),
             None => text,
         })
+}
+
+/// Writes names with what is said of each as an object, in order.
+///
+/// # Errors
+/// The writer refuses.
+pub fn as_object<S: Serializer, K: Serialize, T: Serialize>(
+    pairs: &[(K, T)],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }

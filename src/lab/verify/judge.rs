@@ -1,19 +1,17 @@
 //! What came of running a function, and what to think of it: both errors, never added, and who accepts its file.
 
+use super::compilers::Verdict;
+use super::effect_trial::EffectOutcome;
+use super::requested::{PlannedFile, ShippedPage};
+use super::row::{
+    AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
+    ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
+};
+use super::run::{ExecutionPath, RunFault};
+use super::{HalfError, Miss, Outcome};
 use crate::generator::emit::{CodeBound, Emitted, fingerprint};
 use crate::generator::fit::{Measured, ModelError};
 use crate::physics::num::Precision;
-
-use super::compilers::Verdict;
-use super::effect_trial::EffectOutcome;
-use super::plan::{PlannedFile, ShippedPage};
-use super::row::{
-    AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
-    ModelErrorFigures, SecondOpinion, VerifyRow, finite,
-};
-use super::run::{ExecutionPath, RunFault};
-use super::status::Status;
-use super::{HalfError, Miss, Outcome};
 
 /// What came of running a function by one execution path.
 #[derive(Clone, Debug)]

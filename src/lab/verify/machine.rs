@@ -1,5 +1,15 @@
 //! What verification needs of the machine: the environment, a clock.
+//!
+//! What a machine has of what files take: devices with their drivers, compilers with their versions. Rows of machines that have
+//! other ones are no single run.
 
+use super::compilers;
+use super::run::{Devices, ExecutionPath};
+use crate::generator::fit::Measured;
+use crate::language::targets::{Compiler, DXC, Stack, Target};
+use crate::physics::num::Precision;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 /// Whether GitHub runs this, and reads annotations.
@@ -22,4 +32,136 @@ pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 /// How many workers a machine takes.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// What a machine has and what it lacks: by target, and by target and what else looks at its files.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MachineStatement {
+    /// The device with its driver, or the version of the compiler.
+    pub has: BTreeMap<String, String>,
+    /// Why it is not here.
+    pub lacks: BTreeMap<String, String>,
+}
+
+impl MachineStatement {
+    /// What is here to run a target's text by these paths, and nothing else.
+    pub fn of_devices(target: &Target, paths: &[ExecutionPath], devices: &Devices) -> Self {
+        let mut stated = MachineStatement::default();
+        let is_run = !matches!(target.stack, Stack::None);
+        for path in paths.iter().filter(|_| is_run) {
+            let device = devices.device_for(target, *path);
+            let stands = match device {
+                Ok(device) => Measured::Yes(device.adapter.to_string()),
+                Err(why) => Measured::No(why.to_string()),
+            };
+            stated.enter(path_name(target, *path), stands);
+        }
+        stated
+    }
+
+    /// All that is here for a target's files: devices and compilers.
+    pub fn of_target(target: &Target, precision: Precision, devices: &Devices) -> Self {
+        let paths = ExecutionPath::all_for(target, precision);
+        let mut stated = MachineStatement::of_devices(target, paths, devices);
+        for validator in target.validators_in(precision) {
+            let name = format!("{} by {}", target.name, validator.name);
+            stated.enter(name, compiler_here(validator.compiler));
+        }
+        if paths.contains(&ExecutionPath::NagaHlsl) {
+            let name = path_name(target, ExecutionPath::NagaHlsl) + " through DXC";
+            stated.enter(name, compiler_here(&DXC));
+        }
+        stated
+    }
+
+    fn enter(&mut self, name: String, stands: Measured<String>) {
+        match stands {
+            Measured::Yes(what) => self.has.insert(name, what),
+            Measured::No(why) => self.lacks.insert(name, why),
+        };
+    }
+
+    /// Adds what another statement of the same machine says.
+    pub fn add(&mut self, other: MachineStatement) {
+        self.has.extend(other.has);
+        self.lacks.extend(other.lacks);
+    }
+
+    /// Whether a target lacks anything.
+    pub fn lacks_for(&self, target: &str) -> bool {
+        let is_its = |name: &String| name.split(' ').next() == Some(target);
+        self.lacks.keys().any(is_its)
+    }
+
+    /// The first thing that both speak of and that is not the same on both machines: its name, and what each says of it.
+    pub fn difference(&self, other: &MachineStatement) -> Option<(&str, String, String)> {
+        let names = self.has.keys().chain(self.lacks.keys());
+        names
+            .filter_map(|name| Some((name.as_str(), self.words(name)?, other.words(name)?)))
+            .find(|(_, here, there)| here != there)
+    }
+
+    fn words(&self, name: &str) -> Option<String> {
+        let lacks = || self.lacks.get(name).map(|why| format!("nothing ({why})"));
+        self.has.get(name).cloned().or_else(lacks)
+    }
+}
+
+/// The version of a compiler; one that is here and does not tell it is not missing.
+fn compiler_here(compiler: &Compiler) -> Measured<String> {
+    match compilers::version(compiler) {
+        Measured::No(why) if compilers::is_here(compiler) => Measured::Yes(why),
+        version => version,
+    }
+}
+
+fn path_name(target: &Target, path: ExecutionPath) -> String {
+    match path {
+        ExecutionPath::Own => target.name.to_owned(),
+        path => format!("{} by {}", target.name, path.name()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stated(has: &[(&str, &str)], lacks: &[(&str, &str)]) -> MachineStatement {
+        let map = |pairs: &[(&str, &str)]| {
+            let owned = |(name, what): &(&str, &str)| ((*name).to_owned(), (*what).to_owned());
+            pairs.iter().map(owned).collect()
+        };
+        MachineStatement {
+            has: map(has),
+            lacks: map(lacks),
+        }
+    }
+
+    #[test]
+    fn what_only_one_speaks_of_is_no_difference() {
+        let one = stated(&[("wgsl", "a card"), ("gles", "a card")], &[]);
+        let other = stated(&[("wgsl", "a card")], &[("hlsl by DXC", "no DXC here")]);
+        assert_eq!(one.difference(&other), None);
+        assert_eq!(other.difference(&one), None);
+    }
+
+    #[test]
+    fn another_device_is_a_difference_and_so_is_none() {
+        let one = stated(&[("wgsl", "a card")], &[]);
+        let words = |other: &MachineStatement| {
+            let (name, here, there) = one.difference(other).unwrap();
+            format!("{name}: {here}, {there}")
+        };
+        let another = stated(&[("wgsl", "another")], &[]);
+        assert_eq!(words(&another), "wgsl: a card, another");
+        let none = stated(&[], &[("wgsl", "no driver")]);
+        assert_eq!(words(&none), "wgsl: a card, nothing (no driver)");
+    }
+
+    #[test]
+    fn a_target_lacks_what_its_name_begins() {
+        let lacks = stated(&[], &[("hlsl by DXC", "no DXC here")]);
+        assert!(lacks.lacks_for("hlsl"));
+        assert!(!lacks.lacks_for("hls") && !lacks.lacks_for("wgsl"));
+    }
 }

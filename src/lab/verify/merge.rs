@@ -10,12 +10,10 @@ use thiserror::Error;
 
 use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::lab::verify::VerifyRow;
-use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard};
-use crate::lab::verify::shard_report::ShardReport;
+use crate::lab::verify::row::Error;
+use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardReport};
 use crate::physics::foreign::{self, Foreign, one_line};
 use crate::physics::materials::FileFault;
-
-use crate::lab::verify::error::Error;
 
 /// The beginning of the command of a verification.
 const COMMAND: &str = "verify";

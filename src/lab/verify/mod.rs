@@ -5,68 +5,49 @@
 //! text itself runs, on a real graphics stack.
 //!
 //! Shaders run in processes of their own, so that one that never ends, or that takes its driver down, is a row of the
-//! report and no more. All processes make the same [`VerifyPlan`](plan::VerifyPlan) from the same flags; a number names a file of it.
+//! report and no more. All processes make the same [`VerifyPlan`](requested::VerifyPlan) from the same flags; a number names a file of it.
 
 mod code_error;
 pub mod compilers;
-pub mod dealt;
-mod difference;
 pub mod drift;
-pub mod effect_points;
-mod effect_run;
 pub mod effect_trial;
-mod error;
-mod exhaustive;
 pub mod file;
 mod half;
-mod half_run;
 pub mod harness;
 mod judge;
 mod listed;
 pub mod machine;
 pub mod merge;
-pub mod module;
 pub mod naga_translation;
-mod object;
 pub mod outline;
-pub mod plan;
 mod points;
 pub mod requested;
 mod row;
 pub mod run;
 pub mod shard;
-pub mod shard_report;
 mod shipped;
-mod statement;
-mod status;
 mod supervise;
 mod sweep;
 mod trial;
-mod trial_case;
-mod worker;
-mod worst;
 
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error,
     library_code_error_at, random_medium,
 };
-pub use error::Error;
-pub use exhaustive::exhaustive_rows;
 pub use half::{
     HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
     nearest_half,
 };
-pub use object::as_object;
-pub use points::{Random, WITHIN, beyond, cosines, cosines_around, limits, share};
-pub use row::{
-    AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow,
-    WORST,
+pub use harness::as_object;
+pub use machine::MachineStatement;
+pub use points::{
+    Random, WITHIN, beyond, cosines, cosines_around, limits, share, worst_cases, worst_cosines,
+    worst_media,
 };
-pub use statement::MachineStatement;
-pub use status::Status;
-pub use supervise::supervise;
-pub use sweep::{count, sweep};
-pub use trial::{Expected, Miss, Outcome, Trial, result_range};
-pub use trial_case::material_trial;
-pub use worker::serve;
-pub use worst::{worst_cases, worst_cosines, worst_media};
+pub use row::{
+    AllowedError, Answer, CodeErrorFigures, Emulation, Error, ModelErrorFigures, SecondOpinion,
+    Status, VerifyRow, WORST,
+};
+pub use supervise::{serve, supervise};
+pub use sweep::{count, exhaustive_rows, sweep};
+pub use trial::{Expected, Miss, Outcome, Trial, material_trial, result_range};

@@ -9,9 +9,8 @@ use naga::back::{glsl, hlsl};
 use naga::proc::BoundsCheckPolicies;
 use naga::{GlobalVariable, Handle, Module, ShaderStage, TypeInner};
 
-use crate::generator::emit::validate_wgsl;
-
 use super::compilers::CompilerFault;
+use crate::generator::emit::validate_wgsl;
 
 /// `@group` and `@binding` of a variable in the WGSL.
 pub type Binding = (u32, u32);

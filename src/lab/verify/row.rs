@@ -1,18 +1,22 @@
 //! The rows of the report, and their parts. A worker hands them to its supervisor as JSON.
-
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use serde_json::{Map, Value};
-
-use crate::generator::fit::ModelError;
+//!
+//! What to think of a function that was checked, or could not be.
+//!
+//! Why nothing can be verified as it was asked for.
 
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
-use super::object::as_object;
-use super::status::Status;
+use super::harness::as_object;
+use super::merge::MergeFault;
 use super::{CodeError, HalfError};
 use crate::generator::emit::FunctionForm;
+use crate::generator::fit::ModelError;
+use crate::physics::materials::FileFault;
 use crate::physics::num::Precision;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::{Map, Value};
+use thiserror::Error;
 
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";
@@ -298,4 +302,43 @@ impl From<&ModelError> for ModelErrorFigures {
             undefined: error.undefined,
         }
     }
+}
+
+/// What to think of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// It does what it should.
+    Pass,
+    /// It does not.
+    Fail,
+    /// It was not run.
+    NotChecked,
+}
+
+impl Status {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Status::Pass => "pass",
+            Status::Fail => "fail",
+            Status::NotChecked => "not checked",
+        }
+    }
+}
+
+/// Why nothing can be verified as it was asked for.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// No function can be run at all numbers.
+    #[error(
+        "--exhaustive runs functions specialised to a material in WGSL: name both, and leave --target out or name wgsl"
+    )]
+    NothingExhaustive,
+    /// Reports of shards that are not those of one run.
+    #[error(transparent)]
+    Merge(#[from] Box<MergeFault>),
+    /// A report that is no report.
+    #[error(transparent)]
+    File(#[from] FileFault),
 }

@@ -8,14 +8,12 @@ use crate::generator::error::Error;
 use crate::generator::generate::Made;
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Manifest};
-use crate::lab::verify::outline::{Item, Outline, outline};
-use crate::lab::verify::plan::ShippedPage;
-use crate::lab::verify::{drift, module};
+use crate::lab::verify::drift;
+use crate::lab::verify::listed::{self, Listed};
+use crate::lab::verify::outline::{self, Item, Outline};
+use crate::lab::verify::requested::ShippedPage;
 use crate::language::targets;
 use crate::physics::foreign::Foreign;
-
-use crate::lab::verify::difference;
-use crate::lab::verify::listed::Listed;
 
 /// The version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -98,9 +96,9 @@ impl Folder<'_> {
     pub fn functions_in(&self, path: &str) -> Result<Vec<String>, Error> {
         let bytes = folder::read(&self.path.join(path))?.unwrap_or_default();
         if path.ends_with(".spv") {
-            return Ok(module::names(&bytes));
+            return Ok(outline::names(&bytes));
         }
-        let found = outline(&String::from_utf8_lossy(&bytes), nests(path));
+        let found = outline::outline(&String::from_utf8_lossy(&bytes), nests(path));
         Ok(found.functions())
     }
 
@@ -281,9 +279,9 @@ impl<'a> Today<'a> {
     fn difference(&self, bytes: &[u8]) -> String {
         let today = &self.made.artifact.bytes;
         if self.is_module() {
-            return difference::of_modules(bytes, today).to_owned();
+            return listed::of_modules(bytes, today).to_owned();
         }
-        difference::of_texts(
+        listed::of_texts(
             &String::from_utf8_lossy(bytes),
             &String::from_utf8_lossy(today),
         )
@@ -292,18 +290,18 @@ impl<'a> Today<'a> {
     fn outline(&self, bytes: &[u8]) -> Outline {
         if self.is_module() {
             return Outline {
-                declared: module::declarations(bytes),
-                loops: module::loops(bytes),
+                declared: outline::declarations(bytes),
+                loops: outline::loops(bytes),
                 ..Outline::default()
             };
         }
         let nests = nests(&self.made.artifact.path);
-        outline(&String::from_utf8_lossy(bytes), nests)
+        outline::outline(&String::from_utf8_lossy(bytes), nests)
     }
 
     fn held(&self, bytes: &[u8], found: &Outline) -> Vec<String> {
         if self.is_module() {
-            return module::entry_points(bytes);
+            return outline::entry_points(bytes);
         }
         found.functions()
     }

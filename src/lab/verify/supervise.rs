@@ -1,14 +1,20 @@
 //! The supervisor: hands files to workers, and ends those that come to no end.
+//!
+//! A worker: answers the numbers of files with their rows.
 
-use core::time::Duration;
-use std::path::Path;
-
-use crate::lab::process::{Error, Launch, Pool, Silence, Surroundings, Task};
-
+use super::file::{VerifyEffort, file_rows};
 use super::judge::unfinished;
-use super::plan::VerifyPlan;
+use super::machine::MachineStatement;
+use super::requested::VerifyPlan;
+use super::row::VerifyRow;
+use super::run::Devices;
 use super::shard::{Shard, ShardOutcome};
-use super::worker::{FileAnswer, FileRequest};
+use crate::lab::process::{Error, Inbox, Launch, Pool, Silence, Surroundings, Task};
+use core::time::Duration;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
 
 /// The rows of a shard's files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
 ///
@@ -65,4 +71,52 @@ fn reason(silence: &Silence, limit: Duration) -> String {
             format!("the process that ran it ended ({status}): its driver failed on this shader")
         }
     }
+}
+
+/// What a worker is asked: the rows of the file with this place in the plan.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct FileRequest {
+    /// The place.
+    pub file: usize,
+}
+
+/// What a worker answers.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct FileAnswer {
+    /// The rows of the file.
+    pub rows: Vec<VerifyRow>,
+    /// Of a shard: what is here for the file's target.
+    #[serde(default)]
+    pub machine: MachineStatement,
+}
+
+/// Serves until the supervisor is gone. Only files of the plan have rows, and only a shard says what is here.
+///
+/// # Errors
+/// The pipe is gone.
+pub fn serve(
+    inbox: Inbox,
+    plan: &VerifyPlan,
+    devices: &Devices,
+    effort: VerifyEffort,
+    is_shard: bool,
+) -> io::Result<()> {
+    let mut stated: BTreeMap<&str, MachineStatement> = BTreeMap::new();
+    inbox.serve(|request: FileRequest| -> FileAnswer {
+        let Some(file) = plan.files.get(request.file) else {
+            return FileAnswer::default();
+        };
+        let mut machine = MachineStatement::default();
+        if is_shard {
+            let of_target = || MachineStatement::of_target(file.target, file.precision(), devices);
+            machine = stated
+                .entry(file.target.name)
+                .or_insert_with(of_target)
+                .clone();
+        }
+        FileAnswer {
+            rows: file_rows(plan, file, devices, effort),
+            machine,
+        }
+    })
 }

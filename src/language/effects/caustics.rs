@@ -4,11 +4,9 @@
 //! <https://doi.org/10.1145/1111411.1111439>; triangles after Watt, *Light-Water Interaction Using Backward Beam Tracing*, SIGGRAPH, 1990,
 //! <https://doi.org/10.1145/97879.97902>. The splat is Epanechnikov's kernel.
 
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, cross, length};
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{cross, length};
 
 const T_ENTRY: Argument = Argument::vector(
     "t_entry",

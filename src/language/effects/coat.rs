@@ -7,10 +7,9 @@
 //! Under a coat of index 1.5 only cosines of .745 and more occur at the base: sqrt(1 - 1/1.5^2).
 //! One R stands for both polarisations: composed of the mean, a coated metal of the catalogue is off by .014 at most, a thin glass of index 1.5 by .022.
 
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
 const F0: Argument = Argument::vector(
     "f0",

@@ -3,10 +3,9 @@
 //! Source: Born, Wolf, *Principles of Optics*, 1999, section 14.2, <https://doi.org/10.1017/CBO9781139644181>.
 //! Exact at normal incidence for each channel of n and k.
 
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
 const N: Argument = Argument::vector(
     "n",

@@ -3,11 +3,11 @@
 //! Source: Born, Wolf, *Principles of Optics*, 1999, section 4.7, <https://doi.org/10.1017/CBO9781139644181>; the weights are ours.
 //! One reflectance for all channels is right for real media: it differs by at most half a step of 255 for water and BK7.
 
+use super::effect::{
+    Argument, Arguments, Effect, EffectFunction, INCIDENT, NORMAL, Reflectance, refraction,
+};
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{INCIDENT, NORMAL, refraction};
 
 const ETAS: Argument = Argument::vector(
     "etas",

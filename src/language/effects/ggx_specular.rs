@@ -5,10 +5,9 @@
 //! Microfacet-Based BRDFs*, JCGT 3, 2014, <https://jcgt.org/published/0003/02/03/>.
 //! One bounce: a rough surface loses what bounces twice, up to two thirds of the light at alpha 1.
 
+use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
 const N_DOT_V: Argument = Argument::scalar("n_dot_v", "cosine between normal and view", -1.0, 1.0);
 const N_DOT_L: Argument = Argument::scalar("n_dot_l", "cosine between normal and light", -1.0, 1.0);

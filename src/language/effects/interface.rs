@@ -4,11 +4,11 @@
 //! Both indices are free: `eta` below 1 is light that leaves the denser medium. The direction keeps unit length to rounding; close to
 //! the critical angle a rounding of `incident` turns it by the square root of that rounding.
 
+use super::effect::{
+    Arguments, ETA, Effect, EffectFunction, INCIDENT, NORMAL, Reflectance, mirrored, refraction,
+};
 use crate::language::ir::{Expr, Letters, USED_TWICE};
 use crate::physics::cite::Citation;
-
-use super::effect::{Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{ETA, INCIDENT, NORMAL, mirrored, refraction};
 
 /// The record of this effect.
 pub static EFFECT: Effect = Effect {

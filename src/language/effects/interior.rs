@@ -5,11 +5,12 @@
 //! Refraction at two surfaces in pictures is Wyman's (2005, <https://doi.org/10.1145/1073204.1073310>).
 //! It converges fast on convex bodies. It also finds total reflection where there is none.
 
+use super::effect::{
+    Argument, Arguments, ETA, Effect, EffectFunction, Reflectance, UV_SCALE_BIAS, VIEW_PROJECTION,
+    length, mirrored, refraction,
+};
 use crate::language::ir::{Expr, Letters, Ty, USED_TWICE};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{ETA, UV_SCALE_BIAS, VIEW_PROJECTION, length, mirrored, refraction};
 
 const ENTRY: Argument = Argument::vector(
     "entry",

@@ -7,7 +7,6 @@
 //! repeats a step.
 
 mod effect;
-mod vectors;
 
 pub use effect::{Argument, BuiltEffect, Domain, Effect, EffectFunction, Reflectance};
 

@@ -4,11 +4,11 @@
 //! <http://image.diku.dk/projects/media/morten.mikkelsen.08.pdf>.
 //! All that follows, reflection, refraction and look-ups, then happens in one space, and no ray is transformed twice.
 
+use super::effect::{
+    Argument, Arguments, Effect, EffectFunction, NORMAL, Reflectance, cross, unit_or_zero,
+};
 use crate::language::ir::{Expr, Letters};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{NORMAL, cross, unit_or_zero};
 
 const TANGENT_NORMAL: Argument = Argument::direction(
     "tangent_normal",

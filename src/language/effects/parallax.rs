@@ -6,11 +6,11 @@
 //! 2005, <https://doi.org/10.1111/j.1467-8659.2005.0m894.x>.
 //! The box is met in closed form. Any other room is met by steps of a search in a cube that holds distances.
 
+use super::effect::{
+    Argument, Arguments, Effect, EffectFunction, Reflectance, length, unit_or_zero,
+};
 use crate::language::ir::{Expr, Letters, Ty};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{length, unit_or_zero};
 
 const POSITION: Argument = Argument::vector(
     "position",

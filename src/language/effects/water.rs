@@ -4,11 +4,11 @@
 //! <https://developer.nvidia.com/gpugems/gpugems2/part-ii-shading-lighting-and-shadows/chapter-19-generic-refraction-simulation>.
 //! The bent look-up counts only where it shows something below the water: so nothing before the water leaks into it.
 
+use super::effect::{
+    Argument, Arguments, Effect, EffectFunction, Reflectance, UV_SCALE_BIAS, VIEW_PROJECTION,
+};
 use crate::language::ir::{Expr, Letters, Ty};
 use crate::physics::cite::Citation;
-
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use super::vectors::{UV_SCALE_BIAS, VIEW_PROJECTION};
 
 const POSITION: Argument = Argument::vector("position", "in the world", -1.0, 1.0);
 const UV: Argument = Argument::pair("uv", "of the pixel in the picture", 0.0, 1.0);

@@ -2,12 +2,11 @@
 
 use std::ops::Range;
 
-use crate::physics::num::{Num, Truth, each_channel};
-
 use super::check::Checked;
 use super::graph::{Function, Node};
 use super::op::{Op, Payload};
 use super::texture::{CubeTexels, Texels, Weights};
+use crate::physics::num::{Num, Truth, each_channel};
 
 /// A number for each point: the same for all, or one each.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,15 +3,17 @@
 //! of the means of the weights serves every material.
 //!
 //! N0 is F0, which is multiplied by 1: what reflects everything has no other number, and its mean is the first term.
-
-use std::sync::LazyLock;
-
-use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check_in, evaluate, fold_in};
-use crate::physics::num::{Legendre, Precision};
+//!
+//! What is known of a surface that inputs are derived from.
 
 use super::input::{Input, Inputs};
 use super::method::{Build, Method, Values};
 use super::shape::Shape;
+use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check_in, evaluate, fold_in};
+use crate::language::methods::formulas::BELCOUR_COSINES;
+use crate::physics::num::{Legendre, Precision, each_channel};
+use crate::physics::optics::{self, COS_82};
+use std::sync::LazyLock;
 
 /// The most numbers of a method here: the channels of a texture.
 pub const MOST_TERMS: usize = 4;
@@ -185,6 +187,71 @@ impl Method {
         };
         (0..basis.terms()).map(number).collect()
     }
+}
+
+/// cos θ at which the empirical term meets the exact law: 60 degrees.
+pub const COS_60: f64 = 0.5;
+
+/// An index per channel, and reflectances at a few angles. Where a channel is one wavelength these are the law's; where it is a
+/// whole spectrum they are the spectrum's, and the index stands for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownSurface {
+    /// The real part of the index per channel.
+    pub n: [f64; 3],
+    /// The extinction coefficient per channel.
+    pub k: [f64; 3],
+    /// Reflectance at 0 degrees.
+    pub f0: [f64; 3],
+    /// At 81.79 degrees.
+    pub f82: [f64; 3],
+    /// At 60 degrees.
+    pub f60: [f64; 3],
+    /// cos θ at which λ of the corrected method is matched.
+    pub matching_cos: f64,
+    /// Reflectance there.
+    pub matching: [f64; 3],
+    /// At the two angles where Belcour's curves are weighed.
+    pub belcour: [[f64; 3]; 2],
+}
+
+impl KnownSurface {
+    /// A surface that is known by its index alone.
+    pub fn of_index(n: [f64; 3], k: [f64; 3], matching_cos: f64) -> KnownSurface {
+        let law = |c: f64| each(|i| optics::conductor(n[i], k[i], c).unpolarised());
+        KnownSurface {
+            f0: each(|i| optics::normal_incidence(n[i], k[i])),
+            ..KnownSurface::with(n, k, law, matching_cos)
+        }
+    }
+
+    /// A surface for which this index stands, by what it reflects at a cosine.
+    pub fn with(
+        n: [f64; 3],
+        k: [f64; 3],
+        seen: impl Fn(f64) -> [f64; 3],
+        matching_cos: f64,
+    ) -> KnownSurface {
+        KnownSurface {
+            n,
+            k,
+            f0: seen(1.0),
+            f82: seen(COS_82),
+            f60: seen(COS_60),
+            matching_cos,
+            matching: seen(matching_cos),
+            belcour: BELCOUR_COSINES.map(&seen),
+        }
+    }
+}
+
+/// A value for each channel.
+pub fn each(value: impl Fn(usize) -> f64) -> [f64; 3] {
+    each_channel(value)
+}
+
+/// The mean of the channels.
+pub fn mean(channels: [f64; 3]) -> f64 {
+    channels.iter().sum::<f64>() / 3.0
 }
 
 #[cfg(test)]

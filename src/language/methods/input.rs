@@ -1,10 +1,9 @@
 //! The inputs of methods: one vocabulary with units, domain, where their values come from, and the values that they are
 //! tried with. One that a single method takes stands in that method's file.
 
+use super::affine::KnownSurface;
 use crate::language::ir::{Builder, COSINE, Expr, Ty};
 use crate::physics::num::Precision;
-
-use super::known::KnownSurface;
 
 /// An argument that a method takes after `cos_theta`.
 #[derive(Clone, Copy, Debug)]

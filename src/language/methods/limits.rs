@@ -1,9 +1,8 @@
 //! The check that methods' limit tests share: one evaluation in f64 against an expected value.
 #![cfg(test)]
 
-use crate::language::ir::{Value, evaluate};
-
 use super::method::Method;
+use crate::language::ir::{Value, evaluate};
 
 /// What the library function gives in f64; each argument is the same in all channels.
 pub fn value(method: &Method, cos_theta: f64, arguments: &[f64]) -> f64 {

@@ -1,21 +1,27 @@
 //! What a method is: a plain record in a static table.
+//!
+//! The media that methods describe.
+//!
+//! Whose a method's form is, and how its source is cited.
+//!
+//! How well fitted methods follow classes of materials: metals, semiconductors, and dielectrics of n 1.2 or more, in air.
+//!
+//! The largest error over all angles and channels of each material, as median and 90th percentile: over the pages of the
+//! catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The figures stand in the
+//! methods' own files. The test `fits::classes_are_followed_as_promised` holds each in both directions.
 
-use std::collections::BTreeMap;
-
+use super::ALL;
+use super::affine::{Affine, FittedAverage};
+use super::half::InHalf;
+use super::input::{Input, Inputs, Range};
+use super::shape::Shape;
 use crate::language::ir::{
     BrokenRule, Builder, Checked, Expr, Function, Texels, Ty, Value, check_in, fold_in,
     specialise_in,
 };
 use crate::physics::cite::Citation;
 use crate::physics::num::{Num, Precision};
-
-use super::affine::{Affine, FittedAverage};
-use super::by_class::ByClass;
-use super::class::Class;
-use super::half::InHalf;
-use super::input::{Input, Inputs, Range};
-use super::origin::Origin;
-use super::shape::Shape;
+use std::collections::BTreeMap;
 
 /// A formula for reflectance.
 #[derive(Debug)]
@@ -66,6 +72,45 @@ pub struct Method {
     pub affine: Option<Affine>,
     /// The mean over the hemisphere, of a method for which it does not follow from [`Method::basis`].
     pub average: Option<FittedAverage>,
+}
+
+impl Method {
+    /// What most methods have: it keeps the contract, for light as it comes from lamps, and has nothing further. The rest is empty.
+    pub const BASE: Method = Method {
+        name: "",
+        summary: "",
+        formula: &[],
+        source: Citation {
+            authors: "",
+            title: "",
+            place: "",
+            year: 0,
+            link: "",
+        },
+        origin: Origin::Published,
+        inputs: &[],
+        forms: Forms::Colour,
+        class: Class::Any,
+        light: Light::Unpolarised,
+        domain: "",
+        claims: Claims {
+            model: &[],
+            code_ulp: 0.0,
+            code_over: Over::Wide,
+            colours: None,
+            by_class: &[],
+        },
+        contract: Contract::Kept,
+        half: InHalf::within(0.0),
+        build: |x| x.cosine(),
+        for_constants: None,
+        coefficients: None,
+        plain: None,
+        replacement: None,
+        shape: None,
+        affine: None,
+        average: None,
+    };
 }
 
 /// How the coefficients of a fitted method follow from other inputs.
@@ -369,5 +414,157 @@ impl Method {
     /// Whether the method has a scalar form.
     pub fn has_scalar_form(&self) -> bool {
         self.forms == Forms::ColourAndScalar
+    }
+}
+
+/// The media that a method describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// k = 0.
+    Dielectric,
+    /// k of a quarter of n and more.
+    Metal,
+    /// Any k.
+    Any,
+}
+
+impl Class {
+    /// Whether a method of this class describes a medium with this index.
+    pub fn describes(self, n: f64, k: f64) -> bool {
+        match self {
+            Class::Dielectric => k == 0.0,
+            Class::Metal => k >= LEAST_METALLIC * n,
+            Class::Any => true,
+        }
+    }
+
+    /// What it describes, in words.
+    pub fn described(self) -> &'static str {
+        match self {
+            Class::Dielectric => "dielectrics (k = 0)",
+            Class::Metal => "metals (k of n / 4 and more)",
+            Class::Any => "all media",
+        }
+    }
+
+    /// What it describes, in words that refuse another medium.
+    pub fn media(self) -> &'static str {
+        match self {
+            Class::Dielectric => "dielectrics only, and this absorbs (k > 0)",
+            Class::Metal => "metals only, with k of at least n / 4, and this has less",
+            Class::Any => "all media",
+        }
+    }
+}
+
+/// The least k of a metal, as a share of n: semiconductors have less where one sees them.
+const LEAST_METALLIC: f64 = 0.25;
+
+/// Whose a method's form is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The source's.
+    Published,
+    /// The source's but for what is said here.
+    Adapted(&'static str),
+    /// Ours. Says what the source is of.
+    Ours(&'static str),
+}
+
+impl Method {
+    /// Whether its form is ours, and not published elsewhere.
+    pub fn is_ours(&self) -> bool {
+        matches!(self.origin, Origin::Ours(_))
+    }
+
+    /// Where it comes from: the whole citation, and what of it is ours.
+    pub fn source_in_full(&self) -> String {
+        self.with_origin(&self.source.line())
+    }
+
+    /// The same with authors, year and link.
+    pub fn source_in_short(&self) -> String {
+        self.with_origin(&self.source.short())
+    }
+
+    fn with_origin(&self, citation: &str) -> String {
+        match self.origin {
+            Origin::Published => citation.to_owned(),
+            Origin::Adapted(what) => format!("{what}; else {citation}"),
+            Origin::Ours(of) => format!("the form is fresnel-gen's; {of}: {citation}"),
+        }
+    }
+}
+
+/// Median and 90th percentile of the largest errors of some materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Half of them err no more.
+    pub median: f64,
+    /// Nine of ten err no more.
+    pub ninth: f64,
+}
+
+/// What a fitted method promises of a class.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ByClass {
+    /// `metal`, `semiconductor` or `dielectric`.
+    pub class: &'static str,
+    /// Over the catalogue.
+    pub catalogue: Spread,
+    /// Over pages that are not in the catalogue.
+    pub outside: Spread,
+    /// Nine of ten of both together err no more. A fit that errs more misses its class.
+    pub limit: f64,
+}
+
+impl ByClass {
+    /// A promise of a class: median and 90th percentile over the catalogue and outside it, and what nine of ten of both err at
+    /// most.
+    pub(super) const fn of_class(
+        class: &'static str,
+        catalogue: [f64; 2],
+        outside: [f64; 2],
+        limit: f64,
+    ) -> ByClass {
+        ByClass {
+            class,
+            catalogue: Spread::new(catalogue),
+            outside: Spread::new(outside),
+            limit,
+        }
+    }
+}
+
+impl Spread {
+    const fn new([median, ninth]: [f64; 2]) -> Spread {
+        Spread { median, ninth }
+    }
+}
+
+/// Every promise with its method.
+pub fn promises_by_class() -> impl Iterator<Item = (&'static Method, &'static ByClass)> {
+    let own = |method: &'static Method| method.claims.by_class.iter().map(move |row| (method, row));
+    ALL.iter().copied().flat_map(own)
+}
+
+/// What a method promises of a class, where it promises anything.
+pub fn by_class(method: &Method, class: &str) -> Option<&'static ByClass> {
+    let mut own = method.claims.by_class.iter();
+    own.find(|row| row.class == class)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ALL;
+
+    #[test]
+    fn every_fitted_method_promises_something_of_a_class() {
+        for method in ALL {
+            let promises = !method.claims.by_class.is_empty();
+            let is_meant_to = method.name.starts_with("fitted");
+            assert_eq!(promises, is_meant_to, "{}", method.name);
+            assert!(is_meant_to || !method.is_fitted(), "{}", method.name);
+        }
     }
 }

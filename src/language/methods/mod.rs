@@ -6,32 +6,24 @@
 //! The room knows no target.
 
 mod affine;
-mod by_class;
-mod class;
 mod formulas;
 mod half;
 mod input;
-mod known;
 mod limits;
 mod method;
-mod origin;
 mod renamed;
 mod shape;
 
-pub use affine::{Affine, Basis, FittedAverage, MOST_TERMS};
-pub use by_class::{ByClass, Spread, by_class, promises_by_class};
-pub use class::Class;
+pub use affine::{Affine, Basis, FittedAverage, KnownSurface, MOST_TERMS};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
 pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
-pub use known::KnownSurface;
 pub use method::{
-    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
-    Values,
+    Better, ByClass, Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light,
+    Method, Origin, Over, Spread, Values, by_class, promises_by_class,
 };
-pub use origin::Origin;
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 

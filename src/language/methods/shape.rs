@@ -12,10 +12,9 @@
 use std::fmt;
 use std::sync::LazyLock;
 
+use super::input::{Input, InputSource, Inputs};
 use crate::language::ir::Expr;
 use crate::physics::num::Legendre;
-
-use super::input::{Input, InputSource, Inputs};
 
 /// A factor, for a cosine c in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,9 @@
 //! GLSL 4.50, as desktop OpenGL and Vulkan front ends take it.
 
-use crate::language::ir::Op;
-use crate::physics::num::Precision;
-
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
+use crate::language::ir::Op;
+use crate::physics::num::Precision;
 
 /// The record of this target.
 pub static TARGET: Target = Target {

@@ -3,13 +3,12 @@
 //! Every function takes the cosine, and one that is a constant does not use it: DXC may not warn of that. Its text cannot say so, since
 //! glslang takes no `(void)` and older compilers want a name for every argument.
 
-use crate::language::ir::Op;
-use crate::physics::num::Precision;
-
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{
     Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
 };
+use crate::language::ir::Op;
+use crate::physics::num::Precision;
 
 /// The record of this target.
 pub static TARGET: Target = Target {

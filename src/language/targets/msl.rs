@@ -1,11 +1,10 @@
 //! The Metal Shading Language. Names of the standard library are written in full, so that an including file need not
 //! (and may) say `using namespace metal`.
 
-use crate::language::ir::Op;
-use crate::physics::num::Precision;
-
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
+use crate::language::ir::Op;
+use crate::physics::num::Precision;
 
 /// The record of this target.
 pub static TARGET: Target = Target {

@@ -1,8 +1,7 @@
 //! What a target is: a plain record in a static table.
 
-use crate::physics::num::Precision;
-
 use super::spelling::Spelling;
+use crate::physics::num::Precision;
 
 /// An output language.
 #[derive(Debug)]

@@ -1,12 +1,11 @@
 //! WGSL, as WebGPU takes it.
 
-use crate::language::ir::Op;
-use crate::physics::num::Precision;
-
 use super::spelling::{Form, Spelling};
 use super::target::{
     Batch, Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator,
 };
+use crate::language::ir::Op;
+use crate::physics::num::Precision;
 
 /// The record of this target.
 pub static TARGET: Target = Target {

@@ -1,9 +1,11 @@
 //! The catalogue: the files of `data/materials/`, embedded in the program and read when asked for.
+//!
+//! A user's file of any kind that is known: our own, a page of refractiveindex.info, a table.
 
-use include_dir::{Dir, include_dir};
-
+use super::Page;
 use super::material::Material;
 use crate::physics::spectra::FileFault;
+use include_dir::{Dir, include_dir};
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 
@@ -47,4 +49,28 @@ pub fn find(name: &str) -> Option<Result<Material, FileFault>> {
 /// A file of the catalogue has a fault; a test holds that none has.
 pub fn list() -> Result<Vec<Material>, FileFault> {
     names().into_iter().filter_map(find).collect()
+}
+
+impl Material {
+    /// Reads a file by what its name ends in: `.yml` and `.yaml` are pages of refractiveindex.info, `.csv`, `.tsv` and
+    /// `.txt` are tables, all else is our own format.
+    ///
+    /// # Errors
+    /// The text is not what the file's name says, or not a material.
+    pub fn read(file: &str, text: &str) -> Result<Material, FileFault> {
+        match page(file, text) {
+            Some(page) => page?.material(None),
+            None => Material::parse(file, text),
+        }
+    }
+}
+
+/// The page or table in a file, where its name says that it is one.
+pub fn page(file: &str, text: &str) -> Option<Result<Page, FileFault>> {
+    let ending = file.rsplit('.').next().unwrap_or("").to_lowercase();
+    match ending.as_str() {
+        "yml" | "yaml" => Some(Page::parse(file, text)),
+        "csv" | "tsv" | "txt" => Some(Page::parse_csv(file, text)),
+        _ => None,
+    }
 }

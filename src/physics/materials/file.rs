@@ -23,19 +23,17 @@
 //! In place of `data`, n and k can stand apart: `n = [[nm, n], …]`, or `n_formula = { number = 2, from_nm = 300,
 //! to_nm = 2500, coefficients = [0, 1.04, …] }` with the formulas of [`super::formula`], which take micrometres; and
 //! `k = [[nm, k], …]`, or nothing where k is 0.
-
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::physics::names::identifier_fault;
+//!
+//! A user's text: where a fault stands in it.
 
 use super::decimal::short;
-use super::dispersion::DispersionCurve;
-use super::file_text::FileText;
-use super::formula::{Formula, NUMBERS};
+use super::formula::{DispersionCurve, Formula, NUMBERS};
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
 use crate::physics::foreign::is_hidden;
+use crate::physics::names::{identifier_fault, nearest_names, offered};
 pub use crate::physics::spectra::FileFault;
+use serde::Deserialize;
+use toml::Spanned;
 
 type RawRow = Spanned<Vec<Spanned<f64>>>;
 type RawRows = Spanned<Vec<RawRow>>;
@@ -389,6 +387,40 @@ impl FileText<'_> {
             what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         }
         self.fault(error.span().map_or(0, |span| span.start), what)
+    }
+}
+
+/// A text and its file's name: made once, so that every check of what it says is short.
+pub struct FileText<'a> {
+    /// For messages.
+    pub file: &'a str,
+    /// What the file holds.
+    pub text: &'a str,
+}
+
+impl FileText<'_> {
+    /// A fault at an offset in bytes.
+    pub fn fault(&self, offset: usize, what: String) -> FileFault {
+        FileFault::at(self.file, self.text, offset, what)
+    }
+
+    /// What the parser of TOML says, with the nearest of the keys that it would take for an unknown one.
+    pub fn toml_fault(&self, error: &toml::de::Error) -> FileFault {
+        let mut what = error.message().trim().replace('\n', "; ");
+        if what.starts_with("unknown field `") {
+            let mut quoted = what.split('`').skip(1).step_by(2);
+            let unknown = quoted.next().unwrap_or("");
+            let known: Vec<&str> = quoted.collect();
+            what += &offered(&nearest_names(unknown, &known));
+        }
+        let at = error.span().map_or(0, |span| span.start);
+        // `"C:\\mine\\x.toml"`: the place is the backslash, or the letter behind it.
+        let near = self.text.get(at.saturating_sub(1)..).unwrap_or("");
+        let is_escape = what.contains("escape") && near.chars().take(2).any(|c| c == '\\');
+        if is_escape {
+            what += "; in a path write `/`, or put it in single quotes: '...'";
+        }
+        self.fault(at, what)
     }
 }
 

@@ -4,34 +4,22 @@
 //! format ([`Material::parse`]). To add a material to the catalogue, add its file.
 
 mod catalogue;
-mod channels;
-mod constant;
-mod credit;
 mod csv;
 mod decimal;
-mod dispersion;
 mod file;
-mod file_text;
 mod formula;
 mod material;
 mod page;
 mod print;
-mod read;
 mod rows;
 mod surface;
-mod trim;
 
 pub use crate::physics::foreign::{escaped, is_hidden};
-pub use catalogue::{find, list, names, source};
-pub use channels::{Channels, THESIS_NM};
-pub use constant::{ConstantIndex, IndexFault};
-pub use dispersion::{DispersionCurve, Extrapolate};
-pub use file::name_fault;
-pub use file_text::FileText;
-pub use formula::Formula;
-pub use material::{Index, Material, MaterialKind};
+pub use catalogue::{find, list, names, page, source};
+pub use file::{FileText, name_fault};
+pub use formula::{DispersionCurve, Extrapolate, Formula};
+pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;
-pub use read::page;
-pub use surface::{Surface, Unseen, ViewingConditions, surfaces_of};
+pub use surface::{Channels, Surface, THESIS_NM, Unseen, ViewingConditions, surfaces_of};
 
 pub use crate::physics::spectra::FileFault;

@@ -3,9 +3,12 @@
 //! A table is believed where it can be. What has to be done to it is said in a remark, and every remark reaches the
 //! user: rows out of order are sorted; a wavelength with several rows gets their mean; a k just below 0, which is
 //! noise of the measurement, is 0, since a passive medium has no gain.
+//!
+//! A material cut down to a range of wavelengths.
 
 use super::decimal::{self, Unit};
-use super::dispersion::DispersionCurve;
+use super::formula::DispersionCurve;
+use super::material::Material;
 
 /// The k that is still taken for noise. The worst page of refractiveindex.info that is right elsewhere has -0.148.
 const LEAST_K: f64 = -0.2;
@@ -188,6 +191,35 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{plural}")
 }
 
+impl Material {
+    /// The same material with its tables cut to a range of wavelengths: from the last row at or below its start to the
+    /// first at or above its end, so that every index inside stays what it was. A formula stays whole.
+    #[must_use]
+    pub fn trimmed(&self, from_nm: f64, to_nm: f64) -> Material {
+        let cut = |curve: &DispersionCurve| match curve {
+            DispersionCurve::Table(table) => {
+                let kept = within(table.points(), from_nm, to_nm).to_vec();
+                DispersionCurve::table(kept).unwrap_or_else(|| curve.clone())
+            }
+            DispersionCurve::Formula(_) => curve.clone(),
+        };
+        Material {
+            n: cut(&self.n),
+            k: self.k.as_ref().map(cut),
+            ..self.clone()
+        }
+    }
+}
+
+/// At least one point, the nearest, where the table lies outside.
+fn within(points: &[(f64, f64)], from_nm: f64, to_nm: f64) -> &[(f64, f64)] {
+    let after_start = points.partition_point(|point| point.0 <= from_nm);
+    let start = after_start.saturating_sub(1);
+    let before_end = points.partition_point(|point| point.0 < to_nm);
+    let end = (before_end + 1).clamp(start + 1, points.len().max(start + 1));
+    points.get(start..end).unwrap_or(points)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -287,5 +319,31 @@ mod tests {
             2,
             "k is -0.21; it must not be below 0, and only down to -0.2 is it taken for noise",
         );
+    }
+}
+
+#[cfg(test)]
+mod trim_tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(from_nm: f64, to_nm: f64, kept: &[f64]) {
+        let point = |nm| (nm, 1.0);
+        let points = [300.0, 400.0, 500.0, 600.0].map(point);
+        let got = within(&points, from_nm, to_nm).iter().map(|p| p.0);
+        assert_eq!(got.collect::<Vec<_>>(), kept);
+    }
+
+    #[test]
+    fn the_rows_around_the_range_stay() {
+        check(400.0, 500.0, &[400.0, 500.0]);
+        check(401.0, 499.0, &[400.0, 500.0]);
+        check(399.0, 501.0, &[300.0, 400.0, 500.0, 600.0]);
+        check(100.0, 900.0, &[300.0, 400.0, 500.0, 600.0]);
+        check(100.0, 200.0, &[300.0]);
+        check(700.0, 900.0, &[600.0]);
+        check(500.0, 400.0, &[500.0]);
+        check(f64::NAN, f64::NAN, &[300.0]);
+        assert_eq!(within(&[], 1.0, 2.0), &[]);
     }
 }

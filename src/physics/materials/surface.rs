@@ -6,15 +6,15 @@
 //!
 //! With one wavelength a channel this is the thesis's way; with the observer's curves times the illuminant it is the
 //! colour of the reflected light where a perfect mirror is (1, 1, 1).
+//!
+//! Three channels of index: n and k for red, green and blue.
 
-use glam::DVec3;
-
-use super::channels::Channels;
-use super::dispersion::Extrapolate;
+use super::formula::Extrapolate;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, Reflectance};
 use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
+use glam::DVec3;
 
 /// How materials are looked at.
 #[derive(Clone, Debug, PartialEq)]
@@ -253,4 +253,42 @@ pub fn surfaces_of<'a>(
         .iter()
         .filter(|other| other.is_spectrum_of(substance));
     same.filter_map(move |other| Some((other, Surface::new(other, medium, viewing).ok()?)))
+}
+
+/// Red, green and blue in nanometres, as the thesis chose them: the middles of the three bands.
+pub const THESIS_NM: [f64; 3] = [685.0, 535.0, 475.0];
+
+/// The relative index of refraction per channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Channels {
+    /// Real part.
+    pub n: [f64; 3],
+    /// Extinction coefficient.
+    pub k: [f64; 3],
+}
+
+impl Material {
+    /// n and k at three wavelengths, linearly interpolated. Outside the measured range this fails and says so.
+    ///
+    /// # Errors
+    /// A wavelength lies outside the measured range, or an index outside its limits.
+    pub fn channels(&self, wavelengths_nm: [f64; 3]) -> Result<Channels, String> {
+        let [red, green, blue] = wavelengths_nm.map(|nm| self.index(nm, Extrapolate::Refuse));
+        Ok(Channels::of([red?, green?, blue?]))
+    }
+}
+
+impl Channels {
+    /// Of an index per channel.
+    pub fn of(indices: [Index; 3]) -> Channels {
+        Channels {
+            n: indices.map(|index| index.n),
+            k: indices.map(|index| index.k),
+        }
+    }
+
+    /// Whether nothing is absorbed.
+    pub fn is_transparent(&self) -> bool {
+        self.k == [0.0; 3]
+    }
 }

@@ -4,6 +4,11 @@
 //! roundings equal one, because 24 ≥ 2·11 + 2 (S. A. Figueroa, *When is double rounding innocuous?*, ACM
 //! SIGNUM Newsletter 30(3), 1995, <https://doi.org/10.1145/221332.221334>). `exp2` and `log2` are `libm`'s `f32`
 //! functions, then rounded: at most 0.501 ulp of binary16.
+//!
+//! `f32` and `f64`, the machine's own numbers, as [`Num`].
+//!
+//! `+ - * /` and `sqrt` round correctly (IEEE 754). `exp2` and `log2` come from the `libm` crate, below 1 ulp,
+//! because the standard library's call the platform's C library and may differ from machine to machine.
 
 use super::{Num, Truth};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -104,6 +109,62 @@ impl Num for Half {
     }
 }
 
+macro_rules! native {
+    ($float:ty, $name:literal, $exp2:path, $log2:path) => {
+        impl Num for $float {
+            const NAME: &'static str = $name;
+
+            #[inline]
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline]
+            fn abs(self) -> Self {
+                <$float>::abs(self)
+            }
+
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                <$float>::min(self, other)
+            }
+
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                <$float>::max(self, other)
+            }
+
+            #[inline]
+            fn sqrt(self) -> Self {
+                <$float>::sqrt(self)
+            }
+
+            #[inline]
+            fn exp2(self) -> Self {
+                $exp2(self)
+            }
+
+            #[inline]
+            fn log2(self) -> Self {
+                $log2(self)
+            }
+
+            #[inline]
+            fn less(self, other: Self) -> Truth {
+                (self < other).into()
+            }
+        }
+    };
+}
+
+native!(f32, "f32", libm::exp2f, libm::log2f);
+native!(f64, "f64", libm::exp2, libm::log2);
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,5 +208,31 @@ mod tests {
         assert_eq!(Half::from_f64(10.0).log2().to_f64(), 3.322_265_625);
         let square = Half::from_f64(300.0) * Half::from_f64(300.0);
         assert_eq!(square.to_f64(), f64::INFINITY);
+    }
+}
+
+#[cfg(test)]
+mod native_tests {
+    use crate::physics::num::{Num, Truth};
+
+    fn check_exact_values<N: Num + PartialEq>() {
+        let number = N::from_f64;
+        assert_eq!(number(3.0).exp2(), number(8.0));
+        assert_eq!(number(0.25).log2(), number(-2.0));
+        assert_eq!(number(4.0).inverse_sqrt(), number(0.5));
+        assert_eq!(number(-3.0).saturate(), number(0.0));
+        assert_eq!(number(7.0).saturate(), number(1.0));
+        assert_eq!(number(f64::NAN).saturate(), number(0.0));
+        assert_eq!(number(f64::NAN).max(number(2.0)), number(2.0));
+        assert_eq!(number(1.0).less(number(f64::NAN)), Truth::No);
+        assert_eq!(number(1.0).less(number(2.0)), Truth::Yes);
+    }
+
+    #[test]
+    fn exact_values_in_every_point_format() {
+        check_exact_values::<f32>();
+        check_exact_values::<f64>();
+        check_exact_values::<crate::physics::num::Half>();
+        check_exact_values::<crate::physics::num::Dd>();
     }
 }

@@ -10,11 +10,9 @@ mod decimal_comma;
 mod half;
 mod interval;
 mod legendre;
-mod native;
 mod parallel;
 mod precision;
 pub mod statistics;
-mod ulp;
 mod vulkan_tolerance;
 
 pub use complex::Complex;
@@ -24,8 +22,7 @@ pub use half::Half;
 pub use interval::Interval;
 pub use legendre::Legendre;
 pub use parallel::in_parallel;
-pub use precision::Precision;
-pub use ulp::{ulp_distance, ulp_of};
+pub use precision::{Precision, ulp_distance, ulp_of};
 pub use vulkan_tolerance::VulkanTolerance;
 
 use std::fmt::Debug;

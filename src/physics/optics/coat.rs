@@ -12,7 +12,7 @@
 //! is false; so does F0 = 1, a mirror, which stays one. Error: none for one index. A channel that stands for a
 //! spectrum is off, over 75 metals and semiconductors, by .0002 in the median and .012 at most at η = 1.5 (the test `effects::coat`).
 
-use super::inverse::index_from_f0_f82;
+use super::interface::index_from_f0_f82;
 
 /// A surface's reflectance at normal incidence under a coat.
 #[derive(Clone, Copy, Debug, PartialEq)]

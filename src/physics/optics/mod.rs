@@ -9,12 +9,13 @@
 mod coat;
 mod ggx;
 mod interface;
-mod inverse;
 
 pub use coat::{UnderCoat, under_coat};
 pub use ggx::Ggx;
-pub use interface::{brewster_cos, conductor, critical_cos, dielectric, normal_incidence};
-pub use inverse::{EffectiveIndex, LARGEST_F0, index_from_f0_f82};
+pub use interface::{
+    EffectiveIndex, LARGEST_F0, brewster_cos, conductor, critical_cos, dielectric,
+    index_from_f0_f82, normal_incidence,
+};
 
 use crate::physics::num::Num;
 

@@ -10,10 +10,9 @@
 
 use std::sync::LazyLock;
 
-use super::fault::FileFault;
 use super::spectrum::Spectrum;
 use super::table::{SpectrumRow, rows};
-use super::wavelength::{FIRST_NM, LAST_NM, Step};
+use super::wavelength::{FIRST_NM, FileFault, LAST_NM, Step};
 
 /// A light.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -11,11 +11,23 @@
 //!
 //! Error: steps of 5 nm differ from 1 nm by at most 2e-4 for 86 metals under D65. The rows of a
 //! user's light that lie between the steps count too ([`super::Illuminant::powers`]): its lines are whole, and what they light is linear within a step.
+//!
+//! X, Y and Z of light: its power, weighted by an observer and summed.
+//!
+//! ```text
+//! XYZ = Σ x̄ȳz̄(λ) S(λ) R(λ) / Σ ȳ(λ) S(λ)        R: what a surface reflects; Y = 1 for a mirror; S: Illuminant::powers
+//! ```
+//!
+//! Source: CIE 015:2018, *Colorimetry*, 4th edition, <https://doi.org/10.25039/TR.015.2018>. A plain sum over
+//! equal steps, both ends counted in full. Domain: a light with some power at the wavelengths; without any, NaN.
+//!
+//! The choices that make a colour of a spectrum.
 
+use super::illuminant::Illuminant;
+use super::observer::Observer;
+use super::space::{Adaptation, Space};
+use super::wavelength::{FIRST_NM, LAST_NM, Step};
 use glam::DVec3;
-
-use super::integration::Integration;
-use super::tristimulus::{weighted_sum, xyz_weights};
 
 /// Wavelengths, and what reflectance at each adds to red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,6 +104,68 @@ impl Integrator {
 /// The darkest channel of a light (its Y being 1) that colours are divided by. Below, the sum of positive and negative
 /// weights keeps few digits. The least of the named lights is A's blue in sRGB, 0.22.
 const LEAST_MIRROR: f64 = 1e-3;
+
+/// How much reflectance at each wavelength (nm, in equal steps) adds to X, Y and Z: x̄ȳz̄ S / Σ ȳ S.
+#[inline]
+pub fn xyz_weights(observer: Observer, light: &Illuminant, wavelengths: &[f64]) -> Vec<DVec3> {
+    let products = wavelengths
+        .iter()
+        .zip(light.powers(wavelengths))
+        .map(|(nm, power)| observer.at(*nm) * power);
+    let products: Vec<DVec3> = products.collect();
+    let luminance: f64 = products.iter().map(|xyz| xyz.y).sum();
+    products.into_iter().map(|xyz| xyz / luminance).collect()
+}
+
+/// Σ weight · value, from the first to the last.
+#[inline]
+pub fn weighted_sum(weights: &[DVec3], values: impl IntoIterator<Item = f64>) -> DVec3 {
+    weights
+        .iter()
+        .zip(values)
+        .fold(DVec3::ZERO, |sum, (weight, value)| sum + *weight * value)
+}
+
+/// Who looks, under which light, in which space. The default is CIE 1931, D65, sRGB, division by the mirror, 5 nm.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Integration {
+    /// Whose eye.
+    pub observer: Observer,
+    /// The light.
+    pub illuminant: Illuminant,
+    /// The space of the result.
+    pub space: Space,
+    /// How a mirror becomes (1, 1, 1).
+    pub adaptation: Adaptation,
+    /// The distance of the wavelengths.
+    pub step: Step,
+}
+
+impl Integration {
+    /// One line for headers and reports.
+    pub fn description(&self) -> String {
+        let adapted = match self.adaptation {
+            Adaptation::Scale => "",
+            Adaptation::Bradford => "adapted by Bradford, ",
+        };
+        format!(
+            "{FIRST_NM}-{LAST_NM} nm in steps of {} nm, {}, {}, {adapted}{}, mirror = 1",
+            self.step.nm(),
+            self.observer.title(),
+            self.illuminant.name(),
+            self.space.title(),
+        )
+    }
+
+    /// What is to be said of the adaptation beside colours in this space.
+    pub fn adaptation_remark(&self) -> Option<&'static str> {
+        let is_other = self.space == Space::AcesCg && self.adaptation != Adaptation::Bradford;
+        is_other.then_some(ACES_ADAPTS)
+    }
+}
+
+/// Which adaptation ACES pipelines use, where it is another.
+const ACES_ADAPTS: &str = "a mirror is made white by dividing each channel; ACES pipelines adapt by Bradford: --adaptation bradford";
 
 #[cfg(test)]
 mod tests {
@@ -217,5 +291,81 @@ mod tests {
             ..Integration::default()
         };
         assert!(Integrator::new(&choices).is_err());
+    }
+}
+
+#[cfg(test)]
+mod tristimulus_tests {
+    use super::*;
+    use crate::physics::spectra::{Space, Step};
+
+    fn white(light: &Illuminant, step: Step) -> DVec3 {
+        let wavelengths = step.wavelengths();
+        let weights = xyz_weights(Observer::Cie1931, light, &wavelengths);
+        weighted_sum(&weights, wavelengths.iter().map(|_| 1.0))
+    }
+
+    #[test]
+    fn whites_of_the_illuminants() {
+        // D65 in steps of 1 nm, computed apart with another program; then x and y as CIE publishes them, D65, E, A and
+        // F11 in CIE 15:2004, LED-B3 in CIE 015:2018, of sums over a longer range.
+        let d65 = white(&Illuminant::D65, Step::Nm1);
+        assert!(
+            d65.abs_diff_eq(DVec3::new(0.950423, 1.0, 1.088610), 5e-7),
+            "{d65}"
+        );
+        for (light, x, y) in [
+            (Illuminant::D65, 0.31272, 0.32903),
+            (Illuminant::E, 0.33333, 0.33333),
+            (Illuminant::A, 0.44758, 0.40745),
+            (Illuminant::F11, 0.3805, 0.3769),
+            (Illuminant::LedB3, 0.3756, 0.3723),
+        ] {
+            let xyz = white(&light, Step::Nm5);
+            let sum = xyz.element_sum();
+            let near = (xyz.x / sum - x).abs() < 1e-4 && (xyz.y / sum - y).abs() < 1e-4;
+            assert!(near, "{light:?}: {} {}", xyz.x / sum, xyz.y / sum);
+        }
+    }
+
+    #[test]
+    fn without_adaptation_a_mirror_under_e_is_not_white() {
+        let rgb = Space::Srgb.xyz_to_rgb() * white(&Illuminant::E, Step::Nm1);
+        assert!(
+            rgb.abs_diff_eq(DVec3::new(1.205, 0.948, 0.909), 5e-4),
+            "{rgb}"
+        );
+    }
+}
+
+#[cfg(test)]
+mod integration_tests {
+    use super::*;
+
+    #[test]
+    fn one_line_says_all() {
+        let default = Integration::default();
+        assert_eq!(
+            default.description(),
+            "380-780 nm in steps of 5 nm, CIE 1931 2 degree observer, D65, linear sRGB, mirror = 1"
+        );
+        let other = Integration {
+            illuminant: Illuminant::A,
+            adaptation: Adaptation::Bradford,
+            step: Step::Nm1,
+            ..default
+        };
+        assert_eq!(other.adaptation_remark(), None);
+        assert_eq!(
+            other.description(),
+            "380-780 nm in steps of 1 nm, CIE 1931 2 degree observer, A, adapted by Bradford, linear sRGB, mirror = 1"
+        );
+        let aces = |adaptation| Integration {
+            space: Space::AcesCg,
+            adaptation,
+            ..Integration::default()
+        };
+        assert!(aces(Adaptation::Scale).adaptation_remark().is_some());
+        assert_eq!(aces(Adaptation::Bradford).adaptation_remark(), None);
     }
 }

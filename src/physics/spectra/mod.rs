@@ -9,34 +9,22 @@
 //! Wavelengths are in nanometres, colours are linear and lie in [`glam::DVec3`] as (X, Y, Z) or (red, green, blue). The
 //! tables lie in `data/spectra/` and are part of the program.
 
-mod adaptation;
-mod colour_error;
 mod difference;
-mod fault;
-mod gamut;
 mod illuminant;
-mod integration;
 mod integrator;
 mod observer;
 mod space;
 mod spectrum;
 mod table;
-mod tristimulus;
 mod user_text;
 mod wavelength;
 
-pub use adaptation::{Adaptation, bradford};
-pub use colour_error::colour_error;
-pub use difference::{Lab, ciede2000};
-pub use fault::FileFault;
-pub use gamut::Gamut;
+pub use difference::{Lab, ciede2000, colour_error};
 pub use illuminant::Illuminant;
-pub use integration::Integration;
-pub use integrator::{Integrator, NoWhite};
+pub use integrator::{Integration, Integrator, NoWhite, weighted_sum, xyz_weights};
 pub use observer::Observer;
-pub use space::{Space, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
+pub use space::{Adaptation, Gamut, Space, bradford, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
 pub use spectrum::Spectrum;
 pub use table::is_separator;
-pub use tristimulus::{weighted_sum, xyz_weights};
 pub use user_text::{TextFault, mesh_text, user_text, without_mark};
-pub use wavelength::{FIRST_NM, LAST_NM, OBSERVED_NM, Step};
+pub use wavelength::{FIRST_NM, FileFault, LAST_NM, OBSERVED_NM, Step};

@@ -7,6 +7,22 @@
 //! Source: SMPTE RP 177-1993, *Derivation of Basic Television Color Equations*,
 //! <https://doi.org/10.5594/SMPTE.RP177.1993>. The matrices are computed in f64 from the chromaticities, not taken from
 //! the rounded ones of the standards, which move a white by up to 1e-4.
+//!
+//! Gamut: what becomes of a reflectance above 1 or below 0, because the space has no such colour.
+//!
+//! Saturated gold has a red of 1.03 to 1.06 in sRGB. That is right for the sum of light, but a path tracer gains energy
+//! by it and a texture of unsigned numbers cannot hold it.
+//!
+//! Adaptation: the eye takes the colour of the light for white, and so must a reflectance.
+//!
+//! ```text
+//! XYZ' = B⁻¹ diag(B w' / B w) B XYZ      B: Bradford's cones, w: the light's white, w': the white to be seen
+//! ```
+//!
+//! Source: K. M. Lam, *Metamerism and Colour Constancy*, thesis, University of Bradford, 1985; the matrix and this linear
+//! form as in ICC.1:2022, annex E, <https://www.color.org/specification/ICC.1-2022-05.pdf>. Domain: lights with positive
+//! cone responses, as all lights near white have; a single violet or red line may not. For gold
+//! under D65 both ways differ by less than 2e-4, far from D65 they differ more.
 
 use glam::{DMat3, DVec3};
 
@@ -139,6 +155,90 @@ pub fn srgb_linear(encoded: f64) -> f64 {
     }
 }
 
+/// What to do with colours outside [0, 1].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gamut {
+    /// Nothing.
+    Keep,
+    /// Each channel goes to the nearest end of [0, 1]: the hue changes, the other channels stay right.
+    #[default]
+    Clip,
+    /// The colour is divided by its largest channel where that is above 1, and what is below 0 becomes 0: the hue
+    /// stays, all channels are too dark. Gold in Lagarde's table is made so.
+    Scale,
+}
+
+impl Gamut {
+    /// All of them.
+    pub const ALL: [Gamut; 3] = [Gamut::Keep, Gamut::Clip, Gamut::Scale];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Gamut::Keep => "keep",
+            Gamut::Clip => "clip",
+            Gamut::Scale => "scale",
+        }
+    }
+
+    /// The colour that is written. A NaN stays one.
+    pub fn apply(self, rgb: DVec3) -> DVec3 {
+        match self {
+            Gamut::Keep => rgb,
+            Gamut::Clip => rgb.map(|channel| channel.clamp(0.0, 1.0)),
+            Gamut::Scale => {
+                let largest = rgb.max_element().max(1.0);
+                rgb.map(|channel| (channel / largest).clamp(0.0, 1.0))
+            }
+        }
+    }
+}
+
+/// How the colour of a mirror becomes (1, 1, 1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Adaptation {
+    /// Red, green and blue are divided by those of a mirror.
+    #[default]
+    Scale,
+    /// The light is adapted to the white of the space in the cones of Bradford; then a mirror is (1, 1, 1) up to
+    /// rounding, and the division makes it exact.
+    Bradford,
+}
+
+impl Adaptation {
+    /// All of them.
+    pub const ALL: [Adaptation; 2] = [Adaptation::Scale, Adaptation::Bradford];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Adaptation::Scale => "scale",
+            Adaptation::Bradford => "bradford",
+        }
+    }
+
+    /// The matrix on XYZ that this adaptation applies to a light of white `from`, seen in a space of white `to`.
+    pub fn matrix(self, from: DVec3, to: DVec3) -> DMat3 {
+        match self {
+            Adaptation::Scale => DMat3::IDENTITY,
+            Adaptation::Bradford => bradford(from, to),
+        }
+    }
+}
+
+/// The cone responses of Bradford, by rows: sharpened long, middle and short waves of XYZ.
+const CONES: [[f64; 3]; 3] = [
+    [0.8951, 0.2664, -0.1614],
+    [-0.7502, 1.7135, 0.0367],
+    [0.0389, -0.0685, 1.0296],
+];
+
+/// The matrix that turns XYZ under a light of white `from` into XYZ under one of white `to`.
+pub fn bradford(from: DVec3, to: DVec3) -> DMat3 {
+    let cones = DMat3::from_cols_array_2d(&CONES).transpose();
+    cones.inverse() * DMat3::from_diagonal((cones * to) / (cones * from)) * cones
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -213,5 +313,65 @@ mod tests {
                 space.rgb_to_xyz()
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod gamut_tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(rgb: [f64; 3], clip: [f64; 3], scale: [f64; 3]) {
+        assert_eq!(Gamut::Keep.apply(rgb.into()).to_array(), rgb);
+        assert_eq!(Gamut::Clip.apply(rgb.into()).to_array(), clip);
+        assert_eq!(Gamut::Scale.apply(rgb.into()).to_array(), scale);
+    }
+
+    #[test]
+    fn each_way() {
+        check([0.0, 0.5, 1.0], [0.0, 0.5, 1.0], [0.0, 0.5, 1.0]);
+        check([1.25, 0.5, -0.25], [1.0, 0.5, 0.0], [1.0, 0.4, 0.0]);
+        check([0.5, -0.1, 0.2], [0.5, 0.0, 0.2], [0.5, 0.0, 0.2]);
+        check([2.0, 4.0, 1.0], [1.0, 1.0, 1.0], [0.5, 1.0, 0.25]);
+        check([-1.0, -2.0, -3.0], [0.0; 3], [0.0; 3]);
+        for gamut in Gamut::ALL {
+            assert!(gamut.apply(DVec3::NAN).is_nan());
+        }
+    }
+}
+
+#[cfg(test)]
+mod adaptation_tests {
+    use super::*;
+    use crate::physics::spectra::{Illuminant, Observer, Space, Step, weighted_sum, xyz_weights};
+
+    #[test]
+    fn white_becomes_white_and_back() {
+        let wavelengths = Step::Nm5.wavelengths();
+        for light in Illuminant::NAMED {
+            let weights = xyz_weights(Observer::Cie1931, &light, &wavelengths);
+            let from = weighted_sum(&weights, wavelengths.iter().map(|_| 1.0));
+            for to in Space::ALL.map(Space::white) {
+                assert!(
+                    (bradford(from, to) * from).abs_diff_eq(to, 1e-14),
+                    "{light:?}"
+                );
+                let back = bradford(to, from) * bradford(from, to);
+                assert!(back.abs_diff_eq(DMat3::IDENTITY, 1e-14), "{light:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn from_d65_to_d50_as_published() {
+        // B. Lindbloom, Chromatic Adaptation, http://www.brucelindbloom.com/Eqn_ChromAdapt.html, from the same whites.
+        let d65 = DVec3::new(0.95047, 1.0, 1.08883);
+        let d50 = DVec3::new(0.96422, 1.0, 0.82521);
+        let wanted = DMat3::from_cols_array_2d(&[
+            [1.0478112, 0.0228866, -0.0501270],
+            [0.0295424, 0.9904844, -0.0170491],
+            [-0.0092345, 0.0150436, 0.7521316],
+        ]);
+        assert!(bradford(d65, d50).abs_diff_eq(wanted.transpose(), 1e-7));
     }
 }

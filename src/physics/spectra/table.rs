@@ -9,7 +9,7 @@
 //! Numbers are separated by semicolons, or by commas, or by spaces and tabs: by the first of the three that stands in
 //! the line, so that a decimal comma beside semicolons is found and told.
 
-use super::fault::FileFault;
+use super::wavelength::FileFault;
 
 /// The wavelengths that a table may hold, in nm: 1 nm to 1 mm covers all of optics.
 const LEAST_NM: f64 = 1.0;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::packed::Packed;
 use crate::generator::fit::{values, values_for_material};
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::lab::chart::{ChartData, ChartEntry, ERRORS, MaterialSet};
@@ -11,8 +12,6 @@ use crate::language::methods::{Class, Light, Method, Values};
 use crate::physics::materials::Channels;
 use crate::physics::num::in_parallel;
 use crate::pictures::scene::Glass;
-
-use super::packed::Packed;
 
 /// A material.
 #[derive(Clone, Debug, Serialize)]

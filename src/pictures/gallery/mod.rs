@@ -4,7 +4,6 @@
 //! A program is put together from parts, as the page does it: the functions that users import, the calls of the chosen method, the row's
 //! passes. In GLSL ES the passes are naga's translation, and the functions are our own text.
 
-mod functions;
 mod lower;
 mod materials;
 mod orbit;
@@ -12,8 +11,6 @@ mod packed;
 pub mod page;
 mod passes;
 mod row;
-mod rows;
-mod show;
 
 use std::collections::BTreeMap;
 
@@ -27,17 +24,15 @@ use crate::pictures::scene::{
     self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
 };
 
-pub use functions::FunctionTexts;
 pub use lower::{GlesProgram, LoweredTexture, LoweringFault, lowered};
 pub use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
 pub use orbit::{AZIMUTHS, Orbit, eye_at};
 use packed::{SKY, textures_of};
+pub use passes::FunctionTexts;
 
 pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
-pub use passes::GalleryPass;
-pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, methods_of};
-pub use rows::{find, rows};
-pub use show::{SHOW, ShowPrograms};
+pub use passes::{GalleryPass, SHOW, ShowPrograms};
+pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, find, methods_of, rows};
 
 /// All that the page holds.
 #[derive(Debug, Serialize)]
@@ -98,7 +93,7 @@ pub fn gallery(
     let (mut orbits, mut played) = (Vec::new(), Vec::new());
     let mut textures = BTreeMap::from([(SKY.to_owned(), packed::sky_texture())]);
     let mut meshes = BTreeMap::new();
-    for row in rows::rows() {
+    for row in row::rows() {
         let mut images = BTreeMap::from([(SKY.to_owned(), SKY.to_owned())]);
         for (slot, texture) in textures_of(row) {
             images.insert(format!("{slot:?}"), texture.name.clone());
@@ -114,7 +109,7 @@ pub fn gallery(
         played.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
     }
     let all = played.iter().flat_map(GalleryRow::function_names);
-    let functions = functions::texts(&all.collect())?;
+    let functions = passes::texts(&all.collect())?;
     let errors = crate::lab::chart::ERRORS.iter();
     Ok(Gallery {
         methods: materials::method_numbers(&data),
@@ -139,7 +134,7 @@ pub fn gallery(
         orbits,
         textures: textures.into_values().collect(),
         meshes: meshes.into_values().collect(),
-        show: show::programs()?,
+        show: passes::programs()?,
         samples: scene::SAMPLES,
         margin: MARGIN,
         rows: played,

@@ -3,11 +3,10 @@
 use glam::DVec3;
 use serde::Serialize;
 
+use super::packed::Packed;
 use crate::pictures::scene::{
     Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame,
 };
-
-use super::packed::Packed;
 
 /// Places around the body: every 5 degrees.
 pub const AZIMUTHS: usize = 72;

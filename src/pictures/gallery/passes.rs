@@ -1,11 +1,17 @@
 //! The passes of a row, as a page draws them.
+//!
+//! The text of functions, as a reader copies it.
+//!
+//! What puts the panels side by side on the page.
 
-use serde::Serialize;
-
-use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
-
+use super::lower::{GlesProgram, LoweringFault, lowered};
 use super::orbit::Orbit;
 use super::packed::SKY;
+use crate::generator::emit::{self, EffectRequest, Emitted, Naming, effect_function_text};
+use crate::language::{effects, methods, targets};
+use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A pass.
 #[derive(Clone, Debug, Serialize)]
@@ -118,4 +124,79 @@ fn seen_pass(row: &RenderRow, pass: &PassRow, orbit: &Orbit) -> GalleryPass {
 
 fn slot(slot: &Slot) -> String {
     format!("{slot:?}")
+}
+
+/// A function in each language, with the comments above it.
+#[derive(Clone, Debug, Serialize)]
+pub struct FunctionTexts {
+    /// Its name.
+    pub name: String,
+    /// WGSL.
+    pub wgsl: String,
+    /// GLSL ES 3.00.
+    pub gles: String,
+    /// HLSL.
+    pub hlsl: String,
+}
+
+/// The texts of the functions of these names.
+///
+/// # Errors
+/// One cannot be written: a bug.
+pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error> {
+    let mut all: BTreeMap<String, Emitted> = BTreeMap::new();
+    for effect in effects::ALL {
+        for method in methods::ALL {
+            let request = EffectRequest {
+                effect,
+                method,
+                subject: None,
+            };
+            for emitted in request.functions(&Naming::default())? {
+                if names.contains(&emitted.name) {
+                    all.insert(emitted.name.clone(), emitted);
+                }
+            }
+        }
+    }
+    all.into_values().map(|emitted| written(&emitted)).collect()
+}
+
+fn written(emitted: &Emitted) -> Result<FunctionTexts, emit::Error> {
+    let text = |target: &str| {
+        let target = targets::find(target).expect("a target");
+        effect_function_text(target, emitted)
+    };
+    Ok(FunctionTexts {
+        name: emitted.name.clone(),
+        wgsl: text("wgsl")?,
+        gles: text("gles")?,
+        hlsl: text("hlsl")?,
+    })
+}
+
+/// Its text.
+pub const SHOW: &str = include_str!("show.wgsl");
+
+/// Its programs.
+#[derive(Clone, Debug, Serialize)]
+pub struct ShowPrograms {
+    /// For WebGPU.
+    pub wgsl: &'static str,
+    /// For WebGL 2.
+    pub vertex: GlesProgram,
+    /// For WebGL 2.
+    pub fragment: GlesProgram,
+}
+
+/// Its text in both languages.
+///
+/// # Errors
+/// naga refuses it: a bug.
+pub fn programs() -> Result<ShowPrograms, LoweringFault> {
+    Ok(ShowPrograms {
+        wgsl: SHOW,
+        vertex: lowered(SHOW, "vs_cover", &[], false)?,
+        fragment: lowered(SHOW, "fs_show", &[], false)?,
+    })
 }

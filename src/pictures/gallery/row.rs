@@ -1,20 +1,21 @@
 //! A row of the gallery: passes, their texts, and the calls of each method.
+//!
+//! The rows of the gallery: those of pictures, and a rough ball, whose truth no tracer of ours has.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use serde::Serialize;
-
+use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
+use super::orbit::Orbit;
+use super::passes::{GalleryPass, passes_of};
 use crate::generator::emit::{Emitted, effect_function_text};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::Reflectance;
 use crate::language::methods::{self, Class, Light, Method};
 use crate::language::targets;
 use crate::physics::materials::MaterialKind;
-use crate::pictures::scene::{FRAME, RenderRow, RowText};
-
-use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
-use super::orbit::Orbit;
-use super::passes::{GalleryPass, passes_of};
+use crate::pictures::scene::{
+    self, BodyName, FRAME, PassRow, Paths, Place, RenderRow, RowText, Slot, View,
+};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A row.
 #[derive(Clone, Debug, Serialize)]
@@ -257,4 +258,49 @@ fn programs(
         })
     };
     passes.iter().map(pair).collect()
+}
+
+const DARK: PassRow = PassRow {
+    fragment: "fs_dark",
+    place: Place::Everywhere,
+    view: View::Eye,
+    writes: &[Slot::Colour],
+    reads: &[],
+};
+
+/// A rough ball under three lamps.
+static ROUGH: RenderRow = RenderRow {
+    name: "ggx_specular",
+    summary: "A rough ball under three lamps: GGX, the method at the half vector",
+    effects: &["interface", "ggx_specular"],
+    method: "schlick",
+    text: include_str!("ggx_specular.wgsl"),
+    passes: &[
+        DARK,
+        PassRow {
+            fragment: "fs_front",
+            place: Place::Front,
+            ..DARK
+        },
+    ],
+    body: BodyName::Ball,
+    material: "gold",
+    disperses: true,
+    own_paths: Paths::Mirror,
+    true_paths: Paths::Mirror,
+    eye: [0.0, 0.75, 2.9],
+    in_room: false,
+    dents: None,
+    receiver: None,
+    wrong: "light that bounces twice is missing",
+};
+
+/// All of them.
+pub fn rows() -> Vec<&'static RenderRow> {
+    scene::ALL.iter().chain([&ROUGH]).collect()
+}
+
+/// The row of this name.
+pub fn find(name: &str) -> Option<&'static RenderRow> {
+    rows().into_iter().find(|row| row.name == name)
 }

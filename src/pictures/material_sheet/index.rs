@@ -1,9 +1,8 @@
 //! n and k against wavelength, as measured.
 
 use crate::physics::materials::{DispersionCurve, Extrapolate};
+use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
 use crate::pictures::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
-
-use crate::pictures::material_sheet::{DrawnMaterial, axis, window};
 
 const N: Look = Look {
     colour: BLUE,
@@ -28,8 +27,8 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
         .rgb_nm
         .map(|rgb| drawn.viewing.wavelengths_nm.unwrap_or(rgb));
     let range = match three {
-        Some(rgb) => Some(window::around(rgb)),
-        None => window::either(material),
+        Some(rgb) => Some(swatches::around(rgb)),
+        None => swatches::either(material),
     };
     let curve_series = |name: &str, curve: &DispersionCurve, look: Look| match three {
         Some(rgb) => joined(name, curve, look, rgb, drawn.viewing.beyond),
@@ -55,7 +54,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Refractive index and extinction".to_owned(),
         subtitle,
-        x: window::wavelength_axis(range),
+        x: swatches::wavelength_axis(range),
         y,
         series,
         marks: Vec::new(),
@@ -113,9 +112,9 @@ fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f6
         (_, None) => Vec::new(),
         (DispersionCurve::Table(table), Some(range)) => within(table.points(), range),
         (DispersionCurve::Formula(formula), Some(_)) => {
-            let own = window::shown((formula.from_nm, formula.to_nm));
+            let own = swatches::shown((formula.from_nm, formula.to_nm));
             let at = |nm: f64| (nm, formula.n(nm).unwrap_or(f64::NAN));
-            let samples = own.map_or(Vec::new(), window::samples);
+            let samples = own.map_or(Vec::new(), swatches::samples);
             samples.into_iter().map(at).collect()
         }
     };

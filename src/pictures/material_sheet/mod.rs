@@ -4,16 +4,13 @@
 //! few angles, and swatches. All reflectance is the exact law's, and colours outside [0, 1] are kept, but for the
 //! swatches: these are what a screen shows.
 
-mod angle;
 mod axis;
 mod index;
 mod spectrum;
 mod swatches;
-mod window;
 
 use crate::physics::materials::{Material, Surface, ViewingConditions};
 use crate::physics::spectra::Gamut;
-
 use crate::pictures::plot::{FOOT, HEADING, Layout, PanelFrame, SUBTITLE, capital};
 
 /// The sheet.
@@ -70,7 +67,7 @@ pub fn material_sheet(
 
 impl DrawnMaterial<'_> {
     fn draw(&self, command: &str) -> String {
-        let (index, angle) = (index::index_chart(self), angle::angle_chart(self));
+        let (index, angle) = (index::index_chart(self), spectrum::angle_chart(self));
         let spectrum = spectrum::spectrum_chart(self);
         let (swatches, colours) = swatches::swatch_panel(self, PANEL);
         let mut layout = Layout::new(PICTURE);
@@ -120,7 +117,7 @@ impl DrawnMaterial<'_> {
             labelled("Page", &material.page),
             labelled("Conditions", &material.conditions),
             capital(material.kind.name()),
-            window::words(material.range_nm()),
+            swatches::words(material.range_nm()),
             licence.unwrap_or_default()
         );
         let source = material.source_words(" ");

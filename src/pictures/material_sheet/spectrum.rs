@@ -1,11 +1,15 @@
 //! Reflectance against wavelength, at a few angles.
+//!
+//! Reflectance against angle, for red, green and blue.
 
 use crate::physics::materials::{Extrapolate, Index, Material};
 use crate::physics::optics;
-use crate::pictures::plot::{BLUE, INK, LineChart, Look, Series, Style, VERMILION};
-
-use crate::pictures::material_sheet::angle::cosine;
-use crate::pictures::material_sheet::{DrawnMaterial, axis, window};
+pub use crate::physics::optics::cosine;
+use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
+use crate::pictures::plot::{
+    BLUE, ChartAxis, GREEN, INK, LineChart, Look, Series, Style, VERMILION,
+};
+use glam::DVec3;
 
 /// Angles in degrees, from the flat ones to where metals are palest.
 const ANGLES: [(f64, &str, &str); 4] = [
@@ -19,7 +23,7 @@ const ANGLES: [(f64, &str, &str); 4] = [
 pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
     let three = drawn.three_nm();
     let (range, indices) = match three {
-        Some(rgb) => (Some(window::around(rgb)), points(drawn)),
+        Some(rgb) => (Some(swatches::around(rgb)), points(drawn)),
         None => measured(drawn),
     };
     let alone = three.is_some() || indices.len() == 1;
@@ -43,7 +47,7 @@ pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Reflectance against wavelength".to_owned(),
         subtitle,
-        x: window::wavelength_axis(range),
+        x: swatches::wavelength_axis(range),
         y: axis::reflectance(&series),
         series: series.to_vec(),
         marks: Vec::new(),
@@ -68,8 +72,8 @@ fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
     let medium = drawn.medium.map(Material::range_nm);
     let (from, to) = drawn.material.range_nm();
     let (low, high) = medium.unwrap_or((from, to));
-    let range = window::shown((from.max(low), to.min(high)));
-    let samples = range.map_or(Vec::new(), window::samples);
+    let range = swatches::shown((from.max(low), to.min(high)));
+    let samples = range.map_or(Vec::new(), swatches::samples);
     let index = |nm: f64| {
         let own = drawn.material.index(nm, Extrapolate::Refuse).ok()?;
         let Some(medium) = drawn.medium else {
@@ -87,4 +91,62 @@ fn reflectance(indices: &Indices, cos_theta: f64) -> Vec<(f64, f64)> {
         .iter()
         .map(|(nm, index)| (*nm, law(index)))
         .collect()
+}
+
+/// From 0 to 90 degrees, a quarter of a degree apart.
+const POINTS: u32 = 361;
+
+/// Solid below, dashed above with one period: where the three coincide, each still has a third of the line.
+const CHANNELS: [(&str, Look); 3] = [
+    ("red", look("#d5432a", "", 3.6)),
+    ("green", look(GREEN, "14 7", 2.8)),
+    ("blue", look("#1f5fd0", "7 14", 2.8)),
+];
+
+const fn look(colour: &'static str, dashes: &'static str, width: f64) -> Look {
+    Look {
+        colour,
+        dashes,
+        width,
+        dots: false,
+    }
+}
+
+/// The reflected share of unpolarised light in each channel, by the exact law.
+pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
+    let degrees: Vec<f64> = (0..POINTS)
+        .map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
+        .collect();
+    let colours: Vec<DVec3> = degrees
+        .iter()
+        .map(|at| drawn.surface.unpolarised(cosine(*at)))
+        .collect();
+    let series = |(channel, (name, look)): (usize, (&str, Look))| Series {
+        name: name.to_owned(),
+        style: Style::Own(look),
+        points: degrees
+            .iter()
+            .zip(&colours)
+            .map(|(at, colour)| (*at, colour[channel]))
+            .collect(),
+    };
+    let series: Vec<Series> = CHANNELS.into_iter().enumerate().map(series).collect();
+    LineChart {
+        title: "Reflectance against angle".to_owned(),
+        subtitle: subtitle(&series),
+        x: ChartAxis::angle_of_incidence(),
+        y: axis::reflectance(&series),
+        series,
+        marks: Vec::new(),
+        foot: String::new(),
+    }
+}
+
+fn subtitle(series: &[Series]) -> String {
+    let law = "Unpolarised light, exact law.";
+    let beyond = |value: f64| !(-5e-4..=1.0005).contains(&value);
+    if axis::values(series).any(beyond) {
+        return format!("{law} Outside 0 to 1: a colour that the space cannot hold, kept.");
+    }
+    law.to_owned()
 }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::curve::step_cosines;
+use super::request::PlanRequest;
 use crate::generator::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::generator::fit::{arguments, table_of};
 use crate::generator::reference::MaterialInMedium;
@@ -11,9 +13,6 @@ use crate::lab::cost::{
 use crate::language::ir::{Checked, evaluate};
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::num::{Half, Num, Precision, each_channel, in_parallel};
-
-use super::curve::step_cosines;
-use super::request::PlanRequest;
 
 /// What functions cost, and which of them may be taken.
 pub struct Prices<'a> {

@@ -7,11 +7,10 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use super::metric::ScenePixel;
 use crate::generator::reference::cosine_of_part;
 use crate::physics::num::{each_channel, in_parallel};
 use crate::physics::optics::Ggx;
-
-use super::pixels::ScenePixel;
 
 /// Steps of angle between 0 and 90 degrees.
 pub const STEPS: usize = 8192;

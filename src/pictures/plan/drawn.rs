@@ -1,9 +1,8 @@
 //! Scenes that we draw ourselves: triangles of several materials in one depth buffer, under light from all around.
 
-use crate::lab::raster::{Camera, Mesh, SurfacePoint, surface_points_of};
-
-use super::pixels::{FramePixels, ScenePixel};
+use super::metric::{FramePixels, ScenePixel};
 use super::sky::SceneLight;
+use crate::lab::raster::{Camera, Mesh, SurfacePoint, surface_points_of};
 
 /// How a part of a scene looks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,9 +14,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::physics::materials::{FileFault, FileText, is_hidden};
-
 use super::MappedMaterial;
+use crate::physics::materials::{FileFault, FileText, is_hidden};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

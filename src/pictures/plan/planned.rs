@@ -1,16 +1,12 @@
 //! The plan: candidates of every material judged in every frame, and the choice among them.
 
+use super::candidate::{Candidate, Prices, candidates};
+use super::choice::{Choosable, Judge, choose, within};
+use super::curve::{RoughRule, step_cosines};
+use super::metric::{FramePixels, PERCENTILE_FROM, ScenePixel, Screen};
+use super::request::PlanRequest;
 use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
-
-use super::candidate::{Candidate, Prices, candidates};
-use super::choice::{Choosable, choose, within};
-use super::curve::{RoughRule, step_cosines};
-use super::in_turn::Judge;
-use super::metric::Screen;
-use super::picture_error::PERCENTILE_FROM;
-use super::pixels::{FramePixels, ScenePixel};
-use super::request::PlanRequest;
 
 /// Errors are compared and told in so many parts of 1: what single precision rounds is far below.
 const ERROR_PARTS: f64 = 1e4;
@@ -357,7 +353,7 @@ fn place_of(names: &mut Vec<String>, name: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::in_turn::distinct_values;
+    use super::super::choice::distinct_values;
     use super::super::metric::Metric;
     use super::super::request::PlanTruth;
     use super::*;

@@ -6,6 +6,12 @@
 
 use glam::DVec3;
 
+use super::candidate::Candidate;
+use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
+use super::metric::{Metric, ScenePixel, Screen, error_of, radiance};
+use super::planned::JudgedMaterial;
+use super::request::PlanRequest;
+use super::row::Proof;
 use crate::generator::emit::{
     self, Bounds, CodeBound, Emitted, HeaderForm, Heading, Naming, library_functions,
     specialised_function,
@@ -16,15 +22,6 @@ use crate::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction}
 use crate::lab::verify::{Status, Trial, material_trial};
 use crate::language::targets::{GLES, Target, WGSL};
 use crate::physics::spectra::{srgb_byte, srgb_linear};
-
-use super::candidate::Candidate;
-use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
-use super::metric::{Metric, Screen};
-use super::picture_error::{error_of, radiance};
-use super::pixels::ScenePixel;
-use super::planned::JudgedMaterial;
-use super::request::PlanRequest;
-use super::row::Proof;
 
 /// The targets whose text is run.
 const TARGETS: [&Target; 2] = [&WGSL, &GLES];

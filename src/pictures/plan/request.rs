@@ -1,5 +1,7 @@
 //! What a plan is asked for.
 
+use super::curve::step_cosines;
+use super::metric::Metric;
 use crate::generator::reference::{MaterialInMedium, ReferenceCurve};
 use crate::lab::cost::Family;
 use crate::language::methods::{Light, Method};
@@ -7,9 +9,6 @@ use crate::physics::materials::Surface;
 use crate::physics::num::{Precision, in_parallel};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::Display;
-
-use super::curve::step_cosines;
-use super::metric::Metric;
 
 /// Cosines that a processor's core takes at once: handing over one takes a tenth of the law's own time.
 const TOGETHER: usize = 256;

@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::candidate::Candidate;
+use super::choice::{Choosable, total_cost};
+use super::planned::{JudgedCandidate, JudgedMaterial, Judgement};
+use super::request::PlanRequest;
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::values_for_material_in;
 use crate::lab::cost::CostBasis;
 use crate::lab::verify::Status;
 use crate::physics::num::Precision;
-
-use super::candidate::Candidate;
-use super::choice::{Choosable, total_cost};
-use super::planned::{JudgedCandidate, JudgedMaterial, Judgement};
-use super::request::PlanRequest;
 
 /// The function that a material gets.
 #[derive(Clone, Debug, PartialEq, Serialize)]

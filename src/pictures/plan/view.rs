@@ -2,15 +2,12 @@
 
 use glam::DVec3;
 
-use crate::lab::raster::MAGNIFIED;
-use crate::physics::num::each_channel;
-
 use super::curve::{Curve, PixelPlace, RoughRule};
-use super::metric::Screen;
-use super::picture_error::radiance;
-use super::pixels::{FramePixels, ScenePixel};
+use super::metric::{FramePixels, ScenePixel, Screen, radiance};
 use super::planned::{DEGREES, JudgedCandidate, JudgedMaterial, degree_of};
 use super::request::PlanRequest;
+use crate::lab::raster::MAGNIFIED;
+use crate::physics::num::each_channel;
 
 /// Candidates beside the chosen one that are shown.
 const CHEAPER: usize = 3;

@@ -1,8 +1,15 @@
 //! Two axes around an area: grid, ticks with their labels, titles.
+//!
+//! The legend: a line sample and a name for each curve.
+//!
+//! Values along a line of a picture: evenly, or in powers of ten.
+//!
+//! A layout sets text, panels and elements from the top down.
 
-use crate::pictures::plot::palette::{EDGE, GRID};
-use crate::pictures::plot::scale::Scale;
-use crate::pictures::plot::text::{AXIS, TICK};
+use crate::generator::emit::{MARK, xml_text};
+use crate::pictures::plot::line_chart::Series;
+use crate::pictures::plot::palette::{EDGE, GRID, Style};
+use crate::pictures::plot::text::{AXIS, Font, LEGEND, TICK};
 
 /// From a vertical axis to the labels of its ticks, and a little more than from a horizontal one to its.
 pub const TICK_GAP: f64 = 7.0;
@@ -154,4 +161,277 @@ impl Axes {
 
 fn outer_tick(x: f64, y: f64, [right, down]: [f64; 2]) -> String {
     format!("<path stroke=\"{EDGE}\" d=\"M{x:.2} {y:.2}l{right} {down}\"/>")
+}
+
+/// The length of a line sample: two periods of the longest dash pattern.
+const SAMPLE: f64 = 38.0;
+const SAMPLE_GAP: f64 = 8.0;
+const ENTRY_GAP: f64 = 24.0;
+
+impl Layout {
+    /// Sets a line sample and a name for each curve, in as many rows as needed.
+    pub fn legend(&mut self, series: &[Series]) {
+        let (margin, room) = (self.frame().margin, self.frame().room());
+        let (mut left, mut top) = (margin, self.bottom() + 7.0);
+        for one in series {
+            let lines = LEGEND.wrap(&one.name, room - SAMPLE - SAMPLE_GAP);
+            let width = SAMPLE + SAMPLE_GAP + LEGEND.widest(&lines);
+            if left > margin && left + width > margin + room {
+                (left, top) = (margin, self.bottom());
+            }
+            let bottom = self.bottom().max(top + LEGEND.height(&lines));
+            self.extend(legend_entry(one.style, &lines, left, top), bottom);
+            left += width + ENTRY_GAP;
+        }
+    }
+}
+
+fn legend_entry(style: Style, lines: &[String], left: f64, top: f64) -> Vec<String> {
+    let sample = format!(
+        "<path {} d=\"M{left:.2} {:.2}H{:.2}\"/>",
+        style.attributes(),
+        top + LEGEND.leading / 2.0,
+        left + SAMPLE
+    );
+    let mut elements = vec![sample];
+    elements.extend(style.dot(left + SAMPLE / 2.0, top + LEGEND.leading / 2.0));
+    elements.extend(LEGEND.draw(lines, left + SAMPLE + SAMPLE_GAP, top, "start"));
+    elements
+}
+
+/// Where values lie between two coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    is_log: bool,
+    /// The values at both ends, or their logarithms.
+    low: f64,
+    high: f64,
+    /// The coordinates of both ends.
+    from: f64,
+    to: f64,
+}
+
+impl Scale {
+    /// Values from `low` to `high`, evenly from one coordinate to the other.
+    pub fn linear([low, high]: [f64; 2], [from, to]: [f64; 2]) -> Scale {
+        Scale {
+            is_log: false,
+            low,
+            high,
+            from,
+            to,
+        }
+    }
+
+    /// Values from `low` to `high`, both above 0: each power of ten takes as much room.
+    pub fn log(ends: [f64; 2], coordinates: [f64; 2]) -> Scale {
+        Scale {
+            is_log: true,
+            ..Scale::linear(ends.map(libm::log10), coordinates)
+        }
+    }
+
+    /// Where a value lies on the way: 0 at the low end, 1 at the high end.
+    pub fn fraction(&self, value: f64) -> f64 {
+        let span = self.high - self.low;
+        if span == 0.0 {
+            return 0.5;
+        }
+        let value = if self.is_log {
+            libm::log10(value)
+        } else {
+            value
+        };
+        (value - self.low) / span
+    }
+
+    /// Whether a value lies between the ends, give or take rounding.
+    pub fn holds(&self, value: f64) -> bool {
+        (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
+    }
+
+    /// The coordinate of a value, held near the picture since viewers fail on huge numbers.
+    pub fn at(&self, value: f64) -> f64 {
+        (self.from + (self.to - self.from) * self.fraction(value)).clamp(-9999.0, 9999.0)
+    }
+}
+
+/// The size of a picture or a panel, and its margins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelFrame {
+    /// The width.
+    pub width: f64,
+    /// The usual height, and the least.
+    pub height: f64,
+    /// The margin on the left and right.
+    pub margin: f64,
+    /// The margin above the first line.
+    pub upper: f64,
+    /// The margin beneath the last line, which has white of its own.
+    pub lower: f64,
+}
+
+/// The frame of a chart that stands alone.
+pub const ALONE: PanelFrame = PanelFrame {
+    width: 720.0,
+    height: 440.0,
+    margin: 24.0,
+    upper: 20.0,
+    lower: 18.0,
+};
+
+impl PanelFrame {
+    /// The width inside the margins.
+    pub fn room(&self) -> f64 {
+        self.width - 2.0 * self.margin
+    }
+
+    /// The right end of the room.
+    pub fn right(&self) -> f64 {
+        self.margin + self.room()
+    }
+}
+
+/// The gap between one paragraph and the next.
+const PARAGRAPH_GAP: f64 = 2.0;
+/// What has been set so far, and where the next thing goes.
+pub struct Layout {
+    frame: PanelFrame,
+    elements: Vec<String>,
+    bottom: f64,
+}
+
+impl Layout {
+    /// An empty layout.
+    pub fn new(frame: PanelFrame) -> Layout {
+        Layout {
+            frame,
+            elements: Vec::new(),
+            bottom: frame.upper,
+        }
+    }
+
+    /// The size and the margins.
+    pub fn frame(&self) -> PanelFrame {
+        self.frame
+    }
+
+    /// The lower edge of what has been set.
+    pub fn bottom(&self) -> f64 {
+        self.bottom
+    }
+
+    /// Adds elements that reach down to `bottom`.
+    pub fn extend(&mut self, elements: Vec<String>, bottom: f64) {
+        self.elements.extend(elements);
+        self.bottom = bottom;
+    }
+
+    /// Sets text across the layout.
+    pub fn paragraph(&mut self, font: &Font, text: &str) {
+        let lines = font.wrap(text, self.frame.room());
+        let elements = font.draw(&lines, self.frame.margin, self.bottom, "start");
+        let height = paragraph_height(font, text, self.frame.room());
+        self.extend(elements, self.bottom + height);
+    }
+
+    /// Sets other layouts side by side from `left` on, each in its own frame.
+    pub fn side_by_side(&mut self, left: f64, panels: Vec<Layout>) {
+        let (top, mut left) = (self.bottom, left);
+        for panel in panels {
+            let height = panel.height();
+            self.elements
+                .push(format!("<g transform=\"translate({left:.2} {top:.2})\">"));
+            self.elements.extend(panel.elements);
+            self.elements.push("</g>".into());
+            self.bottom = self.bottom.max(top + height);
+            left += panel.frame.width;
+        }
+    }
+
+    /// The height, margins included.
+    fn height(&self) -> f64 {
+        (self.bottom + self.frame.lower).max(self.frame.height)
+    }
+
+    /// The finished SVG document.
+    pub fn document(&self, title: &str, description: &str) -> String {
+        let (width, height) = (self.frame.width, self.height().round());
+        let head = format!(
+            "<!-- {MARK} -->\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"system-ui, sans-serif\">"
+        );
+        // The card is opaque so that the chart reads on a dark page as well.
+        let card = format!(
+            "<rect x=\"0.5\" y=\"0.5\" width=\"{}\" height=\"{}\" rx=\"8\" \
+             fill=\"#ffffff\" stroke=\"#d5dae1\"/>",
+            width - 1.0,
+            height - 1.0
+        );
+        let title = format!("<title>{}</title>", xml_text(title));
+        let description = format!("<desc>{}</desc>", xml_text(description));
+        let body = self.elements.join("\n");
+        format!("{head}\n{title}\n{description}\n{card}\n{body}\n</svg>\n")
+    }
+}
+
+/// The height that a paragraph takes; none when it is blank.
+pub fn paragraph_height(font: &Font, text: &str, room: f64) -> f64 {
+    match font.wrap(text, room) {
+        lines if lines.is_empty() => 0.0,
+        lines => font.height(&lines) + PARAGRAPH_GAP,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pictures::plot::axes::ALONE;
+
+    fn named(name: &str) -> Series {
+        Series {
+            name: name.into(),
+            style: Style::Exact,
+            points: vec![],
+        }
+    }
+
+    #[test]
+    fn legend_rows_follow_the_length_of_the_names() {
+        let rows = |names: &[&str]| {
+            let mut layout = Layout::new(ALONE);
+            let start = layout.bottom();
+            layout.legend(&names.iter().map(|name| named(name)).collect::<Vec<_>>());
+            ((layout.bottom() - start) / LEGEND.leading).floor()
+        };
+        let (half, long) = ("word ".repeat(12), "word ".repeat(40));
+        assert_eq!(rows(&[]), 0.0);
+        assert_eq!(rows(&["a", "b", "c"]), 1.0);
+        assert_eq!(rows(&[&half, &half, "c"]), 2.0);
+        assert_eq!(rows(&["a", &long, "c"]), 5.0);
+    }
+}
+
+#[cfg(test)]
+mod scale_tests {
+    use super::*;
+
+    #[test]
+    fn values_lie_evenly_or_by_their_powers() {
+        let even = Scale::linear([0.0, 10.0], [100.0, 200.0]);
+        assert_eq!(even.at(5.0), 150.0);
+        let powers = Scale::log([1.0, 100.0], [100.0, 200.0]);
+        assert_eq!(powers.at(10.0), 150.0);
+        assert!(powers.holds(100.0) && !powers.holds(101.0));
+        assert_eq!(Scale::linear([3.0, 3.0], [0.0, 8.0]).at(7.0), 4.0);
+    }
+
+    #[test]
+    fn coordinates_stay_near_the_picture() {
+        let scale = Scale::linear([0.0, 1.0], [10.0, 20.0]);
+        assert_eq!(scale.at(0.5), 15.0);
+        assert_eq!(scale.at(1e300), 9999.0);
+        let falling = Scale::linear([0.0, 1.0], [20.0, 10.0]);
+        assert_eq!(falling.at(f64::INFINITY), -9999.0);
+    }
 }

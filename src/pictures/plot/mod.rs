@@ -5,20 +5,15 @@
 //! a plot gets whatever height the text leaves over.
 
 mod axes;
-mod layout;
-mod legend;
 mod line_chart;
 mod palette;
-mod scale;
 mod text;
 mod ticks;
 
-pub(super) use axes::{Area, Axes, Tick};
-pub(super) use layout::{Layout, PanelFrame};
+pub(super) use axes::{Area, Axes, Layout, PanelFrame, Scale, Tick};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
 pub(crate) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
 pub use palette::{Look, Style};
-pub(super) use scale::Scale;
 pub(crate) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
 pub use ticks::ticks;
 pub(super) use ticks::{log_ticks, plain_label, power_label};

@@ -2,15 +2,14 @@
 //!
 //! Light of irradiance 1 falls along -z on the ball of radius 1; the receiver lies square to it below.
 
-use crate::lab::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
-use crate::physics::optics;
-
 use super::body::{Body, Vertex};
 use super::draw::DrawFault;
 use super::frame::{BACK, LightBlock, PHOTONS};
 use super::glass::Glass;
 use super::table::find;
 use super::text::RowText;
+use crate::lab::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
+use crate::physics::optics;
 
 /// A window of the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,17 +3,15 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use crate::lab::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen};
-
 use super::body::Vertex;
-use super::camera::Camera;
 use super::environment::Environment;
-use super::frame::frame;
+use super::frame::{Camera, frame};
 use super::room::room_cube;
-use super::row::{PassRow, Place, RenderRow, Slot};
+use super::table::{PassRow, Place, RenderRow, Slot};
 use super::texels::Texels;
 use super::text::{INPUTS, RowText};
 use super::trace::Things;
+use crate::lab::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen};
 
 /// Texels of a side of the room's cube map.
 const CUBE: usize = 1024;

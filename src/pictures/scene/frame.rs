@@ -1,12 +1,12 @@
 //! The block of numbers that every pass sees: cameras, the material, the room, the inputs of the method.
+//!
+//! Where a picture is taken from: rays for the tracer, a matrix for what draws.
 
-use glam::{DMat4, DVec3, DVec4};
-
-use super::camera::Camera;
 use super::glass::Glass;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN};
-use super::row::View;
+use super::table::View;
 use super::text::INPUTS;
+use glam::{DMat4, DVec3, DVec4};
 
 /// Where the index begins in the block, in numbers; n, then k, four numbers each.
 pub const INDEX_AT: usize = 36;
@@ -115,6 +115,112 @@ impl View {
     }
 }
 
+/// A camera. The world is right-handed and its y points up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where the eye is.
+    pub eye: DVec3,
+    /// From the world to clip space, depth 0 to 1.
+    pub view_projection: DMat4,
+    /// Its inverse, before a near plane was laid: for directions.
+    pub inverse: DMat4,
+}
+
+/// Where depth begins and ends, in distances of the eye from the middle.
+const NEAR: f64 = 0.05;
+const FAR: f64 = 10.0;
+
+impl Camera {
+    /// A square picture from a place, of the origin, so that a ball of this radius around it takes 90 % of the height.
+    pub fn around(eye: DVec3, radius: f64) -> Camera {
+        let distance = eye.length();
+        let half_height = libm::tan(libm::asin(radius / distance)) / 0.9;
+        let (near, far) = (NEAR * distance, FAR * distance);
+        let view_projection = perspective(half_height, near, far) * looking_at_origin(eye);
+        Camera {
+            eye,
+            view_projection,
+            inverse: view_projection.inverse(),
+        }
+    }
+
+    /// The camera mirrored in the plane y = 0. What it draws has the mirrored world at the pixels where this camera sees the
+    /// plane.
+    pub fn mirrored(&self) -> Camera {
+        let mirror = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0));
+        Camera {
+            eye: mirror.transform_point3(self.eye),
+            view_projection: self.view_projection * mirror,
+            inverse: mirror * self.inverse,
+        }
+    }
+
+    /// The same camera for a picture of the same pixels and a margin around them: this many pixels a side, of so many with the margin.
+    pub fn with_margin(&self, side: u32, whole: u32) -> Camera {
+        let share = f64::from(side) / f64::from(whole);
+        let smaller = DVec3::new(share, share, 1.0);
+        Camera {
+            eye: self.eye,
+            view_projection: DMat4::from_scale(smaller) * self.view_projection,
+            inverse: self.inverse * DMat4::from_scale(smaller.recip()),
+        }
+    }
+
+    /// The same camera with another near plane: what lies below the plane y = 0 is clipped.
+    pub fn clipped_below(&self) -> Camera {
+        Camera {
+            view_projection: with_near_plane(self.view_projection, DVec4::Y),
+            ..*self
+        }
+    }
+
+    /// The direction through a place of the picture: 0 to 1 from left to right, and from top to bottom.
+    pub fn direction(&self, x: f64, y: f64) -> DVec3 {
+        let far = DVec3::new(2.0 * x - 1.0, 1.0 - 2.0 * y, 1.0);
+        (self.inverse.project_point3(far) - self.eye).normalize()
+    }
+}
+
+/// From the world to the camera, which looks along its -z.
+fn looking_at_origin(eye: DVec3) -> DMat4 {
+    let back = eye.normalize();
+    let right = DVec3::Y.cross(back).normalize();
+    let up = back.cross(right);
+    let camera = DMat4::from_cols(
+        right.extend(0.0),
+        up.extend(0.0),
+        back.extend(0.0),
+        eye.extend(1.0),
+    );
+    camera.inverse()
+}
+
+/// From the camera to clip space: this half height at distance 1, square.
+fn perspective(half_height: f64, near: f64, far: f64) -> DMat4 {
+    let scale = 1.0 / half_height;
+    let depth = far / (near - far);
+    DMat4::from_cols(
+        DVec4::new(scale, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, scale, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, depth, -1.0),
+        DVec4::new(0.0, 0.0, near * depth, 0.0),
+    )
+}
+
+/// With a near plane in the place of its own: the row of depth becomes the plane, so scaled that the corner of the frustum that
+/// is farthest from the plane has depth 1. Rows of x, y and w stay.
+///
+/// Source: Lengyel, *Oblique View Frustum Depth Projection and Clipping*, Journal of Game Development 1 (2), 2005,
+/// <https://terathon.com/lengyel/Lengyel-Oblique.pdf>; its clip space has depth -1 to 1, ours 0 to 1.
+fn with_near_plane(view_projection: DMat4, plane: DVec4) -> DMat4 {
+    let to_world = view_projection.inverse();
+    let in_clip = to_world.transpose() * plane;
+    let corner = DVec4::new(in_clip.x.signum(), in_clip.y.signum(), 1.0, 1.0);
+    let depth = plane / plane.dot(to_world * corner);
+    let rows = view_projection.transpose();
+    DMat4::from_cols(rows.x_axis, rows.y_axis, depth, rows.w_axis).transpose()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,5 +238,56 @@ mod tests {
         let absorption = glass.absorption().to_array().map(|value| value as f32);
         assert_eq!(block[ABSORPTION_AT..ABSORPTION_AT + 3], absorption);
         assert_eq!(block[INPUTS_AT..], [7.0; 4 * INPUTS]);
+    }
+}
+
+#[cfg(test)]
+mod camera_tests {
+    use super::*;
+
+    #[test]
+    fn what_lies_below_the_plane_is_clipped() {
+        let camera = Camera::around(DVec3::new(1.0, 2.0, 3.0), 1.0);
+        let whole = camera.mirrored();
+        let clipped = whole.clipped_below();
+        assert_eq!(whole.eye, DVec3::new(1.0, -2.0, 3.0));
+        for (x, z) in [(0.0, 0.0), (0.4, -0.7), (-1.0, 0.3)] {
+            let at = |y: f64| {
+                let place = DVec4::new(x, y, z, 1.0);
+                (
+                    clipped.view_projection * place,
+                    whole.view_projection * place,
+                )
+            };
+            assert!(at(0.0).0.z.abs() < 1e-12, "on the plane");
+            assert!(at(-0.2).0.z < 0.0, "below it");
+            let (near, same) = at(0.3);
+            assert!(0.0 < near.z && near.z < near.w, "above it: {near}");
+            assert_eq!((near.x, near.y, near.w), (same.x, same.y, same.w));
+        }
+    }
+
+    #[test]
+    fn a_mirrored_camera_sees_the_mirrored_world_where_this_one_sees_the_plane() {
+        let camera = Camera::around(DVec3::new(1.0, 2.0, 3.0), 1.0);
+        let mirrored = camera.mirrored();
+        let place = DVec3::new(0.3, 0.0, -0.4);
+        let [one, other] = [&camera, &mirrored].map(|of| of.view_projection.project_point3(place));
+        assert!((one - other).length() < 1e-12, "{one} {other}");
+        let (x, y) = (0.5 + 0.5 * one.x, 0.5 - 0.5 * one.y);
+        let seen = camera.direction(x, y) * DVec3::new(1.0, -1.0, 1.0);
+        assert!((mirrored.direction(x, y) - seen).length() < 1e-9);
+    }
+
+    #[test]
+    fn rays_go_where_the_matrix_puts_them() {
+        let camera = Camera::around(DVec3::new(1.0, 2.0, 3.0), 1.0);
+        for (x, y) in [(0.5, 0.5), (0.1, 0.8), (0.9, 0.3)] {
+            let place = camera.eye + 2.5 * camera.direction(x, y);
+            let clip = camera.view_projection.project_point3(place);
+            assert!((clip.x - (2.0 * x - 1.0)).abs() < 1e-9, "{clip}");
+            assert!((clip.y - (1.0 - 2.0 * y)).abs() < 1e-9, "{clip}");
+            assert!((0.0..1.0).contains(&clip.z), "{clip}");
+        }
     }
 }

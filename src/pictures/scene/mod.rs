@@ -2,51 +2,41 @@
 //! tracer in f64 sees, which shares no line with them.
 
 mod body;
-mod camera;
 mod caustics;
-mod compare;
 mod draw;
 mod environment;
 mod frame;
-mod gem;
 mod glass;
 mod icc;
 mod light_file;
 mod picture;
 mod pool;
-mod relief;
 mod room;
-mod row;
-mod sky;
 mod table;
 mod texels;
 mod text;
-mod tone;
 mod trace;
 mod window;
 
 pub use body::{Body, Crossing, Vertex};
-pub use camera::Camera;
 pub use caustics::{
     FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
 };
-pub use compare::{Comparison, Difference, compare};
 pub use draw::{DrawFault, Drawn, Scenery, draw};
-pub use environment::{Environment, EnvironmentFault};
+pub use environment::{Environment, EnvironmentFault, sky, sky_of};
 pub use frame::{
-    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
+    ABSORPTION_AT, BACK, Camera, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
 pub use glass::{Glass, Ray};
 pub use light_file::is_deep;
-pub use picture::{Order, Picture, RenderedRow, render};
-pub use relief::Relief;
-pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
-pub use row::{BodyName, PassRow, Place, RenderRow, Slot, View};
-pub use sky::{sky, sky_of};
-pub use table::{ALL, find};
+pub use picture::{
+    Comparison, Difference, Display, Order, Picture, RenderedRow, TONE_CURVES, ToneCurve, compare,
+    render,
+};
+pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
+pub use table::{ALL, BodyName, PassRow, Place, RenderRow, Slot, View, find};
 pub use texels::Texels;
 pub use text::{FRAME, INPUTS, RowText};
-pub use tone::{Display, TONE_CURVES, ToneCurve};
 pub use trace::{Around, Paths, Things, Traced, trace};
 
 /// Samples of a pixel along each side, in what is drawn and in its truth.

@@ -1,22 +1,23 @@
 //! A row as a picture beside its truth, with what is known of both.
-
-use glam::DVec3;
-use serde::Serialize;
-
-use crate::lab::gpu::Device;
+//!
+//! A picture beside its truth: differences as the eye sees them.
+//!
+//! From radiance to what a screen shows: exposure, and a curve that keeps bright things apart.
 
 use super::SAMPLES;
-use super::camera::Camera;
 use super::caustics::{FOUR_PICTURES, Gathering, Window, caustic_error, caustics, exact_caustics};
-use super::compare::{Comparison, Difference, compare};
 use super::draw::{DrawFault, Drawn, Scenery, draw};
 use super::environment::Environment;
+use super::frame::Camera;
 use super::glass::Glass;
-use super::relief::Relief;
-use super::row::RenderRow;
+use super::room::Relief;
+use super::table::RenderRow;
 use super::text::RowText;
-use super::tone::Display;
 use super::trace::{Around, Things, Traced, trace};
+use crate::lab::gpu::Device;
+use crate::physics::spectra::{Lab, Space, ciede2000};
+use glam::DVec3;
+use serde::Serialize;
 
 /// What is to be drawn.
 #[derive(Clone, Copy, Debug)]
@@ -261,4 +262,91 @@ fn averaged(samples: &[DVec3], side: usize) -> Vec<DVec3> {
         rows.sum::<DVec3>() / (each * each) as f64
     };
     (0..pixels * pixels).map(pixel).collect()
+}
+
+/// Differences of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The mean.
+    pub mean: f64,
+    /// 99 of 100 pixels differ by less.
+    pub p99: f64,
+}
+
+/// The differences of two pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Of each pixel.
+    pub map: Vec<f64>,
+    /// Of those that count, taken together.
+    pub difference: Difference,
+}
+
+/// CIEDE2000 between two pictures as they are shown; those pixels count that are said to.
+pub fn compare(one: &[DVec3], other: &[DVec3], counts: &[bool], display: &Display) -> Comparison {
+    let lab = |radiance: &DVec3| {
+        let shown = display.shown(*radiance);
+        Lab::from_xyz(Space::Srgb.rgb_to_xyz() * shown, Space::Srgb.white())
+    };
+    let pairs = one.iter().zip(other);
+    let map: Vec<f64> = pairs.map(|(a, b)| ciede2000(lab(a), lab(b))).collect();
+    let counted = map.iter().zip(counts).filter(|(_, counts)| **counts);
+    let mut sorted: Vec<f64> = counted.map(|(error, _)| *error).collect();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len().max(1);
+    let difference = Difference {
+        mean: sorted.iter().sum::<f64>() / count as f64,
+        p99: sorted.get(sorted.len() * 99 / 100).copied().unwrap_or(0.0),
+    };
+    Comparison { map, difference }
+}
+
+/// A tone curve.
+#[derive(Clone, Copy, Debug)]
+pub struct ToneCurve {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// A channel of exposed radiance to one of the screen, both linear.
+    pub curve: fn(f64) -> f64,
+}
+
+/// The curves. That of ACES is the fit by K. Narkowicz, 2015,
+/// <https://knarkowicz.wordpress.com/2016/01/06/aces-filmic-tone-mapping-curve/>; Reinhard's is of SIGGRAPH 2002,
+/// <https://doi.org/10.1145/566654.566575>, equation 3.
+pub const TONE_CURVES: [ToneCurve; 3] = [
+    ToneCurve {
+        name: "none",
+        curve: |x| x,
+    },
+    ToneCurve {
+        name: "aces",
+        curve: |x| x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14),
+    },
+    ToneCurve {
+        name: "reinhard",
+        curve: |x| x / (1.0 + x),
+    },
+];
+
+/// How radiance is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Display {
+    /// In stops: 1 doubles.
+    pub exposure: f64,
+    /// The curve.
+    pub curve: ToneCurve,
+}
+
+impl Display {
+    /// What the screen shows, linear, 0 to 1.
+    pub fn shown(&self, radiance: DVec3) -> DVec3 {
+        self.shown_within(radiance, 1.0)
+    }
+
+    /// What a screen shows whose brightest is this, linear; white is 1.
+    pub fn shown_within(&self, radiance: DVec3, brightest: f64) -> DVec3 {
+        let exposed = radiance.max(DVec3::ZERO) * libm::exp2(self.exposure);
+        let shown = exposed.to_array().map(self.curve.curve);
+        DVec3::from_array(shown).clamp(DVec3::ZERO, DVec3::splat(brightest))
+    }
 }

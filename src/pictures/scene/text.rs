@@ -3,6 +3,8 @@
 //! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs; the values of
 //! these stand in the frame's block, so that one text serves every material.
 
+use super::glass::Glass;
+use super::table::RenderRow;
 use crate::generator::emit::{
     self, EffectRequest, Emitted, FunctionForm, Naming, effect_function_text,
 };
@@ -13,9 +15,6 @@ use crate::language::ir::Ty;
 use crate::language::methods::{self, Forms, Input, Method, Values};
 use crate::language::targets;
 use crate::physics::materials::Channels;
-
-use super::glass::Glass;
-use super::row::RenderRow;
 
 /// Inputs that the frame's block has room for.
 pub const INPUTS: usize = 8;

@@ -3,15 +3,13 @@
 
 use glam::DVec3;
 
+use super::body::Body;
+use super::environment::Environment;
+use super::frame::Camera;
+use super::glass::Glass;
+use super::room::{Relief, room_radiance};
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
-
-use super::body::Body;
-use super::camera::Camera;
-use super::environment::Environment;
-use super::glass::Glass;
-use super::relief::Relief;
-use super::room::room_radiance;
 
 /// How far light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,6 @@
 
 mod heat;
 mod page;
-mod words;
 
 pub use heat::heat_map;
-pub use page::stability_page;
-pub use words::{percent, worst};
+pub use page::{percent, stability_page, worst};

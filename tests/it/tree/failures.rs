@@ -4,20 +4,12 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::artifact::Scope;
 use fresnel_gen::generator::output::manifest::FILE;
-use fresnel_gen::generator::output::scope::Scope;
 use fresnel_gen::generator::output::tree::plan;
 use tempfile::TempDir;
 
-use super::artifact;
-use super::big_tree;
-use super::names;
-use super::provenance;
-use super::put;
-use super::run;
-use super::snapshot;
-use super::whole;
-use super::write;
+use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
 
 #[test]
 fn a_manifest_that_is_not_ours_stops_the_run() {

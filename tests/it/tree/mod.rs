@@ -13,10 +13,9 @@ use std::time::SystemTime;
 
 use fresnel_gen::generator::emit::{Detail, FunctionsDetail, SeenDetail};
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::generator::output::artifact::{Artifact, Scope};
 use fresnel_gen::generator::output::lock::Lock;
 use fresnel_gen::generator::output::manifest::{Input, Provenance};
-use fresnel_gen::generator::output::scope::Scope;
 use fresnel_gen::generator::output::tree::{TreePlan, plan};
 use fresnel_gen::generator::output::write::{self, Written};
 

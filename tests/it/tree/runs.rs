@@ -5,23 +5,14 @@ use std::fs;
 use std::path::Path;
 
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::artifact::sha256;
-use fresnel_gen::generator::output::check::report;
+use fresnel_gen::generator::output::artifact::{Scope, sha256};
 use fresnel_gen::generator::output::lock::Lock;
 use fresnel_gen::generator::output::manifest::FILE;
-use fresnel_gen::generator::output::scope::Scope;
-use fresnel_gen::generator::output::tree::{State, TreePlan, plan};
+use fresnel_gen::generator::output::tree::{State, TreePlan, plan, report};
 use fresnel_gen::generator::output::write as writer;
 use tempfile::TempDir;
 
-use super::artifact;
-use super::provenance;
-use super::put;
-use super::run;
-use super::silver;
-use super::snapshot;
-use super::whole;
-use super::write;
+use super::{artifact, provenance, put, run, silver, snapshot, whole, write};
 
 #[test]
 fn a_second_run_writes_nothing() {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{COEFFICIENTS, CatalogueRow, CloserFit, buffer, methods_of};
+use super::{COEFFICIENTS, CatalogueRow, CloserFit, array, methods_of};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -68,7 +68,7 @@ impl CatalogueMaterial<'_> {
         CatalogueMaterial {
             name: &row.name,
             row: COEFFICIENTS * place,
-            offset: buffer::offset(place),
+            offset: array::offset(place),
             class: row.class,
             method: row.method.name,
             coefficients: in_order(&row.coefficients),

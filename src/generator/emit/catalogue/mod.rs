@@ -1,10 +1,13 @@
 //! The catalogue of fitted coefficients: those of every material that is known over the whole spectrum.
 
 mod array;
-mod buffer;
 mod json;
 mod record;
 
+use super::average::Average;
+use super::figures::Bounds;
+use super::file::Error;
+use super::function::{Emitted, Naming, specialised_function};
 use crate::generator::fit::{
     FitCurve, FitObjective, ModelError, coefficients_and_error, model_error,
 };
@@ -13,13 +16,7 @@ use crate::language::methods::{self, Method};
 use crate::physics::num::in_parallel;
 use crate::physics::spectra::Gamut;
 
-use super::average::Average;
-use super::bounds::Bounds;
-use super::error::Error;
-use super::function::{Emitted, Naming, specialised_function};
-
-pub use array::catalogue_array;
-pub use buffer::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_buffer};
+pub use array::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_array, catalogue_buffer};
 pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
 pub use record::{catalogue_record, recorded_catalogue};
 

@@ -3,7 +3,7 @@
 use half::f16;
 use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureViewDimension};
 
-use super::super::fault::DeviceFault;
+use super::super::adapter::DeviceFault;
 use super::{Image, Offscreen};
 
 impl Offscreen {

@@ -10,8 +10,8 @@ use std::rc::Rc;
 
 use wgpu::{BufferUsages, Features, TextureFormat, TextureUsages, TextureViewDimension};
 
-use super::compute::Compute;
-use super::fault::DeviceFault;
+use super::adapter::DeviceFault;
+use super::kernel::Compute;
 use pass::{DEPTH_FORMAT, kinds, pass};
 
 /// Numbers of a vertex: position, normal, tangent with the bitangent's sign, texture coordinates.

@@ -1,10 +1,9 @@
 //! Gold at 685 and 475 nm (section 2.2, beside figures 9 and 10).
 
-use crate::lab::reproduce::angle::{exact, lowest};
-use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::lab::reproduce::specialised;
-
 use super::measured;
+use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::lab::reproduce::figures::{exact, lowest};
+use crate::lab::reproduce::specialised;
 
 /// "About 77°" and "a little over 20 %" are taken to this.
 const ABOUT: f64 = 1.0;

@@ -1,13 +1,12 @@
 //! Where metals reflect least (sections 3.2.3 and 3.2.4).
 
+use super::{measured, statement};
 use crate::generator::reference::Derivation;
-use crate::lab::reproduce::angle::{cosine, exact, highest, lowest};
 use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::lab::reproduce::figures::{cosine, exact, highest, lowest};
 use crate::lab::reproduce::specialised;
 use crate::physics::materials::{Channels, THESIS_NM};
 use crate::physics::num::each_channel;
-
-use super::{measured, statement};
 
 /// Where the thesis puts the minimum: cos θ = 0.15 and 0.10.
 const CLAIMED: std::ops::RangeInclusive<f64> = 81.37..=84.26;

@@ -1,14 +1,13 @@
 //! What the thesis asserts in its text, each tested by numbers.
 
 mod gold;
-mod instructions;
 mod minimum;
 mod schlick;
 mod speed;
 
 use super::ThesisSection;
 use super::comparison::{ComparisonRow, Figure};
-use super::meter::Meter;
+use super::rendered::Meter;
 
 /// How many angles the claims go through, for progress.
 pub fn work(angles: usize) -> usize {
@@ -21,7 +20,7 @@ pub fn section(angles: usize, meter: &mut Meter) -> ThesisSection {
         schlick::schlick_claims(angles, meter),
         minimum::minimum_claims(),
         gold::gold_claims(),
-        instructions::instruction_claims(),
+        speed::instruction_claims(),
         speed::speed_claims(),
     ];
     ThesisSection {

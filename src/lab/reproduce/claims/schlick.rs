@@ -1,14 +1,13 @@
 //! Schlick's approximation (section 3.1.3, 3.2.2 and 5.3.1): its range of n, its two forms, its error for water.
 
+use super::{measured, statement};
 use crate::generator::fit::thesis_errors;
 use crate::generator::reference::Derivation;
-use crate::lab::reproduce::angle::{cosine, exact, highest};
 use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::lab::reproduce::meter::Meter;
+use crate::lab::reproduce::figures::{cosine, exact, highest};
+use crate::lab::reproduce::rendered::Meter;
 use crate::lab::reproduce::specialised;
 use crate::physics::materials::Channels;
-
-use super::{measured, statement};
 
 /// Indices from hydrogen to germanium: dense in and about the claimed range, three at a time for three channels.
 const INDICES: [[f64; 3]; 7] = [

@@ -4,10 +4,9 @@
 use std::collections::BTreeSet;
 use std::str::Utf8Error;
 
-use crate::language::targets::Frame;
-
 use super::call::CompilerInput;
 use crate::generator::emit::shader_words::{Hidden, code_alone};
+use crate::language::targets::Frame;
 
 /// The programs of a file, one for each beginning.
 pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {

@@ -1,12 +1,11 @@
 //! The algebra of folding: identities that constants make trivial, and constants that meet.
 
+use super::copy;
 use crate::language::ir::build::{Builder, Expr};
 use crate::language::ir::evaluate::Value;
 use crate::language::ir::graph::{Function, Node, NodeId, Ty};
 use crate::language::ir::op::{Op, Payload, Signature};
 use crate::physics::num::each_channel;
-
-use super::copy;
 
 /// The identities that constants make trivial.
 pub fn identity<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<Expr<'b>> {

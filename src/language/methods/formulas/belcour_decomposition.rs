@@ -10,18 +10,14 @@
 //! Domain: F0 from 0 to 1, weights that go with it; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::affine::Affine;
-use crate::language::methods::class::Class;
+use crate::language::methods::affine::{Affine, KnownSurface, each};
 use crate::language::methods::formulas::schlick::to_white;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::known::{KnownSurface, each};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
 pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];
@@ -80,7 +76,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::B2_WEIGHT, Input::B3_WEIGHT],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "weights solved for f0; limited to [0, 1]",
     claims: Claims {
         model: &[
@@ -100,7 +95,6 @@ pub static METHOD: Method = Method {
         colours: Colours::within(8e-6),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within_over(
         0.0035,
         Over::Metals,
@@ -109,16 +103,12 @@ pub static METHOD: Method = Method {
     .materials_within(0.0036),
     build,
     for_constants: Some(for_constants),
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine {
         numbers: &["f0", "1 - f0", "b2_weight", "b3_weight"],
         build: numbers,
         weights: affine_weights,
     }),
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

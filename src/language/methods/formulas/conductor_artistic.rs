@@ -9,11 +9,7 @@
 //! at most .001. Error: none where n and k give r and g; [`METHOD`]'s claims hold with both derived from n and k.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::physics::num::each_channel;
-use crate::physics::optics;
-
-use crate::language::methods::class::Class;
+use crate::language::methods::affine::each;
 use crate::language::methods::formulas::conductor_exact::{
     self, conductor, least_squared, root_or_zero,
 };
@@ -21,11 +17,12 @@ use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{
     Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND,
 };
-use crate::language::methods::known::each;
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over, Values,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
+use crate::physics::num::each_channel;
+use crate::physics::optics;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -78,7 +75,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::REFLECTIVITY, Input::EDGE_TINT],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999",
     claims: Claims {
         model: &[Claim {
@@ -101,18 +97,12 @@ pub static METHOD: Method = Method {
         }),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::Specialised(
         "the square of n_max = (1 + sqrt(r))^2 / (1 - r) overflows where r is above 0.984, as silver's red is",
     ),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
     replacement: Some(solved),
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -15,17 +15,12 @@
 use std::collections::BTreeMap;
 
 use crate::language::ir::{Expr, USED_TWICE};
-use crate::physics::num::Precision;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
 use crate::language::methods::formulas::dielectric_exact;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Contract, Forms, Light, Method, Over, Values,
-};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over, Values};
+use crate::physics::num::Precision;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -40,7 +35,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n = k = 3e9 on it overflows",
     claims: Claims {
         model: &[
@@ -60,17 +54,12 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within_but(0.0015, "for n below 1 with k near 0 see dielectric_exact")
         .ending(&[("n", 180.0), ("k", 180.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
     plain: Some(plain),
     replacement: Some(clear),
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -10,14 +10,11 @@
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::conductor_exact;
 use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -32,7 +29,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Metal,
-    light: Light::Unpolarised,
     domain: "k of n / 4 and more; with less it loses digits, and near k = 0 it is wrong: there conductor_exact serves",
     claims: Claims {
         model: &[Claim {
@@ -45,16 +41,10 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::Specialised("t squared overflows for k of 16 and more"),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
     replacement: Some(conductor_exact::as_it_is),
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -13,20 +13,17 @@
 //! Specialised to a material, n and k are solved in f64 and this error is gone.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::physics::num::each_channel;
-use crate::physics::optics::index_from_f0_f82;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::conductor_exact::{
     self, conductor, least_squared, root_or_zero,
 };
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs, Range};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over, Values,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
+use crate::physics::num::each_channel;
+use crate::physics::optics::index_from_f0_f82;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -48,7 +45,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can",
     claims: Claims {
         model: &[
@@ -87,18 +83,12 @@ pub static METHOD: Method = Method {
         }),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::Specialised(
         "n is solved from what F0 and F82 lack of 1, differences of which half precision leaves no digits",
     ),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
     replacement: Some(solved),
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 /// sin² at cos θ = 1/7.

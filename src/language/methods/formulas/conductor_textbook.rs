@@ -8,13 +8,12 @@
 //! exactly 90 degrees, where tan θ is infinite, and NaN for 1 + 1 ulp, where sin θ has no root.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{
+    Claim, Claims, Class, Contract, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {
@@ -40,7 +39,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "k > 0 and 0 < cos_theta <= 1",
     claims: Claims {
         model: &[Claim {
@@ -60,13 +58,7 @@ pub static METHOD: Method = Method {
         "differences of nearly equal numbers, and squares of squares that overflow",
     ),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

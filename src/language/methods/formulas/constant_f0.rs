@@ -6,16 +6,13 @@
 //! Domain: F0 ≥ 0; above 1 it is taken as it is. Error: 1 - F0 at 90 degrees; see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
 use crate::language::methods::affine::Affine;
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -33,7 +30,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result is f0, also above 1 and at 90 degrees, where the law reflects everything",
     claims: Claims {
         model: &[
@@ -53,20 +49,14 @@ pub static METHOD: Method = Method {
         colours: Colours::within(0.0),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine {
         numbers: &["f0"],
         build: |x| vec![x.get(Input::F0)],
         weights: |_| [1.0, 0.0, 0.0, 0.0],
     }),
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -13,15 +13,12 @@
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-use crate::physics::num::Precision;
-
 use crate::language::methods::affine::FittedAverage;
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
+use crate::physics::num::Precision;
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {
@@ -49,7 +46,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    light: Light::Unpolarised,
     domain: "on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for up to 34 values of f32 next to its \
              cosine, where rounding decides: 0.99 or more for eta from 0.25 on. Before it the law is steep: f32 may be off by 0.01 for \
              eta from 0.25 to 0.999",
@@ -64,21 +60,16 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within_but(0.0015, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
     plain: Some(plain),
-    replacement: None,
-    shape: None,
-    affine: None,
     average: Some(FittedAverage {
         build: average,
         max_abs: 0.0008,
         over: "eta 1/3 to 3",
         published: "Kulla and Conty's fits (2017) are off by .0066 above 1 and .0027 below",
     }),
+    ..Method::BASE
 };
 
 /// What the root is of at the least: past the critical angle, and at 90 degrees where η = 1, the quotient then is a number still.

@@ -5,13 +5,10 @@
 //! Error: none in the model; at Brewster's zero only an absolute bound makes sense.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -40,16 +37,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within_but(0.0022, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

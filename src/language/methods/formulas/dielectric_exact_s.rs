@@ -4,13 +4,10 @@
 //! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number. Error: none in the model.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -37,16 +34,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -7,13 +7,12 @@
 //! to 1, and gives NaN past the critical angle.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{
+    Claim, Claims, Class, Contract, Forms, Method, Origin, Over,
+};
+use crate::physics::cite::Citation;
 
 /// Physically Based Rendering, second edition.
 pub const PBRT_2010: Citation = Citation {
@@ -38,7 +37,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    light: Light::Unpolarised,
     domain: "eta > 1 and 0 <= cos_theta <= 1",
     claims: Claims {
         model: &[Claim {
@@ -58,13 +56,7 @@ pub static METHOD: Method = Method {
         "1 - (sin theta / n)^2 cancels as n tends to 1, and nothing guards the root",
     ),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -7,16 +7,13 @@
 //! Error: [`METHOD`]'s claims, with the parameters derived so.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::class::Class;
+use crate::language::methods::affine::{COS_60, mean};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{
     Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
 };
-use crate::language::methods::known::{COS_60, mean};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -74,7 +71,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::BIAS, Input::SCALE, Input::POWER],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the arguments are numbers: the three channels get the same reflectance",
     claims: Claims {
         model: &[
@@ -94,16 +90,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0017),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -8,19 +8,15 @@
 //! 1: the result is limited to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::affine::Affine;
-use crate::language::methods::class::Class;
+use crate::language::methods::affine::{Affine, each};
 use crate::language::methods::formulas::hoffman_f82::{WEIGHT_82, affine_weights, dip};
 use crate::language::methods::formulas::schlick::grazing_weight;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::known::each;
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -63,7 +59,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::TINT],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
@@ -83,14 +78,9 @@ pub static METHOD: Method = Method {
         colours: Colours::within(6e-7),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0016),
     build,
     for_constants: Some(for_constants),
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine {
         numbers: &[
             "f0",
@@ -100,7 +90,7 @@ pub static METHOD: Method = Method {
         build: numbers,
         weights: affine_weights,
     }),
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

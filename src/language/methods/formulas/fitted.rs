@@ -9,15 +9,13 @@
 //! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::by_class::ByClass;
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{
+    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
+};
 use crate::language::methods::shape::{Factor, Shape};
+use crate::physics::cite::Citation;
 
 /// Where the exchange comes from that finds the coefficients of all fitted methods.
 pub const STIEFEL_1959: Citation = Citation {
@@ -46,7 +44,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
@@ -70,16 +67,10 @@ pub static METHOD: Method = Method {
             ByClass::of_class("dielectric", [0.0036, 0.0038], [0.0030, 0.0037], 0.0038),
         ],
     },
-    contract: Contract::Kept,
     half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
     shape: Some(SHAPE),
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -6,14 +6,12 @@
 //! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::by_class::ByClass;
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{
+    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
+};
 use crate::language::methods::shape::{Factor, Shape};
 
 /// The shape.
@@ -31,7 +29,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    light: Light::Unpolarised,
     domain: "limited to [0, 1]",
     claims: Claims {
         model: &[Claim {
@@ -49,16 +46,10 @@ pub static METHOD: Method = Method {
             0.0009,
         )],
     },
-    contract: Contract::Kept,
     half: InHalf::within_over(0.0025, Over::Dielectrics, FLOOR).materials_within(0.0025),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
     shape: Some(SHAPE),
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -11,17 +11,13 @@
 //! Domain: any F0 and F82; limited to [0, 1]. It serves dielectrics too. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-
 use crate::language::methods::affine::Affine;
-use crate::language::methods::by_class::ByClass;
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::hoffman_f82::{HOFFMAN_2019, between};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    ByClass, Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -36,7 +32,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
@@ -60,20 +55,14 @@ pub static METHOD: Method = Method {
             ByClass::of_class("dielectric", [0.0055, 0.0083], [0.0078, 0.0085], 0.0084),
         ],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0015),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine {
         numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 0.4)"],
         build: numbers,
         weights: affine_weights,
     }),
-    average: None,
+    ..Method::BASE
 };
 
 /// Where u is 5/8 at cos θ = 1/7.

@@ -10,16 +10,12 @@
 //! Domain: any F0 and F82; limited to [0, 1]. White stays white. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::by_class::ByClass;
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::hoffman_f82::HOFFMAN_2019;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
 use crate::language::methods::method::{
-    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+    ByClass, Claim, Claims, Class, CoefficientsFromInputs, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -34,7 +30,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result is limited to [0, 1]; for metals and semiconductors: of water it errs by 0.04",
     claims: Claims {
         model: &[Claim {
@@ -50,20 +45,14 @@ pub static METHOD: Method = Method {
             ByClass::of_class("semiconductor", [0.0066, 0.0074], [0.0065, 0.0096], 0.0094),
         ],
     },
-    contract: Contract::Kept,
     half: InHalf::Specialised("its coefficients cancel"),
     build,
-    for_constants: None,
     coefficients: Some(CoefficientsFromInputs {
         fitted: "fitted",
         build: coefficients,
         code_abs: 7e-7,
     }),
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 /// F0 at which the quadratics are centred: between the colours of metals, so that little cancels.

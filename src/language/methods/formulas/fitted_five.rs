@@ -7,14 +7,12 @@
 //! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::by_class::ByClass;
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{
+    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
+};
 use crate::language::methods::shape::{Factor, Shape};
 
 /// The shape.
@@ -40,7 +38,6 @@ pub static METHOD: Method = Method {
     inputs: &Input::COEFFICIENTS,
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
@@ -64,16 +61,10 @@ pub static METHOD: Method = Method {
             ByClass::of_class("dielectric", [0.0015, 0.0015], [0.0013, 0.0015], 0.0015),
         ],
     },
-    contract: Contract::Kept,
     half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(0.0026),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
     shape: Some(SHAPE),
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

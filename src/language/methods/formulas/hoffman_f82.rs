@@ -7,17 +7,14 @@
 //! Domain: F0, F82 ≥ 0; limited to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
 use crate::language::methods::affine::Affine;
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::schlick::{grazing_power, grazing_weight};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
 const PEAK: f64 = 823_543.0 / 46_656.0;
@@ -46,7 +43,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
@@ -66,20 +62,15 @@ pub static METHOD: Method = Method {
         colours: Colours::within(5e-7),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0017),
     build,
     for_constants: Some(for_constants),
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine {
         numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 7776 / 16807)"],
         build: numbers,
         weights: affine_weights,
     }),
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -6,16 +6,13 @@
 //! metals have near 80 degrees. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
 use crate::language::methods::affine::Affine;
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
 
 /// Schlick 1994.
 pub const SCHLICK_1994: Citation = Citation {
@@ -36,7 +33,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "f0 above 1 is taken as it is: the result then lies in [0, max(1, f0)]. Misses the minimum of metals near 80 degrees",
     claims: Claims {
         model: &[
@@ -56,16 +52,11 @@ pub static METHOD: Method = Method {
         colours: Colours::within(3e-7),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0013),
     build,
     for_constants: Some(for_constants),
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine::to_white(affine_weights)),
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

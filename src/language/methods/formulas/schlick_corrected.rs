@@ -10,16 +10,13 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::num::each_channel;
-use crate::physics::optics;
-
-use crate::language::methods::class::Class;
+use crate::language::methods::affine::KnownSurface;
 use crate::language::methods::formulas::schlick_rescaled::{LAZANYI_2005, rescaled};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::known::KnownSurface;
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::num::each_channel;
+use crate::physics::optics;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -71,7 +68,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K, Input::LAMBDA],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "clamped to [0, 1]; lambda <= 0 drops the correction",
     claims: Claims {
         model: &[Claim {
@@ -84,16 +80,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

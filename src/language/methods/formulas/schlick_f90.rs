@@ -6,17 +6,14 @@
 //! Error: that of `schlick` where F90 = 1.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
 use crate::language::methods::affine::Affine;
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::schlick::{affine_weights, grazing_weight};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
 use crate::language::methods::method::{
-    Claim, Claims, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
 };
-use crate::language::methods::origin::Origin;
+use crate::physics::cite::Citation;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -34,7 +31,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F90],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
     claims: Claims {
         model: &[
@@ -54,20 +50,15 @@ pub static METHOD: Method = Method {
         colours: Colours::within(3e-7),
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0013),
     build,
     for_constants: Some(for_constants),
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
     affine: Some(Affine {
         numbers: &["f0", "f90 - f0"],
         build: numbers,
         weights: affine_weights,
     }),
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

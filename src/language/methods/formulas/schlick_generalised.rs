@@ -8,14 +8,11 @@
 //! goes through exp2 and log2, whose own error the code error holds.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::schlick_f90::to_f90;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -45,7 +42,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F90, Input::EXPONENT],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
     claims: Claims {
         model: &[
@@ -65,16 +61,10 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0017),
     build,
     for_constants: Some(for_constants),
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -5,14 +5,11 @@
 //! Domain: η from 0.001 to 1e12. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
 
 use crate::language::ir::Expr;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::schlick::{SCHLICK_1994, grazing_weight, to_white};
 use crate::language::methods::formulas::schlick_rescaled::from_least;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -24,7 +21,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    light: Light::Unpolarised,
     domain: "off by at most 0.059 for eta from 1.4 to 2.2; below 1 it misses total reflection",
     claims: Claims {
         model: &[Claim {
@@ -37,16 +33,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0014).ending(&[("eta", 65504.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

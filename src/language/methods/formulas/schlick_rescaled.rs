@@ -5,14 +5,11 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
-use crate::physics::cite::Citation;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::formulas::schlick::{grazing_rest, grazing_weight};
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
 
 /// Lazányi and Szirmay-Kalos 2005.
 pub const LAZANYI_2005: Citation = Citation {
@@ -33,7 +30,6 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "misses the minimum of metals",
     claims: Claims {
         model: &[
@@ -53,16 +49,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

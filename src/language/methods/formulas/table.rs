@@ -8,14 +8,11 @@
 //! the difference of two neighbouring texels for the sampler's weights.
 
 use crate::language::ir::{Expr, Ty};
-use crate::physics::cite::Citation;
-use crate::physics::num::Num;
-
-use crate::language::methods::class::Class;
 use crate::language::methods::half::InHalf;
 use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
-use crate::language::methods::origin::Origin;
+use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use crate::physics::cite::Citation;
+use crate::physics::num::Num;
 
 /// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
 /// texels gain nothing, fewer cost (half the size quadruples what filtering errs).
@@ -99,7 +96,6 @@ pub static METHOD: Method = Method {
     ],
     forms: Forms::Colour,
     class: Class::Any,
-    light: Light::Unpolarised,
     domain: "a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first. The errors below are \
              those of 64 texels and warp 4",
     claims: Claims {
@@ -120,16 +116,9 @@ pub static METHOD: Method = Method {
         colours: None,
         by_class: &[],
     },
-    contract: Contract::Kept,
     half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),
     build,
-    for_constants: None,
-    coefficients: None,
-    plain: None,
-    replacement: None,
-    shape: None,
-    affine: None,
-    average: None,
+    ..Method::BASE
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -6,9 +6,8 @@ use super::material::GUESS_NM;
 use super::yaml::{self, RawItem};
 use crate::physics::materials::FileFault;
 use crate::physics::materials::decimal::{self, Unit, clipped};
-use crate::physics::materials::dispersion::DispersionCurve;
 use crate::physics::materials::file::MOST_COEFFICIENTS;
-use crate::physics::materials::formula::{Formula, NUMBERS};
+use crate::physics::materials::formula::{DispersionCurve, Formula, NUMBERS};
 use crate::physics::materials::material::{GREATEST, LEAST_N};
 use crate::physics::materials::rows::{Columns, RowFault, TableReader};
 

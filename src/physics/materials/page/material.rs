@@ -2,9 +2,9 @@
 
 use super::Page;
 use crate::physics::foreign::is_hidden;
-use crate::physics::materials::credit::NOT_GIVEN;
 use crate::physics::materials::decimal::short;
-use crate::physics::materials::dispersion::{DispersionCurve, Extrapolate};
+use crate::physics::materials::formula::{DispersionCurve, Extrapolate};
+use crate::physics::materials::print::NOT_GIVEN;
 use crate::physics::materials::{FileFault, Index, Material, MaterialKind, name_fault};
 
 /// Where the class is guessed: near the middle of the visible range.

@@ -29,8 +29,8 @@ mod name;
 mod plain;
 mod yaml;
 
-use super::dispersion::DispersionCurve;
 use super::file::FileFault;
+use super::formula::DispersionCurve;
 
 /// What a page of refractiveindex.info says, or a table that someone measured.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -14,7 +14,6 @@
 
 mod channels;
 mod fault;
-mod primaries;
 mod samples;
 
 use super::ids::{MaterialIds, Shown};
@@ -23,8 +22,8 @@ use super::{FramePixels, ScenePixel};
 use channels::{COS_THETA, COVERAGE, LIGHT, MATERIAL_ID, OTHER, Places, ROUGHNESS};
 use samples::Planes;
 
+pub use channels::check_primaries;
 pub use fault::GbufferFault;
-pub use primaries::check_primaries;
 
 /// Pixels across, and down: no frame has more.
 pub const GREATEST_SIDE: usize = 8192;

@@ -8,8 +8,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root, buffer};
 
 use super::super::scene_file::ReadFile;
-use super::container::{Container, embedded, path_of};
-use super::fault::Place;
+use super::container::{Container, Place, embedded, path_of};
 use crate::lab::raster::MOST_TRIANGLES;
 
 /// An accessor has at most so many elements: three corners for each triangle.

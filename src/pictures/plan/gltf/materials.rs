@@ -16,10 +16,10 @@ use gltf_json::{Index, Material as GltfMaterial, Root};
 use serde::Serialize;
 
 use super::super::drawn::SurfaceLook;
-use super::super::pixels::MappedMaterial;
+use super::super::metric::MappedMaterial;
 use super::super::sky::SceneLight;
-use super::fault::Place;
-use super::remarks::not_read;
+use super::container::Place;
+use super::nodes::not_read;
 use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::materials::{self, Material, MaterialKind};
 use crate::physics::names::UnknownName;

@@ -12,33 +12,28 @@
 //! buffers, 3.7 for meshes, 3.9 and appendix B for materials, 3.10 for cameras.
 
 mod accessor;
-mod cameras;
 mod container;
-mod fault;
 mod materials;
 mod nodes;
 mod primitives;
-mod remarks;
 
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 use gltf_json::{Accessor, Index, Root};
 
-use crate::lab::raster::{Camera, Mesh};
-use crate::physics::spectra::without_mark;
-
 use super::drawn::DrawnScene;
-use super::pixels::{FramePixels, MappedMaterial};
+use super::metric::{FramePixels, MappedMaterial};
 use super::scene_file::ReadFile;
 use super::sky::SceneLight;
+use crate::lab::raster::{Camera, Mesh};
 use crate::physics::foreign::Foreign;
+use crate::physics::spectra::without_mark;
 use accessor::Buffers;
-use cameras::cameras;
-use container::Container;
-pub use fault::GltfFault;
-use fault::Place;
+pub use container::GltfFault;
+use container::{Container, Place};
 use materials::Looks;
 pub use materials::{Unplanned, constant_index};
+use nodes::cameras;
 use primitives::Tints;
 
 /// How a glTF scene is seen.
@@ -93,9 +88,9 @@ impl GltfScene {
         Ok(GltfScene {
             has_cameras: !own.is_empty(),
             unplanned: looks.unplanned,
-            remarks: [looks.remarks, remarks::of_scene(&root, view.size)].concat(),
+            remarks: [looks.remarks, nodes::of_scene(&root, view.size)].concat(),
             cameras: if own.is_empty() {
-                cameras::around(scene.mesh(), view.size)
+                nodes::around(scene.mesh(), view.size)
             } else {
                 own
             },
@@ -114,7 +109,7 @@ impl GltfScene {
         if self.has_cameras {
             "the file's cameras".to_owned()
         } else {
-            cameras::AROUND_IN_WORDS.to_owned()
+            nodes::AROUND_IN_WORDS.to_owned()
         }
     }
 

@@ -1,9 +1,15 @@
 //! The nodes of the scene, with their transforms into the world.
+//!
+//! What a file says that is not read, though it changes what is seen: a remark each, so that nothing is passed over in silence.
+//!
+//! The cameras of a file, or those that turn about its middle.
 
+use super::super::scene_file::MOST_FRAMES;
+use super::container::Place;
+use crate::lab::raster::{Camera, Lens, Mesh, rotated};
+use crate::physics::foreign::Foreign;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
-use gltf_json::{Node, Root};
-
-use super::fault::Place;
+use gltf_json::{Material, Node, Root, camera};
 
 /// A node where it is.
 pub struct PlacedNode<'a> {
@@ -99,4 +105,212 @@ fn own_transform(node: &Node) -> DAffine3 {
     let scale = node.scale.map_or(DVec3::ONE, vector);
     let by = node.translation.map_or(DVec3::ZERO, vector);
     DAffine3::from_scale_rotation_translation(scale, turn, by)
+}
+
+/// Extensions that are read, or that a material's own reason names.
+const READ: [&str; 3] = ["KHR_materials_", "KHR_texture_", "EXT_texture_"];
+/// A camera's aspect may differ from that of the frames by rounding.
+const ROUNDING: f64 = 0.005;
+
+/// What of a material is not read.
+pub fn not_read(material: &Material, name: &str) -> Option<String> {
+    let pbr = &material.pbr_metallic_roughness;
+    let emits = material.emissive_factor.0 != [0.0; 3];
+    let parts = [
+        (pbr.base_color_texture.is_some(), "baseColorTexture"),
+        (
+            pbr.metallic_roughness_texture.is_some(),
+            "metallicRoughnessTexture",
+        ),
+        (material.normal_texture.is_some(), "normalTexture"),
+        (material.occlusion_texture.is_some(), "occlusionTexture"),
+        (
+            emits && material.emissive_texture.is_some(),
+            "emissiveTexture",
+        ),
+        (
+            emits && material.emissive_texture.is_none(),
+            "emissiveFactor",
+        ),
+    ];
+    let parts = parts.iter().filter(|(is_there, _)| *is_there);
+    let parts: Vec<&str> = parts.map(|(_, part)| *part).collect();
+    let list = parts.join(", ");
+    (!parts.is_empty()).then(|| format!("{name}: not read: {list}"))
+}
+
+/// What of the scene is not read; `size` is that of the frames.
+pub fn of_scene(root: &Root, size: [u32; 2]) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let parts = [
+        (!root.skins.is_empty(), "skins"),
+        (
+            primitives().any(|part| part.targets.is_some()),
+            "morph targets",
+        ),
+        (!root.animations.is_empty(), "animations"),
+    ];
+    let parts: Vec<&str> = parts
+        .iter()
+        .filter(|part| part.0)
+        .map(|part| part.1)
+        .collect();
+    if !parts.is_empty() {
+        let list = parts.join(", ");
+        remarks.push(format!(
+            "not read: {list}; the scene is drawn as its nodes stand"
+        ));
+    }
+    for name in &root.extensions_used {
+        if !READ.iter().any(|start| name.starts_with(start)) {
+            remarks.push(format!("the extension {} is not read", Foreign(name)));
+        }
+    }
+    remarks.extend(aspect(root, f64::from(size[0]) / f64::from(size[1])));
+    remarks
+}
+
+/// A camera of another shape than the frames. Its height is kept.
+fn aspect(root: &Root, frames: f64) -> Option<String> {
+    let own = root.cameras.iter().filter_map(|camera| {
+        let perspective = camera
+            .perspective
+            .as_ref()
+            .map(|lens| lens.aspect_ratio.map(f64::from));
+        let orthographic = camera.orthographic.as_ref();
+        perspective
+            .unwrap_or_else(|| orthographic.map(|lens| f64::from(lens.xmag) / f64::from(lens.ymag)))
+    });
+    let mut other = own.filter(|own| (own / frames - 1.0).abs() > ROUNDING);
+    let other = other.next()?;
+    Some(format!(
+        "a camera has an aspect of {other:.3}, and the frames {frames:.3} (--size): they show as much in height, and more or less in width"
+    ))
+}
+
+/// What stands for the cameras of a file that has none.
+pub const AROUND_IN_WORDS: &str = "36 cameras about the middle of all triangles, 10 degrees apart about y, 20 degrees above it, 45 degrees of view, as far away as shows all";
+const FRAMES: u32 = 36;
+const ABOVE_DEGREES: f64 = 20.0;
+const VERTICAL_DEGREES: f64 = 45.0;
+
+/// A camera for each node that has one. It looks along its own -z; its +y is up. It sees what lies between its clip planes.
+///
+/// # Errors
+/// A field of view or a height lies outside its limits, a transform has no directions, or there are too many.
+pub fn cameras(root: &Root, nodes: &[PlacedNode], size: [u32; 2]) -> Result<Vec<Camera>, Place> {
+    let mut cameras = Vec::new();
+    for node in nodes {
+        let Some(index) = node.node.camera.map(|camera| camera.value()) else {
+            continue;
+        };
+        let matrix = node.into_world.matrix3;
+        let axes = axes(-matrix.z_axis, matrix.y_axis).ok_or_else(|| {
+            let what = "its transform leaves the camera no direction";
+            Place::new(format!("nodes[{}]", node.index), what)
+        })?;
+        let place = format!("cameras[{index}]");
+        let eye = node.into_world.translation;
+        cameras.push(camera(&root.cameras[index], eye, axes, size, &place)?);
+        if cameras.len() > MOST_FRAMES {
+            return Err(Place::new(
+                place,
+                format!("the scene has more than {MOST_FRAMES} cameras"),
+            ));
+        }
+    }
+    Ok(cameras)
+}
+
+/// To the right, down and forwards; none where the directions are none.
+fn axes(forwards: DVec3, up: DVec3) -> Option<[DVec3; 3]> {
+    let forwards = forwards.try_normalize()?;
+    let right = forwards.cross(up).try_normalize()?;
+    Some([right, forwards.cross(right), forwards])
+}
+
+fn camera(
+    camera: &camera::Camera,
+    eye: DVec3,
+    axes: [DVec3; 3],
+    size: [u32; 2],
+    place: &str,
+) -> Result<Camera, Place> {
+    let within = |value: f64, [low, high]: [f64; 2], what: &str| {
+        if (low..=high).contains(&value) {
+            Ok(value)
+        } else {
+            let says = format!("it is {value}; it must lie between {low} and {high}");
+            Err(Place::new(format!("{place}.{what}"), says))
+        }
+    };
+    match (&camera.perspective, &camera.orthographic) {
+        (Some(perspective), _) => {
+            let field = f64::from(perspective.yfov);
+            let field = within(field, [2e-4, 2.97], "perspective.yfov")?;
+            let vertical_degrees = field.to_degrees();
+            let lens = Lens {
+                size,
+                vertical_degrees,
+            };
+            let far = perspective.zfar.map_or(f64::INFINITY, f64::from);
+            let planes = planes([perspective.znear.into(), far], place, "perspective")?;
+            Ok(Camera::new(eye, axes, lens).clipped(planes, None))
+        }
+        (None, Some(orthographic)) => {
+            let half = f64::from(orthographic.ymag);
+            let half = within(half, [1e-6, 1e6], "orthographic.ymag")?;
+            let ends = [orthographic.znear, orthographic.zfar].map(f64::from);
+            let planes = planes(ends, place, "orthographic")?;
+            let height = 2.0 * half;
+            Ok(Camera::orthographic(eye, axes, height, size).clipped(planes, Some(height)))
+        }
+        (None, None) => Err(Place::new(
+            place,
+            "it is neither perspective nor orthographic",
+        )),
+    }
+}
+
+/// The distances between which a camera sees anything (section 3.10.3).
+fn planes([near, far]: [f64; 2], place: &str, what: &str) -> Result<[f64; 2], Place> {
+    if near < 0.0 {
+        let says = format!("it is {near}; it must not be below 0");
+        return Err(Place::new(format!("{place}.{what}.znear"), says));
+    }
+    if far <= near {
+        let says = format!("it is {far}; it must be greater than znear, {near}");
+        return Err(Place::new(format!("{place}.{what}.zfar"), says));
+    }
+    Ok([near, far])
+}
+
+/// Cameras that turn about the middle of a mesh, far enough to see all of it.
+pub fn around(mesh: &Mesh, size: [u32; 2]) -> Vec<Camera> {
+    let places = || mesh.vertices.iter().map(|vertex| vertex.position);
+    let least = places().fold(DVec3::INFINITY, DVec3::min);
+    let most = places().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let middle = (least + most) / 2.0;
+    let radius = places()
+        .map(|place| (place - middle).length())
+        .fold(1e-6, f64::max);
+    let half = (VERTICAL_DEGREES / 2.0).to_radians();
+    // A picture that is higher than wide shows less to the sides.
+    let aspect = (f64::from(size[0]) / f64::from(size[1])).min(1.0);
+    let distance = radius / libm::sin(libm::atan(aspect * libm::tan(half)));
+    let start = rotated(
+        distance * DVec3::Z,
+        DVec3::NEG_X,
+        ABOVE_DEGREES.to_radians(),
+    );
+    let lens = Lens {
+        size,
+        vertical_degrees: VERTICAL_DEGREES,
+    };
+    let turned = |frame: u32| {
+        let angle = std::f64::consts::TAU * f64::from(frame) / f64::from(FRAMES);
+        Camera::looking(middle + rotated(start, DVec3::Y, angle), middle, lens)
+    };
+    (0..FRAMES).map(turned).collect()
 }

@@ -8,7 +8,7 @@ use gltf_json::{Accessor, Index, Root};
 
 use super::super::drawn::SurfaceLook;
 use super::accessor::{Buffers, MOST_ELEMENTS};
-use super::fault::Place;
+use super::container::Place;
 use super::materials::Looks;
 use super::nodes::PlacedNode;
 use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex};

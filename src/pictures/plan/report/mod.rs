@@ -4,11 +4,10 @@ mod page;
 
 use serde::Serialize;
 
+use crate::generator::envelope::Origin;
 use crate::lab::verify::Status;
 use crate::physics::foreign::{self, Foreign, one_line};
 use crate::pictures::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
-
-use crate::generator::envelope::Origin;
 use crate::pictures::table::{short_number, text_table};
 
 pub use page::plan_page;

@@ -5,14 +5,13 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::Context;
 
+use super::{PlanReport, named};
 use crate::physics::spectra::srgb_byte;
 use crate::pictures::html;
-use crate::pictures::pixels::rgb_png;
 use crate::pictures::plan::{AngleCurve, MaterialView, PlanRow, ViewPicture};
 use crate::pictures::plot::{ChartAxis, LineChart, Look, Mark, Series, Style, ticks};
+use crate::pictures::png::rgb_png;
 use crate::pictures::table::short_number;
-
-use super::{PlanReport, named};
 
 const TEMPLATE: &str = include_str!("../../../../templates/plan.html.tera");
 /// Where a picture shows nothing.

@@ -3,15 +3,14 @@
 use glam::DVec3;
 use toml::Spanned;
 
-use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex, mesh_of_obj};
-use crate::physics::materials::FileFault;
-use crate::physics::spectra::mesh_text;
-use crate::pictures::scene::Environment;
-
 use super::super::drawn::DrawnScene;
 use super::super::sky::SceneLight;
 use super::check::FARTHEST;
 use super::{Light, Object, SceneFile, Shape};
+use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex, mesh_of_obj};
+use crate::physics::materials::FileFault;
+use crate::physics::spectra::mesh_text;
+use crate::pictures::scene::Environment;
 
 /// How far a plane reaches beyond all else, so that it ends within 1e-7 of the horizon.
 const BEYOND: f64 = 1e7;

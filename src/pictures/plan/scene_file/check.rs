@@ -5,15 +5,14 @@ use std::collections::HashMap;
 use glam::DVec3;
 use toml::Spanned;
 
+use super::super::drawn::SurfaceLook;
+use super::super::metric::MappedMaterial;
+use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
+use super::{Light, MOST_FRAMES, Object, SIDES, Shape};
 use crate::lab::raster::{Body, Camera, Lens, rotated};
 use crate::physics::materials::{self, FileFault, FileText};
 use crate::physics::names::UnknownName;
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
-
-use super::super::drawn::SurfaceLook;
-use super::super::pixels::MappedMaterial;
-use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
-use super::{Light, MOST_FRAMES, Object, SIDES, Shape};
 
 /// No place is farther away in metres, along each axis, and nothing is larger.
 pub const FARTHEST: f64 = 1e6;

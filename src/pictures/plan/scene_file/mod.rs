@@ -33,13 +33,12 @@ mod raw;
 
 use toml::Spanned;
 
+use super::drawn::DrawnScene;
+use super::metric::{FramePixels, MappedMaterial};
 use crate::lab::raster::Camera;
 use crate::physics::materials::{FileFault, FileText};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::Display;
-
-use super::drawn::DrawnScene;
-use super::pixels::{FramePixels, MappedMaterial};
 pub use assets::ReadFile;
 use check::Checked;
 use raw::RawScene;

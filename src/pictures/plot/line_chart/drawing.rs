@@ -1,10 +1,10 @@
 //! The plot itself: grid, guide lines, curves and axis labels.
 
-use crate::pictures::plot::axes::{Area, Axes, TICK_GAP, Tick};
-use crate::pictures::plot::layout::{PanelFrame, paragraph_height};
+use crate::pictures::plot::axes::{
+    Area, Axes, PanelFrame, Scale, TICK_GAP, Tick, paragraph_height,
+};
 use crate::pictures::plot::line_chart::{LineChart, Mark, Series};
 use crate::pictures::plot::palette::Style;
-use crate::pictures::plot::scale::Scale;
 use crate::pictures::plot::text::{AXIS, FOOT, MARK, TICK};
 
 /// The least height of the plot; the picture grows rather than go below it.

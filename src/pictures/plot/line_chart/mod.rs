@@ -2,10 +2,8 @@
 
 mod drawing;
 
-use crate::pictures::plot::axes::Tick;
-use crate::pictures::plot::layout::{ALONE, Layout, PanelFrame};
+use crate::pictures::plot::axes::{ALONE, Layout, PanelFrame, Scale, Tick};
 use crate::pictures::plot::palette::Style;
-use crate::pictures::plot::scale::Scale;
 use crate::pictures::plot::text::{FOOT, Font, PANEL, SUBTITLE, TITLE};
 use crate::pictures::plot::ticks::{decimals, label, ticks};
 

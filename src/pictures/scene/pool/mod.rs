@@ -7,7 +7,6 @@
 mod paint;
 mod solids;
 mod truth;
-mod waves;
 
 use std::sync::OnceLock;
 
@@ -15,7 +14,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::body::Vertex;
 use super::texels::Texels;
-use waves::Waves;
+use truth::Waves;
 
 pub use solids::quad;
 

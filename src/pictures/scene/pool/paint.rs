@@ -5,15 +5,14 @@
 
 use glam::{DVec2, DVec3};
 
+use super::solids::{PARTS, Part, TABLE, hit};
+use super::truth::Waves;
+use super::{BASIN_MAX, BASIN_MIN};
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
-use crate::pictures::scene::sky::to_sun;
+use crate::pictures::scene::environment::to_sun;
 use crate::pictures::scene::texels::{Texels, scattered, smooth_noise};
 use crate::pictures::scene::trace::refracted;
-
-use super::solids::{PARTS, Part, TABLE, hit};
-use super::waves::Waves;
-use super::{BASIN_MAX, BASIN_MIN};
 
 /// Reflected by white: of the sun where it falls square, and of the sky.
 const SUN: DVec3 = DVec3::new(0.95, 0.9, 0.8);

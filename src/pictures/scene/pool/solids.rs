@@ -2,9 +2,8 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use crate::pictures::scene::body::{Vertex, ball_triangles};
-
 use super::{BASIN_MAX, BASIN_MIN};
+use crate::pictures::scene::body::{Vertex, ball_triangles};
 
 /// The court around the basin, in squares of a metre.
 const COURT_MIN: DVec2 = DVec2::new(-12.0, -9.0);

@@ -1,14 +1,14 @@
 //! The pool as light goes, in f64: from the eye to the water, and from there along the mirrored and along the refracted ray to what they
 //! meet. It follows the waves as a surface with its heights, and a second time as a plane with their normals.
-
-use glam::{DVec2, DVec3};
-
-use crate::physics::optics;
-use crate::pictures::scene::glass::Glass;
-use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
+//!
+//! Waves: a sum of sines. Their height is the surface of the truth, their slopes are the normal map of what is drawn.
 
 use super::solids::{Hit, hit};
 use super::{BASIN_MAX, BASIN_MIN, Pool};
+use crate::physics::optics;
+use crate::pictures::scene::glass::Glass;
+use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
+use glam::{DVec2, DVec3};
 
 /// Places along a ray between the highest crest and the lowest trough that are tried, and steps of the search between two of them.
 const TRIES: usize = 12;
@@ -173,4 +173,74 @@ fn between(mut before: (f64, f64), mut after: (f64, f64), of: impl Fn(f64) -> f6
         }
     }
     before.0 + (after.0 - before.0) * before.1 / (before.1 - after.1)
+}
+
+/// Wavelength in metres, direction in radians, steepest slope, phase.
+const WAVES: [[f64; 4]; 7] = [
+    [2.6, 1.1, 0.030, 0.0],
+    [1.5, 0.4, 0.032, 1.3],
+    [1.05, 2.0, 0.030, 4.1],
+    [0.72, 0.9, 0.028, 2.2],
+    [0.53, 2.6, 0.024, 5.3],
+    [0.41, 0.1, 0.020, 0.7],
+    [0.33, 1.6, 0.018, 3.6],
+];
+
+/// A sine.
+#[derive(Clone, Debug, PartialEq)]
+struct Wave {
+    /// 2 pi over the wavelength, along its direction.
+    wave_vector: DVec2,
+    amplitude: f64,
+    phase: f64,
+}
+
+/// The surface y = height(x, z).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waves {
+    waves: Vec<Wave>,
+    /// No crest is higher.
+    pub highest: f64,
+}
+
+impl Waves {
+    /// The waves of the pictures.
+    pub fn new() -> Waves {
+        let wave = |[length, direction, slope, phase]: [f64; 4]| {
+            let (sin, cos) = libm::sincos(direction);
+            let number = std::f64::consts::TAU / length;
+            Wave {
+                wave_vector: number * DVec2::new(cos, sin),
+                amplitude: slope / number,
+                phase,
+            }
+        };
+        let waves = WAVES.map(wave).to_vec();
+        Waves {
+            highest: waves.iter().map(|wave| wave.amplitude).sum(),
+            waves,
+        }
+    }
+
+    /// The height at x and z.
+    pub fn height(&self, place: DVec2) -> f64 {
+        let each = |wave: &Wave| wave.amplitude * libm::sin(wave.angle(place));
+        self.waves.iter().map(each).sum()
+    }
+
+    /// The normal at x and z, upward.
+    pub fn normal(&self, place: DVec2) -> DVec3 {
+        let each = |wave: &Wave| {
+            let cosine = libm::cos(wave.angle(place));
+            wave.amplitude * cosine * wave.wave_vector
+        };
+        let slope: DVec2 = self.waves.iter().map(each).sum();
+        DVec3::new(-slope.x, 1.0, -slope.y).normalize()
+    }
+}
+
+impl Wave {
+    fn angle(&self, place: DVec2) -> f64 {
+        self.wave_vector.dot(place) + self.phase
+    }
 }

@@ -4,11 +4,10 @@
 
 use glam::{DVec2, DVec3};
 
+use super::{WALL, Window, outward, right};
 use crate::physics::optics;
 use crate::pictures::scene::glass::Glass;
 use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
-
-use super::{WALL, Window, outward, right};
 
 /// The thickness of the glass.
 const THICKNESS: f64 = 0.006;
