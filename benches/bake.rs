@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
 use fresnel_gen::generator::bake::{BakeRequest, TableSize, bake};
 use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::lut::{Depth, Format, Table, TableAxis, smallest};

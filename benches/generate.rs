@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::output::tree;
 use fresnel_gen::generator::request::Request;

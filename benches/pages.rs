@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
 use fresnel_gen::generator::fit::survey_page;
 use fresnel_gen::generator::request::source::pages;
 use fresnel_gen::physics::materials::{self, Extrapolate, Material, ViewingConditions};

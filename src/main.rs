@@ -8,11 +8,12 @@ use std::thread;
 use clap::Parser;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue};
+use indicatif::{ProgressBar, ProgressStyle};
+
 use fresnel_gen::cli::{Cli, first_help, legible, run, with_names_of_today};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::foreign::one_line;
 use fresnel_gen::physics::num::{POINT_NOT_COMMA, has_decimal_commas};
-use indicatif::{ProgressBar, ProgressStyle};
 
 #[path = "main/stdout.rs"]
 mod stdout;

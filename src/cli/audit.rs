@@ -1,5 +1,9 @@
 //! `audit`: a user's own function held against the exact law and against ours.
 
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
 use crate::cli::chart;
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, family_or_all, one_of};
@@ -27,8 +31,6 @@ use crate::physics::foreign::{Foreign, lines as lines_of, one_line};
 use crate::physics::materials::ViewingConditions;
 use crate::physics::names::UnknownName;
 use crate::physics::spectra::Space;
-use clap::Args;
-use std::path::{Path, PathBuf};
 
 /// The flags of `audit`.
 #[derive(Args, Debug)]

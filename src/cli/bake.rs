@@ -1,5 +1,7 @@
 //! `bake`: lookup tables as files, and how wrong each is.
 
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, in_any_case, one_of, one_or_all};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
@@ -29,7 +31,6 @@ use crate::language::methods::{self, Method, TEXELS};
 use crate::language::targets::{self, Finish, Target};
 use crate::physics::names::UnknownName;
 use crate::pictures::table;
-use clap::Args;
 
 /// Flags that conflict with `--dfg`.
 const NO_MATERIAL: [&str; 8] = [

@@ -1,5 +1,9 @@
 //! `chart`: error against cost.
 
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::MaterialFlags;
@@ -20,8 +24,6 @@ use crate::physics::names::UnknownName;
 use crate::pictures::frontier::{chart_page, chart_svg};
 use crate::pictures::plot::capital;
 use crate::pictures::table::{self, short_number};
-use clap::Args;
-use std::path::{Path, PathBuf};
 
 /// The flags of charts.
 #[derive(Args, Debug)]

@@ -1,5 +1,9 @@
 //! Completion scripts of shells, with the names that flags take.
 
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Command, CommandFactory};
+use clap_complete::Shell;
+
 use crate::cli::Cli;
 use crate::generator::emit::HeaderForm;
 use crate::lab::cost::FAMILIES;
@@ -7,9 +11,6 @@ use crate::language::{effects, methods, targets};
 use crate::physics::materials::{self, Extrapolate};
 use crate::physics::num::Precision;
 use crate::physics::spectra::{Adaptation, Gamut, Illuminant, Observer, Space, Step};
-use clap::builder::PossibleValuesParser;
-use clap::{Args, Command, CommandFactory};
-use clap_complete::Shell;
 
 /// Which shell.
 #[derive(Args, Debug)]

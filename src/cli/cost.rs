@@ -1,5 +1,10 @@
 //! `cost`: what compilers of real GPUs make of functions.
 
+use core::time::Duration;
+use std::path::PathBuf;
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
     Choice, each_once, effect_or_all, family, family_or_all, method_or_all, precision,
@@ -24,9 +29,6 @@ use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
 use crate::pictures::cost_page::{cost_page, percent, short};
 use crate::pictures::table;
-use clap::Args;
-use core::time::Duration;
-use std::path::PathBuf;
 
 /// The flags of `cost`.
 #[derive(Args, Debug)]

@@ -1,5 +1,8 @@
 //! `fit`: the coefficients of fitted methods.
 
+use clap::Args;
+use serde::{Serialize, Serializer};
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{family, one_of, precision};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
@@ -25,8 +28,6 @@ use crate::physics::materials::ViewingConditions;
 use crate::physics::num::{Precision, each_channel, in_parallel};
 use crate::physics::spectra::Gamut;
 use crate::pictures::table::{self, short_number};
-use clap::Args;
-use serde::{Serialize, Serializer};
 
 /// The flags of fits.
 #[derive(Args, Debug)]

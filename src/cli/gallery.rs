@@ -1,5 +1,9 @@
 //! `gallery`: the effects as a page that draws them.
 
+use std::path::PathBuf;
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::output::{Output, Progress, not_drawn};
@@ -10,8 +14,6 @@ use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outp
 use crate::generator::request::{Materials, Request};
 use crate::pictures::gallery::gallery;
 use crate::pictures::gallery::page::gallery_page;
-use clap::Args;
-use std::path::PathBuf;
 
 /// The flags of `gallery`.
 #[derive(Args, Debug)]

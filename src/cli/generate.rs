@@ -2,6 +2,11 @@
 //!
 //! Fitted methods that were asked for by name, for materials that the one of their own class follows far better: `fitted` for water.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
     Choice, PrecisionFlags, effect_or_all, family, flavour, method_or_all, one_of, target_or_all,
@@ -37,9 +42,6 @@ use crate::language::effects::Effect;
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::foreign::{Foreign, one_line};
-use clap::Args;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// The flags of generation.
 #[derive(Args, Debug)]

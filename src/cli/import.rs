@@ -1,5 +1,7 @@
 //! `materials import`: a page or table becomes a material file.
 
+use std::path::Path;
+
 use crate::cli::error::Error;
 use crate::cli::materials::{ImportFlags, material_record};
 use crate::cli::output::{Output, report};
@@ -12,7 +14,6 @@ use crate::language::methods;
 use crate::physics::foreign::{self, one_line};
 use crate::physics::materials::{Material, name_fault, page};
 use crate::physics::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
-use std::path::Path;
 
 /// `fresnel-gen materials import PAGE`. The JSON is that of `materials show`.
 pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {

@@ -1,5 +1,11 @@
 //! `methods`, `effects` and `targets`: list and show.
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, one_of};
 use crate::cli::flags::output::ReportFlags;
@@ -11,10 +17,6 @@ use crate::language::effects::{self, Effect, EffectFunction};
 use crate::language::methods::{self, Contract, Method};
 use crate::language::targets::{self, Target};
 use crate::pictures::table;
-use clap::{Args, Subcommand};
-use serde::Serialize;
-use std::collections::BTreeSet;
-use std::path::Path;
 
 /// The flags of `methods`.
 #[derive(Args, Debug)]

@@ -1,5 +1,10 @@
 //! `materials`: list with filters, show as text and as a picture; the rest has files of its own.
 
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::{MaterialName, MediumFlags};
@@ -22,9 +27,6 @@ use crate::physics::names::UnknownName;
 use crate::physics::spectra::{FIRST_NM, LAST_NM};
 use crate::pictures::material_sheet::material_sheet;
 use crate::pictures::table;
-use clap::{Args, Subcommand};
-use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// The flags of `materials`.
 #[derive(Args, Debug)]

@@ -1,5 +1,9 @@
 //! `merge`: the reports of shards as the report of a whole run.
 
+use std::path::PathBuf;
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::output::{CheckReportFlags, ReportFlags, file_only};
 use crate::cli::output::Output;
@@ -7,8 +11,6 @@ use crate::cli::places::try_places;
 use crate::cli::verify::whole_report;
 use crate::generator::request::source;
 use crate::lab::verify::merge::{merged, parsed};
-use clap::Args;
-use std::path::PathBuf;
 
 /// The flags of `merge`.
 #[derive(Args, Debug)]

@@ -3,13 +3,15 @@
 //! Text as a terminal may have it: characters that move its cursor, change its title or turn its lines are shown as escapes. It is a
 //! second fence: a message holds no such text of others, since [`foreign`](crate::physics::foreign) cleans what is put into it.
 
+use std::path::Path;
+
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::places::replaced;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::physics::materials::{escaped, is_hidden};
-use serde::Serialize;
-use std::path::Path;
 
 /// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -2,6 +2,10 @@
 //!
 //! `materials coat`: the colours of a surface under a clear coat.
 
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::materials::{CoatFlags, ParamsFlags, SeenFlags, medium};
 use crate::cli::output::{Output, report};
@@ -21,8 +25,6 @@ use crate::physics::foreign::one_line;
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::spectra::Gamut;
 use crate::pictures::table;
-use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 #[derive(Serialize)]
 struct ParamsReport<'a> {

@@ -1,5 +1,9 @@
 //! `plan`: of each material of a scene the cheapest function whose error nobody sees.
 
+use std::path::PathBuf;
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, family, in_any_case, method_or_all, one_of, precision};
 use crate::cli::flags::output::{PictureFlags, ReportFlags, file_only};
@@ -22,8 +26,6 @@ use crate::pictures::plan::{
     Proof, ProofCase, material_view, plan, prove,
 };
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
-use clap::Args;
-use std::path::PathBuf;
 
 /// Frames of a renderer, as one word lists them.
 #[derive(Clone, Debug)]

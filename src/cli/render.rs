@@ -1,5 +1,10 @@
 //! `render`: an effect drawn beside its truth.
 
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use glam::DVec3;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::MaterialName;
@@ -22,9 +27,6 @@ use crate::pictures::scene::{
     self, Difference, Display, Environment, Glass, Order, Picture, RenderRow, RenderedRow,
     TONE_CURVES, ToneCurve,
 };
-use clap::Args;
-use glam::DVec3;
-use std::path::{Path, PathBuf};
 
 /// The flags of `render`.
 #[derive(Args, Debug)]

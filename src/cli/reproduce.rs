@@ -1,5 +1,7 @@
 //! `reproduce`: the thesis beside ours.
 
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::output::{ReportFlags, TreeFlags};
 use crate::cli::output::{Output, Progress, report_beside};
@@ -11,7 +13,6 @@ use crate::lab::reproduce::{
 use crate::physics::names::UnknownName;
 use crate::pictures::figure_chart::figure_chart;
 use crate::pictures::table;
-use clap::Args;
 
 /// The flags of `reproduce`.
 #[derive(Args, Debug)]

@@ -1,5 +1,10 @@
 //! `scene-error`: the error of methods in pictures of an object.
 
+use std::path::PathBuf;
+
+use clap::Args;
+use glam::DVec3;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, method_or_all, one_of};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
@@ -28,9 +33,6 @@ use crate::physics::num::in_parallel;
 use crate::physics::spectra::{Space, srgb_byte};
 use crate::pictures::png::rgb_png;
 use crate::pictures::table::{short_number, text_table};
-use clap::Args;
-use glam::DVec3;
-use std::path::PathBuf;
 
 /// The flags of `scene-error`.
 #[derive(Args, Debug)]

@@ -1,5 +1,9 @@
 //! `stability`: where methods fail.
 
+use std::path::Path;
+
+use clap::Args;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, one_or_all, precision};
 use crate::cli::flags::material::MaterialFlags;
@@ -16,8 +20,6 @@ use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
 use crate::pictures::stability_map::{heat_map, percent, stability_page, worst};
 use crate::pictures::table;
-use clap::Args;
-use std::path::Path;
 
 /// The flags of `stability`.
 #[derive(Args, Debug)]

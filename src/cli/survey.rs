@@ -1,5 +1,10 @@
 //! `materials survey`: every page of refractiveindex.info below a folder.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::materials::SurveyFlags;
 use crate::cli::output::{Output, Progress, report};
@@ -13,9 +18,6 @@ use crate::generator::request::source::{pages, read};
 use crate::physics::foreign::one_line;
 use crate::physics::materials::ViewingConditions;
 use crate::physics::spectra::Gamut;
-use serde::Serialize;
-use std::collections::BTreeMap;
-use std::path::Path;
 
 /// `fresnel-gen materials survey FOLDER`.
 pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Result<Output, Error> {

@@ -1,5 +1,12 @@
 //! `time`: what functions cost on the device at hand.
 
+use core::fmt::Display;
+use core::time::Duration;
+use std::collections::BTreeSet;
+
+use clap::Args;
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, each_once, method_or_all, one_of, precision};
 use crate::cli::flags::material::MaterialFlags;
@@ -20,11 +27,6 @@ use crate::language::methods::Method;
 use crate::physics::foreign::{lines, one_line};
 use crate::physics::num::Precision;
 use crate::pictures::table;
-use clap::Args;
-use core::fmt::Display;
-use core::time::Duration;
-use serde::Serialize;
-use std::collections::BTreeSet;
 
 /// OpenGL ES runs vertex shaders here, and draws nothing.
 const DRAWING_BACKENDS: [Backend; 4] = [

@@ -1,5 +1,12 @@
 //! `verify`: what is generated, run on every target and held against what it means.
 
+use core::time::Duration;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
     Choice, PrecisionFlags, effect_or_all, method_or_all, one_of, target_or_all,
@@ -37,11 +44,6 @@ use crate::physics::foreign::{lines, one_line};
 use crate::physics::materials::ViewingConditions;
 use crate::physics::num::Precision;
 use crate::pictures::table;
-use clap::Args;
-use core::time::Duration;
-use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
 
 /// The flags of `verify`.
 #[derive(Args, Debug)]

@@ -2,14 +2,16 @@
 //!
 //! What is wrong with a request, by kind: each says what was given, what is allowed, and where.
 
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
 use crate::generator::{emit, lut};
 use crate::language::methods::Method;
 use crate::physics::foreign::{self, Foreign, one_line};
 use crate::physics::materials;
 use crate::physics::names::UnknownName;
-use std::io;
-use std::path::PathBuf;
-use thiserror::Error;
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]

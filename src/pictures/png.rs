@@ -5,11 +5,13 @@
 //!
 //! Pixels as PNG.
 
-use crate::generator::emit::MARK;
+use std::sync::Arc;
+
 use png::{BitDepth, ColorType, Compression, Encoder};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
-use std::sync::Arc;
+
+use crate::generator::emit::MARK;
 
 /// Regular first: it has letters that the bold one lacks, and is asked for these next.
 const FONTS: [&[u8]; 2] = [

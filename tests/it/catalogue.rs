@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use serde_json::Value;
+
 use fresnel_gen::generator::emit::{catalogue_record, recorded_catalogue};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::catalogue::{add_catalogue, derived_rows};
@@ -11,7 +13,6 @@ use fresnel_gen::generator::request::Request;
 use fresnel_gen::language::ir::{Column, Value as Evaluated, evaluate};
 use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::spectra::Gamut;
-use serde_json::Value;
 
 /// A file for no language, of a run without flags.
 fn shared(path: &str) -> Vec<u8> {

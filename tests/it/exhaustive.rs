@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
-use fresnel_gen::physics::records;
 use serde::Deserialize;
+
+use fresnel_gen::physics::records;
 
 static RECORD: LazyLock<Vec<Line>> =
     LazyLock::new(|| records::rows(include_str!("../../data/records/exhaustive.csv")));

@@ -1,11 +1,10 @@
 //! What two colours are worth: methods of F0 and F82 over the sample of metals and semiconductors, and over glasses.
 
+use crate::samples;
 use fresnel_gen::generator::fit::{ErrorQuantiles, error_of, values_at, values_for_material};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::optics;
-
-use crate::samples;
 
 /// A method with the median and the 90th percentile of its largest errors, each measurement once, as headers and `docs/methods.md` state them of the
 /// sample.

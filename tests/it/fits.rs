@@ -4,6 +4,8 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
+use super::samples::{self, Misses};
+use super::stated::{check_stated, short, stated};
 use fresnel_gen::generator::emit::{Bounds, Naming, missed, specialised_function};
 use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
@@ -15,9 +17,6 @@ use fresnel_gen::physics::materials::{Material, MaterialKind, ViewingConditions}
 use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::num::{Legendre, Precision};
 use fresnel_gen::physics::records;
-
-use super::samples::{self, Misses};
-use super::stated::{check_stated, short, stated};
 
 /// Below this n a dielectric is a gas.
 const LEAST_N: f64 = 1.2;

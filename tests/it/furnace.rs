@@ -2,6 +2,7 @@
 //! reflected more than once, all with one F. Nothing reflects more than 1, what reflects everything reflects 1, and coloured metals
 //! reflect what their bounces add up to.
 
+use super::gamut;
 use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::lut::{
     Depth, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSum, SplitSumDesign, StoredSplitSum, compensation,
@@ -13,8 +14,6 @@ use fresnel_gen::language::methods::{self, Method, Values};
 use fresnel_gen::physics::num::{Legendre, Precision};
 use fresnel_gen::physics::optics::Ggx;
 use fresnel_gen::physics::spectra::Gamut;
-
-use super::gamut;
 
 /// How far white may be from 1, and others above it. At these angles the table is nearer than its .0018, which is its error at the valley of roughness .05.
 const WITHIN: f64 = 5e-4;

@@ -1,5 +1,7 @@
 //! Coefficients that serve lamps and image light: their form keeps to [0, 1] by itself, and what that costs.
 
+use super::fits::catalogue;
+use super::samples;
 use fresnel_gen::generator::emit::recorded_catalogue;
 use fresnel_gen::generator::fit::{
     FitCurve, FitObjective, basis, coefficients_and_error, model_error, values_for_material,
@@ -9,9 +11,6 @@ use fresnel_gen::language::methods::{self, Method, Values};
 use fresnel_gen::physics::materials::ViewingConditions;
 use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::spectra::Gamut;
-
-use super::fits::catalogue;
-use super::samples;
 
 /// What f32 coefficients of some tens move a sum by.
 const ROUNDING: f64 = 2e-6;

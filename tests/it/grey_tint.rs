@@ -1,9 +1,8 @@
 //! The one tint of F82-tint for all three channels: what it is worth over the catalogue.
 
+use crate::{samples, subjects};
 use fresnel_gen::generator::fit::{GreyTint, grey_tint};
 use fresnel_gen::physics::num::statistics::quantile;
-
-use crate::{samples, subjects};
 
 /// The figures that `docs/materials.md` states: the median and the 90th percentile of the largest error.
 const MEDIAN: f64 = 0.027;

@@ -4,10 +4,9 @@
 //! Not here, because they are no faults of a Fresnel formula: the NaN of smooth metals in half precision in Godot
 //! (godotengine/godot #110207, roughness 0), a² of GGX below the smallest half (mrdoob/three.js #8349).
 
+use crate::physics::{function, run};
 use fresnel_gen::physics::num::{Half, Num};
 use fresnel_gen::physics::optics;
-
-use crate::physics::{function, run};
 
 /// Our library function in unfused f32.
 fn ours(method: &str, cos_theta: f32, arguments: &[f32]) -> f32 {

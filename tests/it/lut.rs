@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Command;
 
+use crate::not_checked;
+use crate::stated::{check_stated, stated};
 use fresnel_gen::cli::Cli;
 use fresnel_gen::generator::bake::{BakeRequest, TableMaterial, TableSize, bake};
 use fresnel_gen::generator::generate::tables::{WantedTables, artifacts, table_materials};
@@ -15,9 +17,6 @@ use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods::Light;
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::physics::spectra::Gamut;
-
-use crate::not_checked;
-use crate::stated::{check_stated, stated};
 
 fn reference(name: &str) -> Option<ReferenceCurve> {
     let viewing = ViewingConditions {

@@ -1,8 +1,9 @@
 //! Whatever a page or a table holds: no panic, and what was read is written and read again as the same material.
 
-use fresnel_gen::physics::materials::{DispersionCurve, Extrapolate, Material, Page};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+
+use fresnel_gen::physics::materials::{DispersionCurve, Extrapolate, Material, Page};
 
 const PAGE: &str = "\
 REFERENCES: |

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
+
 use fresnel_gen::generator::emit::FunctionForm;
 use fresnel_gen::lab::cost::{FAMILIES, FunctionKey, records};
 use fresnel_gen::physics::num::Precision;
-use serde::Deserialize;
 
 /// Families with a compiler: the count of operations has none, and none of PowerVR's is available.
 pub fn families() -> impl Iterator<Item = &'static str> {

@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use super::stated::check_stated;
+use super::stated::stated;
 use crate::tables::markdown::{
     classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
     targets_table,
@@ -16,9 +18,6 @@ use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ViewingConditions};
 use fresnel_gen::pictures::headline::headline;
 use fresnel_gen::pictures::material_sheet::material_sheet;
-
-use super::stated::check_stated;
-use super::stated::stated;
 
 fn example() -> String {
     let request = Request {

@@ -7,9 +7,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fresnel_gen::generator::reference::MaterialInMedium;
-
 use super::fits::catalogue;
+use fresnel_gen::generator::reference::MaterialInMedium;
 
 /// The fitted methods that miss a material: they err more than they promise of its class.
 pub type Misses<'a> = BTreeMap<&'a str, Vec<&'static str>>;

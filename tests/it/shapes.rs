@@ -4,13 +4,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use super::samples;
 use fresnel_gen::generator::fit::{
     Candidate, ErrorQuantiles, Exact, FitCurve, FitObjective, FitProblem, Tried, TriedShapes,
     candidates, search,
 };
 use fresnel_gen::physics::spectra::Gamut;
-
-use super::samples;
 
 /// Forms are compared by what they can follow, without a limit to [0, 1].
 fn free() -> FitObjective {

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use serde::Deserialize;
+
 use crate::tables::stability::stability_document;
 use fresnel_gen::lab::stability::{Failure, StabilityRow, scan};
 use fresnel_gen::language::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::records;
-use serde::Deserialize;
 
 /// All methods scanned, once for all tests.
 static ROWS: LazyLock<Vec<StabilityRow>> = LazyLock::new(|| scanned(Precision::F32));

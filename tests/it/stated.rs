@@ -5,6 +5,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use glam::DVec3;
+
+use super::fits::catalogue;
+use super::gamut;
+use super::readme::page;
+use super::readme::replaced;
 use fresnel_gen::generator::emit::FunctionForm;
 use fresnel_gen::generator::fit::{FitCurve, InputChoice, MethodErrors, colour_errors};
 use fresnel_gen::generator::reference::{MaterialClass, MaterialInMedium};
@@ -14,12 +20,6 @@ use fresnel_gen::physics::materials::{ConstantIndex, MaterialKind, Surface, View
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::num::statistics::{median, quantile};
 use fresnel_gen::physics::spectra::{Gamut, Illuminant, Space};
-use glam::DVec3;
-
-use super::fits::catalogue;
-use super::gamut;
-use super::readme::page;
-use super::readme::replaced;
 
 /// A figure in a page: what stands before it, what after it, and what it is. Digits and points between them are replaced.
 pub struct Stated {

@@ -1,11 +1,6 @@
 //! What comes of a material's numbers in hosts that compute otherwise than the file means, as `docs/materials.md` says it. `BLESS=1`
 //! rewrites the figures.
 
-use fresnel_gen::generator::exchange::{self, EngineMaterial};
-use fresnel_gen::generator::reference::{MaterialClass, MaterialInMedium};
-use fresnel_gen::physics::materials::{Surface, ViewingConditions};
-use fresnel_gen::physics::num::statistics::quantile;
-use fresnel_gen::physics::spectra::{Adaptation, Integration, Space, bradford};
 use glam::{DMat3, DVec3};
 
 use super::fits::catalogue;
@@ -13,6 +8,11 @@ use super::readme::page;
 use super::stated::check_stated;
 use super::stated::short;
 use super::stated::stated;
+use fresnel_gen::generator::exchange::{self, EngineMaterial};
+use fresnel_gen::generator::reference::{MaterialClass, MaterialInMedium};
+use fresnel_gen::physics::materials::{Surface, ViewingConditions};
+use fresnel_gen::physics::num::statistics::quantile;
+use fresnel_gen::physics::spectra::{Adaptation, Integration, Space, bradford};
 
 const PAGE: &str = "docs/materials.md";
 

@@ -2,6 +2,10 @@
 //!
 //! What functions compute in, as the command line says it: single or half precision.
 
+use core::fmt;
+
+use clap::Args;
+
 use crate::generator::error::RequestFault;
 use crate::generator::flavours::{self, Flavour};
 use crate::lab::cost::{FAMILIES, Family};
@@ -10,8 +14,6 @@ use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
-use clap::Args;
-use core::fmt;
 
 /// A word of a list of names.
 #[derive(Clone, Debug, PartialEq, Eq)]

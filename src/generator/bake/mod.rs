@@ -7,7 +7,6 @@ mod subject;
 
 use crate::generator::lut::{Depth, Format, TableAxis, TableKind, smallest};
 use crate::language::targets::Target;
-
 use picture::Baking;
 
 pub use row::{

@@ -4,6 +4,8 @@
 //!
 //! What cannot be baked.
 
+use serde::Serialize;
+
 use super::picture::Rounded;
 use super::subject::TableMaterial;
 use super::{BakeRequest, TableSize};
@@ -15,7 +17,6 @@ use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 use crate::physics::materials::ViewingConditions;
 use crate::physics::spectra::Gamut;
-use serde::Serialize;
 
 /// How sampled values are mixed where errors are given.
 pub const WEIGHTS: &str = "steps of 1/256, as GPUs filter";

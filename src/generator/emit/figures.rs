@@ -6,6 +6,10 @@
 //!
 //! A fit that misses what its method promises of the material's class, and the method that keeps within it.
 
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
 use super::function::{Emitted, specialised_graph};
 use crate::generator::fit::{Measured, ModelError, model_error, rounded_up};
 use crate::generator::reference::{LEAST_FITTED_N, MaterialInMedium};
@@ -14,8 +18,6 @@ use crate::language::methods::{self, ALL, Colours, Input, Method, by_class};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
 use crate::physics::records;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The code error of what reads a texture: a sampler may round its weights to the nearest of 256, or down.
 pub const FILTERED: &str = "at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps";

@@ -2,6 +2,8 @@
 //!
 //! The forms in which a method's functions are written.
 
+use serde::{Deserialize, Serialize};
+
 use super::effect_file::EffectPart;
 use super::figures::{Bounds, CodeBound, FILTERED, Missed, PLAIN_ULP, missed};
 use super::file::Error;
@@ -10,7 +12,6 @@ use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{BrokenRule, Checked};
 use crate::language::methods::{Method, Values};
 use crate::physics::num::Precision;
-use serde::{Deserialize, Serialize};
 
 /// How functions are named, by what they compute in: half precision is told by the name.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,6 +2,13 @@
 //!
 //! naga at work: WGSL parsed and validated in process, and lowered to SPIR-V.
 
+use std::collections::BTreeSet;
+
+use naga::back::spv;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use serde::Serialize;
+use tera::{Context, Tera};
+
 use super::batch::batch_entry;
 use super::file::Error;
 use super::function::{Emitted, FunctionForm};
@@ -9,11 +16,6 @@ use super::print;
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Finish, Page, Target};
 use crate::physics::num::Precision;
-use naga::back::spv;
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use serde::Serialize;
-use std::collections::BTreeSet;
-use tera::{Context, Tera};
 
 /// What a template sees.
 #[derive(Serialize)]

@@ -2,12 +2,13 @@
 //!
 //! Why a material has no place in a format.
 
+use thiserror::Error;
+
 use super::model::NodeError;
 use super::sheet::Sheet;
 use super::subject::EngineMaterial;
 use crate::physics::foreign::Foreign;
 use crate::physics::spectra::Space;
-use thiserror::Error;
 
 /// A format that engines or tools read.
 #[derive(Debug)]

@@ -17,14 +17,16 @@
 //!
 //! What shapes are worth over many materials, and what a choice made without a substance is worth for that substance.
 
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
+use serde::Serialize;
+
 use super::problem::{FitProblem, basis};
 use crate::language::ir::{Builder, fold};
 use crate::language::methods::{ALL, Factor, Input, Inputs, Method, Shape};
 use crate::physics::num::statistics::{median, medians, quantile};
 use crate::physics::num::{Precision, in_parallel};
-use serde::Serialize;
-use std::collections::BTreeSet;
-use std::ops::RangeInclusive;
 
 /// A shape that may be chosen.
 #[derive(Clone, Copy, Debug)]

@@ -10,14 +10,16 @@
 //! Where an index has both ([`index_from_f0_f82`]) it is that index's, by the exact law. Where none has them, or F0 is so large that
 //! F82 decides between indices far from any metal, it is that of the method `f82_tint`, which meets any two.
 
+use std::sync::LazyLock;
+
+use serde::Serialize;
+
 use super::best_inputs::values_at;
 use super::model_error::{difference, error_of};
 use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{self, Input, Method, Values, schlick_82};
 use crate::physics::optics::{self, EffectiveIndex, index_from_f0_f82};
-use serde::Serialize;
-use std::sync::LazyLock;
 
 /// A tint for all channels, and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -5,6 +5,8 @@
 //!
 //! Two colours of a surface in air, moved under a coat.
 
+use serde::Serialize;
+
 use super::grey_tint::{GreyTint, grey_tint};
 use crate::generator::reference::{By, Derivation, ReferenceCurve, effective};
 use crate::language::methods::{Input, KnownSurface, Light};
@@ -15,7 +17,6 @@ use crate::physics::materials::{
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, COS_82, UnderCoat, conductor, under_coat};
 use crate::physics::spectra::{Gamut, Illuminant, Integration, colour_error};
-use serde::Serialize;
 
 /// The parameters of a material in a medium under viewing conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -10,6 +10,8 @@
 //! The measure of error that a fit minimises: the absolute error, the relative error, the error of luminance, or the visible
 //! difference of colour.
 
+use glam::DVec3;
+
 use super::derive::coefficients_and_error;
 use super::exact::{Exact, fit_meeting, rounded_coefficients};
 use super::minimax::{Limit, Points};
@@ -20,7 +22,6 @@ use crate::language::methods::{Light, Method, Shape, Values, unwarped};
 use crate::physics::materials::Surface;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::{Gamut, Space, ciede2000};
-use glam::DVec3;
 
 /// Cosines that a curve is fitted at: from 0 to 1, dense towards grazing as `--axis steep` is. Twice as many change no
 /// error by a hundredth of it.

@@ -8,6 +8,9 @@
 //!
 //! One file of functions to be pasted: what `-o` puts out.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, HeaderForm, Heading, Naming, PlaceInFile};
 use crate::generator::error::{Error, RequestFault};
@@ -19,8 +22,6 @@ use crate::generator::request::{Materials, Request};
 use crate::language::methods::{self, InHalf, Method};
 use crate::language::targets::{Finish, Target};
 use crate::physics::num::Precision;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 type Named<'a> = Option<&'a [&'static Method]>;
 

@@ -4,12 +4,14 @@
 //!
 //! A run owns only what it asked for, so that `--material silver` after `--target gles` gives the same tree as the other way round.
 
+use std::collections::BTreeSet;
+
 use crate::generator::emit::Detail;
 use crate::generator::error::Error;
 use crate::generator::output::manifest::{self, Entry};
-pub use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-use std::collections::BTreeSet;
+
+pub use crate::physics::digest::sha256;
 
 /// One output file, and what the manifest says about it.
 #[derive(Clone, Debug, PartialEq)]

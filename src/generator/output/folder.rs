@@ -3,12 +3,13 @@
 //! Reading a file without waiting for ever. Some files of Linux' `/proc` and `/sys` say that they are ordinary and empty, and are
 //! neither: they end never, or give nothing until something happens.
 
-use crate::generator::error::Error;
-use crate::physics::digest::sha256;
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read as _};
 use std::path::{Component, Path, PathBuf};
+
+use crate::generator::error::Error;
+use crate::physics::digest::sha256;
 
 /// The beginning of a temporary file's name.
 const TEMPORARY_PREFIX: &str = ".fresnel-gen-";

@@ -10,6 +10,10 @@
 //!
 //! Files of an output folder that a run leaves alone though they are not what it writes, and why: each is named.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
 use crate::generator::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
 use crate::generator::error::Error;
 use crate::generator::flavours;
@@ -22,9 +26,6 @@ use crate::language::targets::{self, Finish};
 use crate::language::{effects, methods};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
 
 /// What stands for a target of `catalogue.json`, which is for no language.
 const JSON: &str = "json";

@@ -4,15 +4,17 @@
 //! What a run expects in the place of a file when it puts its own there. A run takes a while between the look at a folder and the
 //! renaming: what appears or changes there meanwhile is somebody else's, and stays.
 
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
 use crate::generator::error::Error;
 use crate::generator::output::folder::{self, folder_of};
 use crate::generator::output::lock::{Lock, create_held, remove_leftovers_of};
 use crate::generator::output::ours::bears_mark;
 use crate::physics::digest::sha256;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, ErrorKind, Write as _};
-use std::path::{Path, PathBuf};
-use tempfile::TempPath;
 
 /// A file to be staged.
 pub struct Pending<'a> {

@@ -12,21 +12,24 @@
 //! Two files whose materials come out with one name: `Gläser.csv` and `Glaser.csv`. The second run would take the place of the first
 //! one's functions without a word.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use similar::TextDiff;
+
 use crate::generator::emit::{Detail, FunctionDetail};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::output::artifact::{self, Artifact, Scope, sha256};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Entry, Manifest, Provenance};
-pub use crate::generator::output::ours::Stay;
 use crate::generator::output::ours::{
     bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash, strangers,
     unknown,
 };
 use crate::physics::foreign::{Foreign, line_of_file, one_line};
-use similar::TextDiff;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+
+pub use crate::generator::output::ours::Stay;
 
 /// The difference between the artifacts and the folder.
 #[derive(Clone, Debug, PartialEq)]

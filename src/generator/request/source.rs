@@ -4,6 +4,9 @@
 //!
 //! A source read: a material of the catalogue, of a text at hand, or a medium that is a number.
 
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
 use crate::generator::command_line::path_again;
 use crate::generator::error::{Error, RequestFault, unknown};
 use crate::generator::output::folder::{self, is_below};
@@ -12,8 +15,6 @@ use crate::generator::request::Source;
 use crate::physics::foreign::{self, one_line};
 use crate::physics::materials::{self, ConstantIndex, FileFault, Material, Unseen};
 use crate::physics::spectra::{TextFault, mesh_text, user_text};
-use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;

@@ -2,6 +2,8 @@
 //!
 //! The verdict of every compiler of a language on a program around a user's text.
 
+use serde::{Deserialize, Serialize};
+
 use super::bind::place_of;
 use super::condition::Language;
 use super::error::Error;
@@ -14,7 +16,6 @@ use crate::lab::verify::harness::ENTRY;
 use crate::language::targets::{Compiler, DXC, GLSLANG, WGSL};
 use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
-use serde::{Deserialize, Serialize};
 
 /// The function that is meant.
 ///

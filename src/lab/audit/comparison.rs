@@ -5,13 +5,14 @@
 //! Functions differ in conventions more than in formulas: an index is n_t / n_i or n_i / n_t, the colour at 82 degrees is itself or a
 //! tint. So where a function computes none of ours, its arguments are tried as the other quantities that their names may stand for.
 
+use serde::Serialize;
+
 use super::bind::Bound;
 use crate::generator::fit::values_for_material;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{CostAndError, Multiples, TIE};
 use crate::language::ir::{Value, evaluate};
 use crate::language::methods::{self, Contract, InputSource, Light, Method};
-use serde::Serialize;
 
 /// A method of ours for the same material.
 #[derive(Clone, Debug)]

@@ -2,13 +2,15 @@
 //!
 //! The languages that a user's function may be written in.
 
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
 use super::choose::SLANGC;
 use super::error::Error;
 use crate::generator::emit::shader_words::{Hidden, Token, code_alone, tokens};
 use crate::language::ir::Ty;
 use crate::language::targets::{DXC, GLES, GLSL, GLSLANG, HLSL, Target, WGSL};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// What a macro stands for.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,6 +3,10 @@
 //!
 //! What a user's function costs on a family of GPUs, as the report has it.
 
+use core::time::Duration;
+
+use serde::Serialize;
+
 use super::compile::Compilers;
 use super::condition::Language;
 use super::error::placed;
@@ -17,8 +21,6 @@ use crate::lab::verify::compilers::CompilerFault;
 use crate::lab::verify::naga_translation;
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
-use core::time::Duration;
-use serde::Serialize;
 
 /// Asks the compiler of a family.
 ///

@@ -2,6 +2,8 @@
 //!
 //! Messages of compilers, with the place in the user's file before them.
 
+use thiserror::Error;
+
 use super::cosine::CosineForm;
 use super::program::own_names;
 use super::quantity;
@@ -10,7 +12,6 @@ use crate::lab::process;
 use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::names::{UnknownName, nearest_names, offered};
 use crate::physics::num::{POINT_NOT_COMMA, has_decimal_commas};
-use thiserror::Error;
 
 /// Why a user's function cannot be audited.
 #[derive(Debug, Error)]

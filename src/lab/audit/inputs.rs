@@ -2,6 +2,8 @@
 //!
 //! What arguments are given before the material is asked: by the user with `--arg`, or by the text as a default.
 
+use std::collections::BTreeSet;
+
 use super::bind::place_of;
 use super::condition::Language;
 use super::cosine::{CosineArgument, CosineForm, is_named};
@@ -15,7 +17,6 @@ use super::slice::Piece;
 use super::type_names::TypeNames;
 use super::variables::{Storage, Variable};
 use crate::generator::emit::shader_words::Token;
-use std::collections::BTreeSet;
 
 /// An input with the value that the text gives it.
 #[derive(Clone, Debug, PartialEq, Eq)]

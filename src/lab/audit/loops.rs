@@ -6,11 +6,12 @@
 //!
 //! A choice by `?:`, `select` or `mix` is no branch: both values are computed.
 
+use std::collections::BTreeSet;
+
 use super::condition::{Language, bare};
 use super::scan;
 use super::type_names::TypeNames;
 use crate::generator::emit::shader_words::{Token, tokens};
-use std::collections::BTreeSet;
 
 /// Turns that all loops of one evaluation may take together.
 pub const TURNS: usize = 10_000;

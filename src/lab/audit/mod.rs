@@ -39,6 +39,8 @@ use std::path::PathBuf;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::Family;
 use crate::physics::spectra::Space;
+use auditor::Auditor;
+use condition::desktop_version;
 
 pub use comparison::ExactFit;
 pub use condition::Language;
@@ -49,9 +51,6 @@ pub use inputs::Given;
 pub use preprocess::Define;
 pub use row::{ArgumentValue, AuditRow, Checked, ConditionRow, Dominating, PerceivedFigures};
 pub use runner::serve;
-
-use auditor::Auditor;
-use condition::desktop_version;
 
 /// What is audited.
 #[derive(Clone, Debug)]

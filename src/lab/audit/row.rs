@@ -2,6 +2,8 @@
 //!
 //! What was checked of a function, and how it came out. A check that was not made is not passed.
 
+use serde::Serialize;
+
 use super::Audit;
 use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, ExactFit, Own, dominating, sentence};
@@ -18,7 +20,6 @@ use crate::lab::cost::CostAndError;
 use crate::lab::verify::compilers::Verdict;
 use crate::lab::verify::{Answer, Status, as_object};
 use crate::physics::foreign::Foreign;
-use serde::Serialize;
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
 #[derive(Clone, Debug, Serialize)]

@@ -4,6 +4,12 @@
 //!
 //! A worker: compiles the program that it is handed, and runs it. A driver that crashes ends only this process.
 
+use core::cell::{Cell, OnceCell, RefCell};
+use core::time::Duration;
+use std::io;
+
+use serde::{Deserialize, Serialize};
+
 use super::choose::{self, Accepted};
 use super::condition::Language;
 use super::cosine::CosineForm;
@@ -19,10 +25,6 @@ use crate::lab::verify::run::Devices;
 use crate::language::ir::{Column, Value};
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::Space;
-use core::cell::{Cell, OnceCell, RefCell};
-use core::time::Duration;
-use serde::{Deserialize, Serialize};
-use std::io;
 
 /// What sees cosines, and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);

@@ -4,6 +4,9 @@
 //!
 //! Why no function can be chosen.
 
+use core::cmp::Ordering;
+use core::fmt;
+
 use crate::generator::emit;
 use crate::generator::fit::{FitCurve, rounded_up};
 use crate::generator::reference::{MaterialInMedium, reference_reflectance};
@@ -11,8 +14,6 @@ use crate::lab::cost::CostAndError;
 use crate::language::methods::Light;
 use crate::physics::materials::{self, Material, Surface, ViewingConditions};
 use crate::physics::num::each_channel;
-use core::cmp::Ordering;
-use core::fmt;
 
 /// A function that could be taken.
 #[derive(Clone, Copy, Debug, PartialEq)]

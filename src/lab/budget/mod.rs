@@ -13,7 +13,6 @@ use crate::language::ir::Checked;
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::num::{Precision, in_parallel};
-
 use choice::{cheapest, most_accurate, spread};
 
 pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, Spread, rounded_error};

@@ -2,12 +2,13 @@
 //!
 //! A user's function among ours: one entry more, one error more of each material, one cost more on each axis.
 
+use std::collections::BTreeMap;
+
 use super::{ChartData, ChartEntry, CostAxis, FunctionOrigin, UserFunction};
 use crate::generator::fit::MethodErrors;
 use crate::lab::audit::AuditRow;
 use crate::lab::verify::Status;
 use crate::physics::foreign::Foreign;
-use std::collections::BTreeMap;
 
 /// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
 const MOST_UNDEFINED: f64 = 0.01;

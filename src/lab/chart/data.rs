@@ -11,6 +11,10 @@
 //! The axes of cost: what compilers count in library functions, the graph's own operations, and times. An axis in powers of ten has no
 //! 0: a function that costs nothing has no cost there, and so no point.
 
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
 use super::audited::ChartedFunction;
 use super::{
     ChartData, ChartEntry, ChartView, CostAxis, FunctionOrigin, MaterialSet, STATISTICS, set_name,
@@ -28,8 +32,6 @@ use crate::physics::num::{Precision, in_parallel};
 use crate::physics::optics::cosine;
 use crate::physics::records::rows;
 use crate::physics::spectra::Space;
-use serde::Serialize;
-use std::collections::BTreeMap;
 
 /// The names of all axes of cost.
 pub fn cost_names() -> Vec<&'static str> {

@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::generator::fit::MethodErrors;
 use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::language::methods::{Contract, Method};
+
 pub use audited::{ChartedFunction, charted_function};
 pub use data::{
     LeftOutErrors, Reflectances, chart_data, cost_names, exact_and_approximated, left_out,

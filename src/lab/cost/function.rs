@@ -2,6 +2,8 @@
 //!
 //! How many numbers a material takes by a method: what an engine stores for it, and hands to each call.
 
+use std::sync::OnceLock;
+
 use crate::generator::emit::{
     Bounds, EffectRequest, Emitted, Error, FunctionForm, Naming, library_functions,
     specialised_graph,
@@ -12,7 +14,6 @@ use crate::language::effects::{Effect, EffectFunction};
 use crate::language::ir::{Checked, Ty};
 use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
-use std::sync::OnceLock;
 
 /// A function as it is measured.
 #[derive(Clone, Debug)]

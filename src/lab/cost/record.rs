@@ -3,6 +3,12 @@
 //!
 //! What is known of a function's cost without a compiler: by the record, by its shape, or because it computes nothing.
 
+use core::fmt;
+use std::collections::BTreeMap;
+
+use include_dir::{Dir, include_dir};
+use serde::{Deserialize, Serialize};
+
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
 use super::probe::Probe;
@@ -12,10 +18,6 @@ use crate::language::ir::Checked;
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
 use crate::physics::records;
-use core::fmt;
-use include_dir::{Dir, include_dir};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
 

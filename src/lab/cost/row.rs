@@ -2,6 +2,8 @@
 //!
 //! The rows of a family: from its compiler, from the record, or from the graph.
 
+use serde::Serialize;
+
 use super::compilers::FamilyAnswers;
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
@@ -9,7 +11,6 @@ use super::function::CostedFunction;
 use super::record::{CostRecord, FunctionKey};
 use crate::generator::emit::FunctionForm;
 use crate::physics::num::Precision;
-use serde::Serialize;
 
 /// A function on a family.
 #[derive(Clone, Debug, Serialize)]

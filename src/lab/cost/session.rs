@@ -4,6 +4,14 @@
 //!
 //! A worker: opens the compiler that its environment tells, and answers who it is and what it says of shaders.
 
+use core::time::Duration;
+use std::collections::BTreeMap;
+use std::ffi::{CString, OsString};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
 use super::family::{Dialect, Family, GpuCompiler};
 use super::figures::{CostFigures, Statistics, figures, remarked};
 use super::function::CostedFunction;
@@ -12,12 +20,6 @@ use crate::generator::emit::wgsl_to_spirv;
 use crate::lab::gpu::{DeviceFault, GlesCompiler, ModuleEntry, VulkanCompiler};
 use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker, beside};
 use crate::language::ir::Ty;
-use core::time::Duration;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::ffi::{CString, OsString};
-use std::io;
-use std::path::{Path, PathBuf};
 
 /// What a compiler says of a function, or why it says nothing.
 pub type CompilerFigures = Result<CostFigures, String>;

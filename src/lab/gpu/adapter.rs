@@ -2,10 +2,11 @@
 //!
 //! What can go wrong between a shader and its results.
 
-use super::egl;
-use super::quiet::hush;
 use std::fmt;
 use std::sync::OnceLock;
+
+use super::egl;
+use super::quiet::hush;
 
 /// What a device is.
 #[derive(Clone, Debug, PartialEq, Eq)]

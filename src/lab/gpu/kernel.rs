@@ -2,16 +2,18 @@
 //!
 //! A device of wgpu, whose errors are values: none of them prints, and none panics.
 
+use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pollster::block_on;
+use wgpu::{BindingType, BufferBindingType, BufferUsages, ErrorFilter, Features, PollType};
+
 use super::adapter::{Adapter, AdapterKind, DeviceFault, describe};
 use super::passthrough;
 use super::program::{PointInputs, Program, ShaderCode, Uniform, block, check_fit};
 use super::slot::{
     BATCH, BLOCK, Block, Slot, Texture, TextureFilter, TextureFormat, TextureShape, Wrap,
 };
-use pollster::block_on;
-use std::rc::Rc;
-use std::sync::{Arc, Mutex, PoisonError};
-use wgpu::{BindingType, BufferBindingType, BufferUsages, ErrorFilter, Features, PollType};
 
 /// A pipeline on its device.
 pub(super) struct Kernel {

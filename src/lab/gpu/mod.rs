@@ -20,6 +20,10 @@ mod quiet;
 mod slot;
 mod vulkan_compiler;
 
+use std::rc::Rc;
+
+use program::PointInputs;
+
 pub use adapter::{Adapter, AdapterKind, Backend, DeviceFault, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use gles_compiler::GlesCompiler;
@@ -27,10 +31,6 @@ pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
 pub use program::{Argument, Program, ShaderCode, Stream, Uniform};
 pub use slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
-
-use std::rc::Rc;
-
-use program::PointInputs;
 
 /// What shaders are run on. It stays on its thread.
 pub struct Device {

@@ -2,12 +2,14 @@
 //!
 //! A texture as a program reads it: a picture or the six sides of a cube, one level.
 
+use std::sync::mpsc::{Receiver, channel};
+
+use half::f16;
+use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
+
 use super::adapter::DeviceFault;
 use super::kernel::{Compute, Kernel, Resources};
 use super::program::PointInputs;
-use half::f16;
-use std::sync::mpsc::{Receiver, channel};
-use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
 
 /// Points of a block.
 pub(super) const BLOCK: usize = 1 << 18;

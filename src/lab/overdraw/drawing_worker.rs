@@ -4,16 +4,18 @@
 //!
 //! The process that draws: opens the device, and answers what it is and how long its drawings take.
 
+use core::time::Duration;
+use std::collections::BTreeSet;
+use std::io;
+
+use serde::{Deserialize, Serialize};
+
 use super::drawing_device::{DeviceFacts, DrawingDevice};
 use super::measure::{Draw, Reading, Stop};
 use super::plan::DrawingPlan;
 use super::row::Error;
 use crate::lab::gpu::{AdapterKind, Backend, Device, DeviceFault, Wanted};
 use crate::lab::process::{Inbox, Launch, Silence, Surroundings, Worker};
-use core::time::Duration;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
-use std::io;
 
 /// How long opening a device and compiling a shader may take: both are seconds where they are slow.
 const PATIENCE: Duration = Duration::from_secs(30);

@@ -4,6 +4,9 @@
 //!
 //! The record of times: what `fresnel-gen time` measured, and on what. `tests/times` writes it.
 
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
 use super::drawing_device::DeviceFacts;
 use super::figure::OverdrawFigure;
 use super::functions::TimedFunctions;
@@ -14,8 +17,6 @@ use crate::lab::process;
 use crate::language::ir::Ty;
 use crate::physics::num::Precision;
 use crate::physics::records;
-use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 /// A function and what it costs.
 #[derive(Clone, Debug, Serialize)]

@@ -2,14 +2,16 @@
 //!
 //! Why the processes of a run cannot be started.
 
-use super::surroundings::TEMPORARY;
-use super::worker::{Launch, Worker};
 use core::time::Duration;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::{io, panic, thread};
+
 use thiserror::Error;
+
+use super::surroundings::TEMPORARY;
+use super::worker::{Launch, Worker};
 
 /// How much a run may take.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,6 @@
 //!
 //! Where tools and temporary files lie.
 
-use super::pool::Error;
 use std::collections::BTreeSet;
 use std::env::{current_exe, join_paths, split_paths, temp_dir, var_os};
 use std::ffi::OsString;
@@ -14,7 +13,10 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+
 use tempfile::TempDir;
+
+use super::pool::Error;
 
 /// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";

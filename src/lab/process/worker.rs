@@ -5,16 +5,18 @@
 //! Each line begins with the milliseconds that its answer may take. A worker ends with all processes that it has started when
 //! the supervisor is gone, which closes the pipe, and when an answer takes longer, in case the supervisor is stuck.
 
-use super::pool::Error;
-use super::surroundings::Surroundings;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::pool::Error;
+use super::surroundings::Surroundings;
 
 /// How a process of this program is started.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

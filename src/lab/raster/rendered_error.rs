@@ -4,13 +4,14 @@
 //!
 //! A frame painted with reflectance: by a method, by the reference, and their difference.
 
+use serde::Serialize;
+
 use super::draw::Frame;
 use super::histogram::{CosineHistogram, Shown};
 use crate::generator::fit::{arguments, table_of};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Checked, evaluate};
 use crate::physics::num::each_channel;
-use serde::Serialize;
 
 /// Mean relative errors of the channels, as shares; none where the reference is 0 and the method says otherwise.
 pub type RelativeErrors = Option<[f64; 3]>;

@@ -5,9 +5,10 @@
 //! Source: Štetić-Kozić, "Poređenje metoda za računanje koeficijenata Frenelove refleksije u programima za senčenje",
 //! diploma thesis, School of Electrical Engineering, University of Belgrade, 2014.
 
+use std::sync::LazyLock;
+
 use serde::{Serialize, Serializer};
 use serde_json::Value;
-use std::sync::LazyLock;
 
 /// A line of the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]

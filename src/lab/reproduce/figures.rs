@@ -7,8 +7,9 @@ use super::{ThesisSection, specialised};
 use crate::generator::fit;
 use crate::generator::reference::Derivation;
 use crate::language::methods::lambda;
-pub use crate::physics::optics::cosine;
 use crate::physics::optics::{self, Reflectance};
+
+pub use crate::physics::optics::cosine;
 
 /// Angles drawn: a point each quarter of a degree.
 pub const POINTS: u32 = 361;

@@ -17,10 +17,10 @@ mod specialised;
 mod three_wavelengths;
 mod times;
 
+use rendered::Meter;
+
 pub use comparison::{ComparisonRow, ComparisonVerdict, Figure};
 pub use figures::{DrawnCurve, POINTS as FIGURE_POINTS, ThesisFigure};
-
-use rendered::Meter;
 
 /// What can be reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

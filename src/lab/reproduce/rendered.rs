@@ -6,6 +6,8 @@
 //!
 //! How far the work is, in angles.
 
+use std::sync::LazyLock;
+
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::specialised;
 use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
@@ -17,7 +19,6 @@ use crate::language::ir::{Checked, Weights, evaluate};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::{Half, Num};
-use std::sync::LazyLock;
 
 /// The texels of the thesis's tables, as far as it draws one.
 const TEXELS: usize = 256;

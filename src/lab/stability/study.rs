@@ -2,6 +2,8 @@
 //!
 //! The rows of a scan: a failure of a method each, or that it has none.
 
+use serde::Serialize;
+
 use super::failure::Failure;
 use super::scan::{Finding, ScannedFunction, scan, scan_specialised};
 use crate::generator::emit::{self, Bounds, Naming, specialised_function};
@@ -9,7 +11,6 @@ use crate::generator::reference::MaterialInMedium;
 use crate::lab::verify::as_object;
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
-use serde::Serialize;
 
 /// Hears how much is done, of how much, of what.
 pub type StudyProgress<'a> = &'a mut dyn FnMut(u64, u64, &str);

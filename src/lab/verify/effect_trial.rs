@@ -7,6 +7,8 @@
 //!
 //! The points of a trial of an effect's function, and its textures: anywhere in the domain, close to the critical angle, and at the ends.
 
+use std::sync::Arc;
+
 use super::nearest_half;
 use crate::generator::emit::{EffectPart, Emitted};
 use crate::language::effects::{Argument, Domain};
@@ -14,7 +16,6 @@ use crate::language::ir::{
     Checked, Column, CubeTexels, Filter, Param, Texels, Ty, Value, evaluate,
 };
 use crate::physics::num::each_channel;
-use std::sync::Arc;
 
 /// Points of a trial.
 const POINTS: usize = 2048;

@@ -3,12 +3,13 @@
 //!
 //! Pairs as an object of JSON, in order.
 
+use serde::{Serialize, Serializer};
+
 use super::naga_translation::Gles;
 use crate::generator::emit::{Emitted, uniform_offsets};
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
 use crate::physics::num::Precision;
-use serde::{Serialize, Serializer};
 
 /// A function as a harness calls it.
 #[derive(Clone, Copy, Debug)]

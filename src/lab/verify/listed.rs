@@ -2,11 +2,12 @@
 //!
 //! In what a file differs from the one that would be written today, in words.
 
+use serde_json::{Value, json};
+
 use crate::generator::emit::Detail;
 use crate::generator::output::artifact::Artifact;
 use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::generator::output::ours::is_listed;
-use serde_json::{Value, json};
 
 /// The manifest's entry of a file.
 pub(super) struct Listed<'a> {

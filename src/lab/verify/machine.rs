@@ -3,14 +3,16 @@
 //! What a machine has of what files take: devices with their drivers, compilers with their versions. Rows of machines that have
 //! other ones are no single run.
 
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
 use super::compilers;
 use super::run::{Devices, ExecutionPath};
 use crate::generator::fit::Measured;
 use crate::language::targets::{Compiler, DXC, Stack, Target};
 use crate::physics::num::Precision;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
 
 /// Whether GitHub runs this, and reads annotations.
 pub fn is_github() -> bool {

@@ -3,13 +3,14 @@
 //!
 //! The worst inputs found so far, kept for ever: a line each, with how they were found.
 
+use serde::Deserialize;
+
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
 use crate::language::ir::Ty;
 use crate::language::methods::Method;
 use crate::physics::materials::Channels;
 use crate::physics::records;
-use serde::Deserialize;
 
 /// The seed of the random points.
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;

@@ -3,6 +3,9 @@
 //! The plan: which files are run, each with what its functions mean. Supervisor and workers make the same plan from the
 //! same flags, so that a number names a file.
 
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
 use crate::generator::emit::{Emitted, HeaderForm};
 use crate::generator::error::Error;
 use crate::generator::generate::kept;
@@ -13,8 +16,6 @@ use crate::lab::verify::shipped::{Folder, replace_with_today};
 use crate::language::methods;
 use crate::language::targets::{self, Target};
 use crate::physics::num::Precision;
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 /// What a request comes to, with the text that lies in a folder.
 ///

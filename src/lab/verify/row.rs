@@ -4,6 +4,11 @@
 //!
 //! Why nothing can be verified as it was asked for.
 
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::{Map, Value};
+use thiserror::Error;
+
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
 use super::harness::as_object;
@@ -13,10 +18,6 @@ use crate::generator::emit::FunctionForm;
 use crate::generator::fit::ModelError;
 use crate::physics::materials::FileFault;
 use crate::physics::num::Precision;
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use serde_json::{Map, Value};
-use thiserror::Error;
 
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";

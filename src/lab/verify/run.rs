@@ -14,6 +14,8 @@
 //! A function in half precision as it runs: at every f16 from 0 to 1 and every exponent beyond, against f64 and against f16
 //! rounded after every operation.
 
+use std::cell::OnceCell;
+
 use super::compilers::{self, HlslVersion, Verdict, hlsl_to_spirv, hlsl_to_spirv_in};
 use super::effect_trial::{EffectTrial, TEXELS};
 use super::file::FileTrial;
@@ -34,7 +36,6 @@ use crate::language::ir::{Param, Ty};
 use crate::language::methods::{Contract, Method};
 use crate::language::targets::{Stack, Target};
 use crate::physics::num::{Num, Precision};
-use std::cell::OnceCell;
 
 /// Why nothing was run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -9,6 +9,10 @@
 //! Which shard a run is: by `--shard`, or by what a scheduler says to each task. How many shards there are only the command line
 //! says: in an array that is run again in part, a scheduler counts the tasks of that part.
 
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
 use super::machine::MachineStatement;
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
@@ -17,8 +21,6 @@ use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::generator::error::RequestFault;
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::digest::sha256;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 
 /// A share of a verification: one of so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

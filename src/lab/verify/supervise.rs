@@ -2,6 +2,13 @@
 //!
 //! A worker: answers the numbers of files with their rows.
 
+use core::time::Duration;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
 use super::file::{VerifyEffort, file_rows};
 use super::judge::unfinished;
 use super::machine::MachineStatement;
@@ -10,11 +17,6 @@ use super::row::VerifyRow;
 use super::run::Devices;
 use super::shard::{Shard, ShardOutcome};
 use crate::lab::process::{Error, Inbox, Launch, Pool, Silence, Surroundings, Task};
-use core::time::Duration;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::io;
-use std::path::Path;
 
 /// The rows of a shard's files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
 ///

@@ -7,6 +7,8 @@
 //!
 //! Every f32 there is, all 2³² bit patterns, for functions specialised to materials, in WGSL: not a sample.
 
+use std::sync::Mutex;
+
 use super::code_error::CodeError;
 use super::harness;
 use super::judge::{PathRun, RanFunction};
@@ -24,7 +26,6 @@ use crate::lab::gpu::{Program, ShaderCode};
 use crate::lab::verify::run::ExecutionPath;
 use crate::language::ir::Value;
 use crate::language::targets::Stack;
-use std::sync::Mutex;
 
 /// How many bit patterns there are.
 const ALL: u64 = 1 << 32;

@@ -2,6 +2,8 @@
 //!
 //! The trials of a function: with a material's values, and with the worst inputs that are known.
 
+use serde::Serialize;
+
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 use super::half::nearest_half;
 use super::points::{limits, worst_cases, worst_cosines};
@@ -14,7 +16,6 @@ use crate::language::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluat
 use crate::language::methods::{Contract, Method};
 use crate::physics::materials::Channels;
 use crate::physics::num::{Num, Precision, VulkanTolerance, each_channel, ulp_distance};
-use serde::Serialize;
 
 /// A function to try, and what it promises.
 #[derive(Clone, Debug)]

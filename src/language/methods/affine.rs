@@ -6,6 +6,8 @@
 //!
 //! What is known of a surface that inputs are derived from.
 
+use std::sync::LazyLock;
+
 use super::input::{Input, Inputs};
 use super::method::{Build, Method, Values};
 use super::shape::Shape;
@@ -13,7 +15,6 @@ use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check_in, evaluate
 use crate::language::methods::formulas::BELCOUR_COSINES;
 use crate::physics::num::{Legendre, Precision, each_channel};
 use crate::physics::optics::{self, COS_82};
-use std::sync::LazyLock;
 
 /// The most numbers of a method here: the channels of a texture.
 pub const MOST_TERMS: usize = 4;

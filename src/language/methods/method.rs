@@ -10,6 +10,8 @@
 //! catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The figures stand in the
 //! methods' own files. The test `fits::classes_are_followed_as_promised` holds each in both directions.
 
+use std::collections::BTreeMap;
+
 use super::ALL;
 use super::affine::{Affine, FittedAverage};
 use super::half::InHalf;
@@ -21,7 +23,6 @@ use crate::language::ir::{
 };
 use crate::physics::cite::Citation;
 use crate::physics::num::{Num, Precision};
-use std::collections::BTreeMap;
 
 /// A formula for reflectance.
 #[derive(Debug)]

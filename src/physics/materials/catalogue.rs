@@ -2,10 +2,11 @@
 //!
 //! A user's file of any kind that is known: our own, a page of refractiveindex.info, a table.
 
+use include_dir::{Dir, include_dir};
+
 use super::Page;
 use super::material::Material;
 use crate::physics::spectra::FileFault;
-use include_dir::{Dir, include_dir};
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 

@@ -26,14 +26,16 @@
 //!
 //! A user's text: where a fault stands in it.
 
+use serde::Deserialize;
+use toml::Spanned;
+
 use super::decimal::short;
 use super::formula::{DispersionCurve, Formula, NUMBERS};
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
 use crate::physics::foreign::is_hidden;
 use crate::physics::names::{identifier_fault, nearest_names, offered};
+
 pub use crate::physics::spectra::FileFault;
-use serde::Deserialize;
-use toml::Spanned;
 
 type RawRow = Spanned<Vec<Spanned<f64>>>;
 type RawRows = Spanned<Vec<RawRow>>;

@@ -5,11 +5,13 @@
 //! It stands for what has no page: a coat of index 1.5, an oil whose label states n. It has no dispersion, so that colours differ
 //! slightly from those in a measured medium with the same index in green.
 
-use super::decimal::short;
-use super::formula::{DispersionCurve, Extrapolate, Formula};
 use core::fmt;
+
 use serde::Deserialize;
 use thiserror::Error;
+
+use super::decimal::short;
+use super::formula::{DispersionCurve, Extrapolate, Formula};
 
 /// The least n. Below it the exact forms lose their last digits in f32.
 pub const LEAST_N: f64 = 1e-3;

@@ -15,11 +15,10 @@ mod rows;
 mod surface;
 
 pub use crate::physics::foreign::{escaped, is_hidden};
+pub use crate::physics::spectra::FileFault;
 pub use catalogue::{find, list, names, page, source};
 pub use file::{FileText, name_fault};
 pub use formula::{DispersionCurve, Extrapolate, Formula};
 pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;
 pub use surface::{Channels, Surface, THESIS_NM, Unseen, ViewingConditions, surfaces_of};
-
-pub use crate::physics::spectra::FileFault;

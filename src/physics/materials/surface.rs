@@ -9,12 +9,13 @@
 //!
 //! Three channels of index: n and k for red, green and blue.
 
+use glam::DVec3;
+
 use super::formula::Extrapolate;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, Reflectance};
 use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
-use glam::DVec3;
 
 /// How materials are looked at.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,9 @@
 //! The modulus is scaled, so that it neither overflows nor loses small parts. The product is the plain one: |z| up to
 //! 1e150.
 
-use super::{Num, Truth};
 use std::ops::{Add, Mul, Sub};
+
+use super::{Num, Truth};
 
 /// re + i·im
 #[derive(Clone, Copy, Debug, PartialEq)]

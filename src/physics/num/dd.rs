@@ -8,8 +8,9 @@
 //! 25/8 u² (u² = 1.2e-32), where no low part underflows: magnitudes from about 1e-290 to 1e300.
 //! `exp2` and `log2` are series, measured below 1e-31 relative.
 
-use super::{Num, Truth};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Num, Truth};
 
 /// π; the error of the pair is 3e-33.
 const PI: Dd = Dd {

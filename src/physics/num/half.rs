@@ -10,8 +10,9 @@
 //! `+ - * /` and `sqrt` round correctly (IEEE 754). `exp2` and `log2` come from the `libm` crate, below 1 ulp,
 //! because the standard library's call the platform's C library and may differ from machine to machine.
 
-use super::{Num, Truth};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Num, Truth};
 
 /// A binary16 number: 11 significant bits, largest value 65504, smallest normal 2⁻¹⁴.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]

@@ -6,8 +6,9 @@
 //! infinite; they are never NaN. The method is that of R. E. Moore, *Interval Analysis*, Prentice-Hall, 1966; the
 //! exactness tests are those of double-double arithmetic (see `dd.rs`).
 
-use super::{Num, Truth};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Num, Truth};
 
 /// The relative widening of `exp2` and `log2`.
 const FUNCTION_WIDENING: f64 = 1e-15;

@@ -15,6 +15,9 @@ mod precision;
 pub mod statistics;
 mod vulkan_tolerance;
 
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 pub use complex::Complex;
 pub use dd::Dd;
 pub use decimal_comma::{POINT_NOT_COMMA, has_decimal_commas};
@@ -24,9 +27,6 @@ pub use legendre::Legendre;
 pub use parallel::in_parallel;
 pub use precision::{Precision, ulp_distance, ulp_of};
 pub use vulkan_tolerance::VulkanTolerance;
-
-use std::fmt::Debug;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The answer to a comparison. Intervals may overlap, and then it is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,14 +10,14 @@ mod coat;
 mod ggx;
 mod interface;
 
+use crate::physics::num::Num;
+
 pub use coat::{UnderCoat, under_coat};
 pub use ggx::Ggx;
 pub use interface::{
     EffectiveIndex, LARGEST_F0, brewster_cos, conductor, critical_cos, dielectric,
     index_from_f0_f82, normal_incidence,
 };
-
-use crate::physics::num::Num;
 
 /// The angle of the second colour of a metal, about 81.79 degrees: cos θ = 1/7 is where the correction of Schlick's
 /// approximation, cos θ (1 − cos θ)⁶, is largest (Hoffman 2019, <https://doi.org/10.2312/mam.20191305>).

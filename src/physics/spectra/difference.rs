@@ -27,13 +27,14 @@
 //!
 //! A third error: it is the fault of three channels, never added to the model error or to the code error.
 
-use super::illuminant::Illuminant;
-use super::integrator::{Integration, weighted_sum, xyz_weights};
-use super::space::bradford;
 use glam::DVec3;
 use palette::color_difference::Ciede2000;
 use palette::convert::FromColorUnclamped;
 use palette::white_point::E;
+
+use super::illuminant::Illuminant;
+use super::integrator::{Integration, weighted_sum, xyz_weights};
+use super::space::bradford;
 
 /// A colour in CIELAB.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,11 +23,12 @@
 //!
 //! The choices that make a colour of a spectrum.
 
+use glam::DVec3;
+
 use super::illuminant::Illuminant;
 use super::observer::Observer;
 use super::space::{Adaptation, Space};
 use super::wavelength::{FIRST_NM, LAST_NM, Step};
-use glam::DVec3;
 
 /// Wavelengths, and what reflectance at each adds to red, green and blue.
 #[derive(Clone, Debug, PartialEq)]

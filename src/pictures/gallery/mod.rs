@@ -23,14 +23,13 @@ use crate::physics::spectra::Space;
 use crate::pictures::scene::{
     self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
 };
+use packed::{SKY, textures_of};
 
 pub use lower::{GlesProgram, LoweredTexture, LoweringFault, lowered};
 pub use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
 pub use orbit::{AZIMUTHS, Orbit, eye_at};
-use packed::{SKY, textures_of};
-pub use passes::FunctionTexts;
-
 pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
+pub use passes::FunctionTexts;
 pub use passes::{GalleryPass, SHOW, ShowPrograms};
 pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, find, methods_of, rows};
 

@@ -4,14 +4,16 @@
 //!
 //! What puts the panels side by side on the page.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
 use super::lower::{GlesProgram, LoweringFault, lowered};
 use super::orbit::Orbit;
 use super::packed::SKY;
 use crate::generator::emit::{self, EffectRequest, Emitted, Naming, effect_function_text};
 use crate::language::{effects, methods, targets};
 use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
-use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// A pass.
 #[derive(Clone, Debug, Serialize)]

@@ -2,6 +2,10 @@
 //!
 //! The rows of the gallery: those of pictures, and a rough ball, whose truth no tracer of ours has.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
 use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::orbit::Orbit;
 use super::passes::{GalleryPass, passes_of};
@@ -14,8 +18,6 @@ use crate::physics::materials::MaterialKind;
 use crate::pictures::scene::{
     self, BodyName, FRAME, PassRow, Paths, Place, RenderRow, RowText, Slot, View,
 };
-use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// A row.
 #[derive(Clone, Debug, Serialize)]

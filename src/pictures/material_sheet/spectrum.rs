@@ -2,14 +2,16 @@
 //!
 //! Reflectance against angle, for red, green and blue.
 
+use glam::DVec3;
+
 use crate::physics::materials::{Extrapolate, Index, Material};
 use crate::physics::optics;
-pub use crate::physics::optics::cosine;
 use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
 use crate::pictures::plot::{
     BLUE, ChartAxis, GREEN, INK, LineChart, Look, Series, Style, VERMILION,
 };
-use glam::DVec3;
+
+pub use crate::physics::optics::cosine;
 
 /// Angles in degrees, from the flat ones to where metals are palest.
 const ANGLES: [(f64, &str, &str); 4] = [

@@ -2,6 +2,8 @@
 //!
 //! The wavelengths that a material sheet shows: the measured part of 360 to 830 nm, what an eye can see.
 
+use glam::DVec3;
+
 use crate::physics::materials::{DispersionCurve, Material};
 use crate::physics::spectra::{OBSERVED_NM, Space, bradford};
 use crate::pictures::material_sheet::DrawnMaterial;
@@ -9,7 +11,6 @@ use crate::pictures::material_sheet::spectrum::cosine;
 use crate::pictures::plot::{
     Area, ChartAxis, Font, Layout, PANEL, PanelFrame, SUBTITLE, TICK, hex_colour, ticks,
 };
-use glam::DVec3;
 
 /// Angles in degrees; metals and glass change most beyond 75.
 const ANGLES: [f64; 7] = [0.0, 30.0, 60.0, 75.0, 82.0, 86.0, 90.0];

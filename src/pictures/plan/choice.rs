@@ -10,12 +10,13 @@
 //! The errors of candidates in some pixels, the cheapest candidate first. What costs more than a candidate within the budget cannot be
 //! chosen, and no report says its error: then it is not judged, and its error is infinite.
 
+use core::cmp::Ordering;
+
 use super::curve::{Curve, PixelPlace, RoughRule, curves};
 use super::metric::{JudgedPixels, ScenePixel, Screen};
 use super::planned::{JudgedCandidate, JudgedMaterial};
 use super::row::is_shared;
 use crate::physics::num::in_parallel;
-use core::cmp::Ordering;
 
 /// A function of a material, within its budget.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,10 +15,11 @@
 //!
 //! What a frame shows, pixel by pixel, whoever drew it.
 
+use glam::{DMat3, DVec3};
+
 use super::curve::{Curve, PixelPlace};
 use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte};
 use crate::pictures::scene::Display;
-use glam::{DMat3, DVec3};
 
 /// A measure of what is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

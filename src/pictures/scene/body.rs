@@ -5,11 +5,12 @@
 //! Angles are near those that the trade calls ideal: table 57 % of the girdle, crown 34.5 degrees, pavilion 40.75 degrees (M. Tolkowsky,
 //! *Diamond Design*, Spon, 1919, <https://www.folds.net/diamond_design/>).
 
+use glam::{DVec2, DVec3, DVec4};
+
 use super::pool::Pool;
 use super::table::Slot;
 use super::texels::Texels;
 use super::window::Window;
-use glam::{DVec2, DVec3, DVec4};
 
 /// What a picture shows, around the origin.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,11 +4,12 @@
 //!
 //! The sky that pictures are taken under unless another is named: a sun, a horizon with coloured posts, a checkered ground.
 
+use glam::DVec3;
+use half::f16;
+
 use super::light_file::LightFile;
 use crate::physics::foreign::Foreign;
 use crate::physics::spectra::Space;
-use glam::DVec3;
-use half::f16;
 
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq)]

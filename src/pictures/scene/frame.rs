@@ -2,11 +2,12 @@
 //!
 //! Where a picture is taken from: rays for the tracer, a matrix for what draws.
 
+use glam::{DMat4, DVec3, DVec4};
+
 use super::glass::Glass;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN};
 use super::table::View;
 use super::text::INPUTS;
-use glam::{DMat4, DVec3, DVec4};
 
 /// Where the index begins in the block, in numbers; n, then k, four numbers each.
 pub const INDEX_AT: usize = 36;

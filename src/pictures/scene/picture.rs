@@ -4,6 +4,9 @@
 //!
 //! From radiance to what a screen shows: exposure, and a curve that keeps bright things apart.
 
+use glam::DVec3;
+use serde::Serialize;
+
 use super::SAMPLES;
 use super::caustics::{FOUR_PICTURES, Gathering, Window, caustic_error, caustics, exact_caustics};
 use super::draw::{DrawFault, Drawn, Scenery, draw};
@@ -16,8 +19,6 @@ use super::text::RowText;
 use super::trace::{Around, Things, Traced, trace};
 use crate::lab::gpu::Device;
 use crate::physics::spectra::{Lab, Space, ciede2000};
-use glam::DVec3;
-use serde::Serialize;
 
 /// What is to be drawn.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,9 @@
 //!
 //! A normal map: dents in a hammered surface, as texels that both the tracer and the device look up.
 
-use super::texels::Texels;
 use glam::{DVec2, DVec3};
+
+use super::texels::Texels;
 
 /// The room: two corners, and where its cube map is taken.
 pub const ROOM_MIN: DVec3 = DVec3::new(-3.5, -1.5, -4.0);

@@ -2,12 +2,13 @@
 //!
 //! A finding in words: how much of a region fails, where it is worst, and what comes there.
 
-use crate::lab::stability::{Failure, Finding, StabilityRow, short};
-use crate::pictures::html;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::Context;
+
+use crate::lab::stability::{Failure, Finding, StabilityRow, short};
+use crate::pictures::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 

@@ -1,13 +1,12 @@
 //! Our functions cost no more than published ones of the same error, by AMD's compilers; beside the cheapest published one on every
 //! family. Formulas are transcribed by us, in the shapes in which engines have them.
 
-use fresnel_gen::physics::optics;
-
 use super::audit;
 use super::published::place;
 use super::rows;
 use crate::bless;
 use crate::published_costs::{families, own, path, recorded};
+use fresnel_gen::physics::optics;
 
 /// A published function, a material, how many channels it has, and ours with no more error.
 const PAIRS: [(&str, &str, &str, usize, &str); 16] = [

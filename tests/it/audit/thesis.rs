@@ -1,13 +1,12 @@
 //! The formulas of the thesis, written by hand in each language, have the errors that our methods have.
 
-use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
-use fresnel_gen::generator::reference::MaterialInMedium;
-use fresnel_gen::language::methods;
-
 use super::audit;
 use super::rows;
 use crate::cli::Place;
 use crate::subjects;
+use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::methods;
 
 const LANGUAGES: [&str; 3] = ["wgsl", "glsl", "hlsl"];
 

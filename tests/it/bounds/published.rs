@@ -1,13 +1,12 @@
 //! Our stable forms beside the best that are published, at the same inputs: where an engine would change to ours it must
 //! not lose digits.
 
-use fresnel_gen::physics::num::ulp_distance;
-
 use super::Medium;
 use super::double;
 use super::exact;
 use super::unfused;
 use crate::subjects;
+use fresnel_gen::physics::num::ulp_distance;
 
 /// The angles that published figures are given for.
 const COSINES: [f32; 14] = [

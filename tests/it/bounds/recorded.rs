@@ -1,14 +1,13 @@
 //! What is recorded of digits: the bounds of specialised functions, and the worst inputs found so far.
 
-use fresnel_gen::language::methods::{self, Method};
-
-use fresnel_gen::physics::records;
 use serde::Deserialize;
 
 use super::Medium;
 use super::exact;
 use super::unfused;
 use super::worst;
+use fresnel_gen::language::methods::{self, Method};
+use fresnel_gen::physics::records;
 
 /// The most that a function specialised to a material of the catalogue may be off, in ulp.
 const SPECIALISED: f64 = 10.0;

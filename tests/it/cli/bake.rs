@@ -1,10 +1,9 @@
 //! `bake` on the command line: files, report, bad input.
 
-use fresnel_gen::language::targets::{self, Finish};
-
 use super::OUT;
 use super::Place;
 use super::contents;
+use fresnel_gen::language::targets::{self, Finish};
 
 #[test]
 fn files_and_report_agree() {

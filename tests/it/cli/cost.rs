@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::not_checked;
-
 use super::Place;
 use super::Ran;
+use crate::not_checked;
 
 const KEYS: [&str; 18] = [
     "method",

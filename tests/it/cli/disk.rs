@@ -4,15 +4,13 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
-use fresnel_gen::generator::output::{folder, lock};
-
-use crate::not_checked;
-
 use super::OUT;
 use super::PROGRAM;
 use super::Place;
 use super::Ran;
 use super::contents;
+use crate::not_checked;
+use fresnel_gen::generator::output::{folder, lock};
 
 #[test]
 fn a_file_in_the_place_of_a_folder() {

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::process::Command;
 
-use fresnel_gen::generator::exchange;
 use serde_json::Value;
 
 use super::Place;
 use super::Ran;
 use crate::not_checked;
+use fresnel_gen::generator::exchange;
 
 /// A coloured metal, a white one, two dielectrics, a semiconductor.
 const MATERIALS: [&str; 5] = ["gold", "silver", "water", "bk7", "silicon"];

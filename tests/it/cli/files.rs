@@ -6,15 +6,14 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-use fresnel_gen::generator::output::artifact::sha256;
-use fresnel_gen::generator::output::folder;
-use fresnel_gen::generator::output::lock::{self, Lock};
-use fresnel_gen::language::methods;
-
 use super::MY_METAL;
 use super::OUT;
 use super::Place;
 use super::contents;
+use fresnel_gen::generator::output::artifact::sha256;
+use fresnel_gen::generator::output::folder;
+use fresnel_gen::generator::output::lock::{self, Lock};
+use fresnel_gen::language::methods;
 
 /// Files that look like ours and are the user's: a shader with a pasted function, a copy, what `-o` wrote.
 #[test]

@@ -2,15 +2,15 @@
 
 use std::fs;
 
+use serde_json::{Value, json};
+
+use super::OUT;
+use super::Place;
 use fresnel_gen::generator::output::artifact::sha256;
 use fresnel_gen::generator::output::manifest::Entry;
 use fresnel_gen::generator::output::ours::{
     bears_mark, could_be_written, has_no_room_for_mark, is_as_written,
 };
-use serde_json::{Value, json};
-
-use super::OUT;
-use super::Place;
 
 const MINE: &str = "mine, by hand\n";
 

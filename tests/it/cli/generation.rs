@@ -2,14 +2,13 @@
 
 use std::fs;
 
-use fresnel_gen::generator::output::depfile::depfile;
-use fresnel_gen::language::{effects, methods, targets};
-
 use super::MY_METAL;
 use super::OUT;
 use super::PROGRAM;
 use super::Place;
 use super::contents;
+use fresnel_gen::generator::output::depfile::depfile;
+use fresnel_gen::language::{effects, methods, targets};
 
 #[test]
 fn an_empty_folder_is_filled_and_a_second_run_writes_nothing() {

@@ -3,10 +3,10 @@
 use std::process::Command;
 
 use clap::{CommandFactory, Parser};
-use fresnel_gen::cli::{Cli, completions};
 
 use super::OUT;
 use super::Place;
+use fresnel_gen::cli::{Cli, completions};
 
 /// Lines of a help that are commands, without redirections and without what is said of them.
 fn commands(help: &str) -> Vec<&str> {

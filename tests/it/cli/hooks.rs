@@ -5,13 +5,13 @@ use std::path::Path;
 use std::process::Command;
 
 use clap::Parser;
-use fresnel_gen::cli::Cli;
 use serde_json::Value;
 
 use super::OUT;
 use super::Place;
 use super::Ran;
 use super::pipelines::path_with_program;
+use fresnel_gen::cli::Cli;
 
 const FLAGS: &str = "--target wgsl --method schlick --material gold_thesis";
 

@@ -3,15 +3,14 @@
 
 use std::collections::BTreeSet;
 
-use fresnel_gen::generator::generate::generate;
-use fresnel_gen::generator::request::{Materials, Request, Source};
-use fresnel_gen::generator::{exchange, flavours};
-use fresnel_gen::language::targets;
-
 use super::MY_METAL;
 use super::OUT;
 use super::Place;
 use super::Ran;
+use fresnel_gen::generator::generate::generate;
+use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::{exchange, flavours};
+use fresnel_gen::language::targets;
 
 /// A material whose index is a formula.
 fn formula(class: &str, formula: &str) -> String {

@@ -4,13 +4,13 @@
 use std::path::Path;
 
 use clap::Parser;
-use fresnel_gen::cli::{Cli, run};
-use fresnel_gen::physics::foreign::is_hidden;
 use serde_json::{Value, json};
 
 use super::MY_METAL;
 use super::OUT;
 use super::Place;
+use fresnel_gen::cli::{Cli, run};
+use fresnel_gen::physics::foreign::is_hidden;
 
 /// Lines that begin with a word of ours, commands of GitHub and of Azure, colours, turned text, breaks of Unicode.
 const HOSTILE: &str = "x\nINJECTED\r\n::error::INJECTED\n ::warning::INJECTED\r##[error]INJECTED ##vso[x]\u{1b}[31m\u{9b}2J\u{7}\u{2028}INJECTED\u{202e}\u{85}INJECTED";

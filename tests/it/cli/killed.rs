@@ -5,11 +5,10 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use fresnel_gen::generator::output::{folder, lock, manifest};
-
 use super::OUT;
 use super::Place;
 use super::contents;
+use fresnel_gen::generator::output::{folder, lock, manifest};
 
 const KILLS: usize = 24;
 

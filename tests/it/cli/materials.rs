@@ -2,11 +2,10 @@
 
 use std::fs::File;
 
-use fresnel_gen::physics::materials;
-
 use super::MY_METAL;
 use super::OUT;
 use super::Place;
+use fresnel_gen::physics::materials;
 
 #[test]
 fn a_users_file_becomes_functions_named_after_it() {

@@ -1,11 +1,10 @@
 //! `--medium` as a number: one medium for all spellings of it, its names, and what is refused.
 
+use super::OUT;
+use super::Place;
 use fresnel_gen::physics::materials::{
     self, ConstantIndex, Extrapolate, Surface, ViewingConditions,
 };
-
-use super::OUT;
-use super::Place;
 
 #[test]
 fn one_number_is_one_medium() {

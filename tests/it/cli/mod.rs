@@ -43,11 +43,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use fresnel_gen::generator::output::artifact::sha256;
 use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::tree::{Snapshot, snapshot};
+use fresnel_gen::generator::output::artifact::sha256;
 
 /// The program.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_fresnel-gen");

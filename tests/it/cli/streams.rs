@@ -3,12 +3,11 @@
 use std::io::Read;
 use std::process::Stdio;
 
-use fresnel_gen::language::{methods, targets};
-use fresnel_gen::physics::materials;
-
 use super::MY_METAL;
 use super::Place;
 use super::Ran;
+use fresnel_gen::language::{methods, targets};
+use fresnel_gen::physics::materials;
 
 #[test]
 fn json_on_stdout_stands_there_alone() {

@@ -3,12 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::generator::generate::generate_single;
-use fresnel_gen::generator::request::{Materials, Request, Source};
-use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
-use fresnel_gen::language::targets::{self, Finish, Target, Validator};
-use fresnel_gen::physics::num::Precision;
-
 use super::Judgement;
 use super::accepted;
 use super::files;
@@ -17,6 +11,11 @@ use super::precision;
 use super::text;
 use super::tree;
 use crate::not_checked;
+use fresnel_gen::generator::generate::generate_single;
+use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
+use fresnel_gen::language::targets::{self, Finish, Target, Validator};
+use fresnel_gen::physics::num::Precision;
 
 /// The compilers that must be there where `CI` is set.
 const PROMISED: [&str; 4] = ["naga", "glslang", "spirv-val", "dxc"];

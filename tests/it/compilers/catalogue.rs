@@ -1,15 +1,14 @@
 //! The array of fitted coefficients beside the library functions that take them, in every language with text: rows by constants
 //! and by an index that is known at run time only.
 
+use super::Verdict;
+use super::accepted;
+use super::msl;
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::catalogue::add_catalogue;
 use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::verify::compilers::{is_here, verdict};
 use fresnel_gen::language::targets::{self, Finish};
-
-use super::Verdict;
-use super::accepted;
-use super::msl;
 
 /// A function that reads the array by constants and one that reads it by what only a run knows.
 fn users(target: &str) -> String {

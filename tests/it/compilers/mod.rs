@@ -11,6 +11,9 @@ use std::ffi::OsStr;
 use std::process::Command;
 use std::sync::{LazyLock, Mutex};
 
+use serde_json::json;
+
+use crate::not_checked;
 use fresnel_gen::generator::emit::Detail;
 use fresnel_gen::generator::lut::{self, TableAxis};
 use fresnel_gen::generator::output::artifact::Artifact;
@@ -20,9 +23,6 @@ use fresnel_gen::lab::verify::compilers::Verdict;
 use fresnel_gen::language::targets::Target;
 use fresnel_gen::language::{effects, methods, targets};
 use fresnel_gen::physics::num::Precision;
-use serde_json::json;
-
-use crate::not_checked;
 
 /// A program that only the tests call, and the Debian package that holds it.
 pub struct Tool {

@@ -2,12 +2,6 @@
 
 use std::fs;
 
-use fresnel_gen::generator::output::artifact::Artifact;
-use fresnel_gen::lab::verify::compilers::{
-    CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv,
-};
-use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
-use fresnel_gen::language::targets;
 use tempfile::TempDir;
 
 use super::Judgement;
@@ -16,6 +10,12 @@ use super::accepted;
 use super::text;
 use super::tree;
 use crate::not_checked;
+use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::lab::verify::compilers::{
+    CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv,
+};
+use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
+use fresnel_gen::language::targets;
 
 const GLSLANG: Tool = Tool {
     command: "glslangValidator",

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use fresnel_gen::generator::output::artifact::Artifact;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -11,6 +10,7 @@ use super::Judgement;
 use super::Tool;
 use super::accepted;
 use super::files;
+use fresnel_gen::generator::output::artifact::Artifact;
 
 const DISASSEMBLER: Tool = Tool {
     command: "spirv-dis",

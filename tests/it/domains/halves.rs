@@ -1,12 +1,11 @@
 //! Where half precision overflows: up to the ends that headers state it is as near as it promises, and beyond it is not.
 
+use super::library;
+use super::numeric;
 use fresnel_gen::lab::verify::nearest_half;
 use fresnel_gen::language::ir::{Ty, Value, evaluate};
 use fresnel_gen::language::methods::{Input, InputSource, Method};
 use fresnel_gen::physics::num::{Half, Num, Precision};
-
-use super::library;
-use super::numeric;
 
 /// What is promised is of media; at the ends of ranges results are within so many times that.
 const ROOM: f64 = 3.0;

@@ -4,14 +4,13 @@
 mod arithmetic;
 mod halves;
 
+use arithmetic::{FUSED_LEFT, FUSED_RIGHT, Fast, RECIPROCAL, UNFUSED};
 use fresnel_gen::generator::emit::{self, HeaderForm, Heading, Naming};
 use fresnel_gen::lab::verify::cosines;
 use fresnel_gen::language::ir::{Checked, Ty, Value, evaluate};
 use fresnel_gen::language::methods::{self, Colours, Contract, Input, Method, Range};
 use fresnel_gen::language::targets;
 use fresnel_gen::physics::num::{Num, Precision};
-
-use arithmetic::{FUSED_LEFT, FUSED_RIGHT, Fast, RECIPROCAL, UNFUSED};
 
 /// The seed of random colours.
 const SEED: u64 = 18;

@@ -2,6 +2,10 @@
 
 use std::sync::LazyLock;
 
+use super::at_once;
+use super::vector;
+use crate::reread::language::{Program, Term};
+use crate::samples;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::language::ir::{Texels, Value};
 use fresnel_gen::physics::materials::{Material, Surface, ViewingConditions};
@@ -9,11 +13,6 @@ use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::optics::{self, Reflectance};
 use fresnel_gen::{Materials, Request, generate_single};
-
-use super::at_once;
-use super::vector;
-use crate::reread::language::{Program, Term};
-use crate::samples;
 
 /// Two interfaces with all reflections between them, by summing them.
 fn composed(coat: f64, base: f64) -> f64 {

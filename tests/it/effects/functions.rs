@@ -2,9 +2,6 @@
 
 use std::f64::consts::PI;
 
-use fresnel_gen::language::ir::{CubeTexels, Filter, Texels, Value, evaluate};
-use fresnel_gen::physics::optics;
-
 use super::add;
 use super::at_once;
 use super::dot;
@@ -15,6 +12,8 @@ use super::numbers;
 use super::unit;
 use super::vector;
 use super::vectors;
+use fresnel_gen::language::ir::{CubeTexels, Filter, Texels, Value, evaluate};
+use fresnel_gen::physics::optics;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 

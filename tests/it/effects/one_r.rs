@@ -1,12 +1,11 @@
 //! One R for all channels: right for real media, wrong for invented ones.
 
-use fresnel_gen::language::ir::evaluate;
-
 use super::function;
 use super::numbers;
 use super::vector;
 use super::vectors;
 use crate::subjects;
+use fresnel_gen::language::ir::evaluate;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 

@@ -1,7 +1,5 @@
 //! A ball of radius 1 as a camera sees it: how well the search finds where rays leave it, and where they then go.
 
-use fresnel_gen::language::ir::{Filter, Texels, Value, evaluate};
-
 use super::add;
 use super::dot;
 use super::function;
@@ -10,6 +8,7 @@ use super::numbers;
 use super::unit;
 use super::vector;
 use super::vectors;
+use fresnel_gen::language::ir::{Filter, Texels, Value, evaluate};
 
 const SIZE: usize = 512;
 

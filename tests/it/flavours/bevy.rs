@@ -2,19 +2,18 @@
 
 use std::process::Command;
 
-use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 use naga::back::wgsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga_oil::compose::{
     ComposableModuleDescriptor, Composer, NagaModuleDescriptor, get_preprocessor_data,
 };
 
+use super::block;
+use super::host::shows_a_gold_sphere;
 use crate::catalogue::{evaluated, rows_named};
 use crate::cli::{OUT, PROGRAM, Place};
 use crate::gpu;
-
-use super::block;
-use super::host::shows_a_gold_sphere;
+use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 
 const MATERIALS: [&str; 4] = ["diamond", "gold", "silver", "water"];
 const POINTS: u32 = 512;

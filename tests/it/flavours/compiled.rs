@@ -5,11 +5,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::cli::{MY_METAL, OUT, Place};
-use crate::not_checked;
-
 use super::block;
 use super::written;
+use crate::cli::{MY_METAL, OUT, Place};
+use crate::not_checked;
 
 /// How a compiler takes a program that includes files of a flavour.
 struct Way {

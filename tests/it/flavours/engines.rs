@@ -3,6 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use serde_json::{Value, json};
+
+use super::host::Host;
+use super::host::number;
+use super::host::shows_a_gold_sphere;
+use crate::catalogue::{evaluated, rows_named};
 use fresnel_gen::generator::lut::{
     Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation,
 };
@@ -10,12 +16,6 @@ use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingConditions};
 use fresnel_gen::physics::optics;
-use serde_json::{Value, json};
-
-use super::host::Host;
-use super::host::number;
-use super::host::shows_a_gold_sphere;
-use crate::catalogue::{evaluated, rows_named};
 
 const PLAYCANVAS: Host = Host {
     flavour: "playcanvas",

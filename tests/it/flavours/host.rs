@@ -7,11 +7,10 @@ use std::process::Command;
 use image::RgbImage;
 use serde_json::Value;
 
+use super::block;
 use crate::browser::{self, CHROMIUM};
 use crate::cli::{OUT, PROGRAM, Place};
 use crate::not_checked;
-
-use super::block;
 
 /// A host in a browser.
 pub struct Host {

@@ -4,8 +4,6 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
-use fresnel_gen::lab::gpu::{Argument, Backend, Device, ShaderCode, Uniform};
-use fresnel_gen::lab::verify::cosines;
 use serde_json::Value;
 
 use crate::catalogue::{evaluated, rows_named};
@@ -13,6 +11,8 @@ use crate::cli::{OUT, Place, Ran};
 use crate::compilers::Tool;
 use crate::gpu;
 use crate::not_checked;
+use fresnel_gen::lab::gpu::{Argument, Backend, Device, ShaderCode, Uniform};
+use fresnel_gen::lab::verify::cosines;
 
 /// Where `tests/run` installs MaterialX.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/exchange");

@@ -19,11 +19,11 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use fresnel_gen::generator::flavours::{self, Flavour};
-use fresnel_gen::language::targets;
 use serde_json::Value;
 
 use crate::cli::{MY_METAL, OUT, Place};
+use fresnel_gen::generator::flavours::{self, Flavour};
+use fresnel_gen::language::targets;
 
 /// The first block of a language in a README.
 pub fn block(readme: &str, language: &str) -> String {

@@ -2,7 +2,6 @@
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use fresnel_gen::pictures::gallery::rows;
 use glam::DVec3;
 use serde_json::{Value, json};
 
@@ -10,6 +9,7 @@ use super::page;
 use super::pixels::Held;
 use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
+use fresnel_gen::pictures::gallery::rows;
 
 const HANDS: &str = include_str!("hands.js");
 

@@ -1,8 +1,7 @@
 //! The command `gallery`: its file, and what it does not overwrite.
 
-use crate::cli::Place;
-
 use super::page;
+use crate::cli::Place;
 
 /// The page's own limits: it is loaded over slow lines, too.
 #[test]

@@ -8,11 +8,10 @@ mod texts;
 
 use std::sync::OnceLock;
 
+use crate::cli::Place;
 use fresnel_gen::Materials;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Request, Source};
-
-use crate::cli::Place;
 
 /// The materials of the page that tests look at: those of the rows, and one more metal.
 const MATERIALS: [&str; 7] = [

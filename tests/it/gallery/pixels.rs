@@ -1,5 +1,9 @@
 //! What the pixels of the page are held against: the same row by this program's own device; a rough ball in f64; the exact map of caustics.
 
+use glam::DVec3;
+
+use super::subjects;
+use crate::not_checked;
 use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
@@ -7,10 +11,6 @@ use fresnel_gen::pictures::gallery::{CUBE, reduced_tables, unpacked_environment}
 use fresnel_gen::pictures::scene::{
     self, Around, Body, Camera, Environment, Glass, RenderRow, RowText, Scenery, Things, Window,
 };
-use glam::DVec3;
-
-use super::subjects;
-use crate::not_checked;
 
 /// Pixels a side of a panel in `hands.js`.
 const PANEL: usize = 50;

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::subjects;
 use fresnel_gen::generator::emit::validate_wgsl;
 use fresnel_gen::physics::spectra::Space;
 use fresnel_gen::pictures::gallery::{Gallery, find, gallery, methods_of};
 use fresnel_gen::pictures::scene::RowText;
-
-use super::subjects;
 
 fn made() -> Gallery {
     gallery(&subjects()[..1], Space::Srgb, &mut |_, _, _| {}).expect("it is made")

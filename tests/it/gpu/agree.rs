@@ -3,6 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use super::device;
+use super::gles;
+use super::program;
+use super::wgsl;
 use fresnel_gen::generator::emit::{self, Bounds, Naming};
 use fresnel_gen::generator::request;
 use fresnel_gen::generator::request::{Materials, Request};
@@ -11,11 +15,6 @@ use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, cosines};
 use fresnel_gen::language::ir::{Checked, Value, evaluate};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::ulp_distance;
-
-use super::device;
-use super::gles;
-use super::program;
-use super::wgsl;
 
 /// Twice what unfused f32 may be off: a device may fuse, and divide in two steps.
 const ULP: f64 = 16.0;

@@ -1,6 +1,8 @@
 //! The digits of the stable forms on a real graphics stack: the WGSL of the library, as shipped, over the media that `bounds`
 //! has.
 
+use crate::bounds::{Medium, absorbing, beside, glasses, worst};
+use crate::not_checked;
 use fresnel_gen::generator::emit::{self, Naming};
 use fresnel_gen::generator::fit::Measured;
 use fresnel_gen::lab::gpu::Wanted;
@@ -8,9 +10,6 @@ use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFun
 use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial, cosines};
 use fresnel_gen::language::methods;
 use fresnel_gen::language::targets;
-
-use crate::bounds::{Medium, absorbing, beside, glasses, worst};
-use crate::not_checked;
 
 #[track_caller]
 fn check(name: &str, media: &[Medium]) {

@@ -1,20 +1,18 @@
 //! The catalogue from a storage buffer and from a texture: the functions that `docs/shaders.md` shows, on real stacks with the
 //! committed files, against an evaluation on the CPU.
 
-use fresnel_gen::lab::gpu::{
-    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
-    TextureShape, Uniform, Wrap,
-};
-
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::json;
 
+use super::device;
 use crate::browser::{self, CHROMIUM};
 use crate::catalogue::{evaluated, rows_named};
 use crate::cli::Place;
-
-use super::device;
+use fresnel_gen::lab::gpu::{
+    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wrap,
+};
 
 const MATERIALS: [&str; 4] = ["gold", "silver", "water", "diamond"];
 const POINTS: u32 = 512;

@@ -2,6 +2,7 @@
 //! as no function is meant for. A rule that fails says that a target's text, or what a stack makes of it, breaks a
 //! promise that each file's reader relies on.
 
+use crate::not_checked;
 use fresnel_gen::generator::emit::{self, Bounds, Emitted, Naming};
 use fresnel_gen::generator::fit::{self, Measured};
 use fresnel_gen::generator::reference::MaterialInMedium;
@@ -13,8 +14,6 @@ use fresnel_gen::language::ir::Ty;
 use fresnel_gen::language::methods::{self, Contract, Method, find_input};
 use fresnel_gen::language::targets::{self, Finish};
 use fresnel_gen::physics::optics;
-
-use crate::not_checked;
 
 /// The cosines: within the domain, and beyond it on both sides.
 const COSINES: [f32; 16] = [

@@ -1,14 +1,13 @@
 //! What cannot run says why, in the words of what refused it.
 
-use fresnel_gen::lab::gpu::{
-    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFilter, TextureFormat,
-    TextureShape, Uniform, Wanted, Wrap, adapters,
-};
-
 use super::device;
 use super::gles;
 use super::program;
 use super::wgsl;
+use fresnel_gen::lab::gpu::{
+    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wanted, Wrap, adapters,
+};
 
 /// The log of a refusal, or nothing where there is no device.
 #[track_caller]

@@ -10,9 +10,8 @@ mod stream;
 mod table;
 mod texture;
 
-use fresnel_gen::lab::gpu::{Backend, Device, DeviceFault, Program, ShaderCode, Uniform, Wanted};
-
 use super::not_checked;
+use fresnel_gen::lab::gpu::{Backend, Device, DeviceFault, Program, ShaderCode, Uniform, Wanted};
 
 /// A device with this interface, or a word that there is none.
 #[track_caller]

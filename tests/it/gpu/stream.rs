@@ -1,9 +1,8 @@
 //! A stream gives each number of a range once, in order.
 
-use fresnel_gen::lab::gpu::{Backend, ShaderCode};
-
 use super::device;
 use super::program;
+use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 
 const IDENTITY: &str = "
 @group(0) @binding(1) var<uniform> first: u32;

@@ -1,6 +1,7 @@
 //! Tables as GPUs sample them: the lookup that is generated, on real stacks, against the filter that errors of tables
 //! are computed with; and the usual mistakes, made on purpose, are each seen.
 
+use super::device;
 use fresnel_gen::generator::bake::TableMaterial;
 use fresnel_gen::generator::emit::{self, Emitted, Naming};
 use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
@@ -14,8 +15,6 @@ use fresnel_gen::lab::verify::{cosines, harness};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::materials::ViewingConditions;
-
-use super::device;
 
 /// What a sampler may differ by from the model.
 const CLOSE: f32 = 1.0 / 4096.0;

@@ -1,11 +1,10 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
+use super::device;
 use fresnel_gen::lab::gpu::{
     Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
     Wrap,
 };
-
-use super::device;
 
 const TEXELS: usize = 8;
 

@@ -1,13 +1,12 @@
 //! What every method that keeps the contract promises, with the inputs of every material of the catalogue that it describes: a
 //! reflectance, and where its form has that, all light at 90 degrees.
 
-use fresnel_gen::generator::fit::values_for_material;
-use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods::{self, Contract, Method};
-
 use super::cosines;
 use super::function;
 use crate::fits::catalogue;
+use fresnel_gen::generator::fit::values_for_material;
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods::{self, Contract, Method};
 
 /// The methods whose form does not end at 1. The others do, to two ulp.
 const ENDS_ELSEWHERE: [&str; 8] = [

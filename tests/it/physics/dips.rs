@@ -3,13 +3,13 @@
 //! Near normal incidence the terms of R_s and R_p in θ² cancel, and that of their mean in θ⁴ has the sign of `4 η - 1 - η²`. So F of a
 //! dielectric falls first where η is above 2 + √3 = 3.732, or below 2 - √3, which is the same surface from within.
 
-use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::physics::optics;
 use proptest::prelude::*;
 
 use super::function;
 use super::random::config;
 use crate::stated::{check_stated, stated};
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::physics::optics;
 
 /// By how much the exact law of a dielectric falls below F0; 0 where it does not.
 fn dip(eta: f64) -> f64 {

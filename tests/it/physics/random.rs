@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use fresnel_gen::language::ir::Checked;
-use fresnel_gen::language::methods::{self, Contract, Input, Method};
-use fresnel_gen::physics::num::ulp_distance;
-use fresnel_gen::physics::optics;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 use super::EXACT;
 use super::run;
 use super::run_in;
+use fresnel_gen::language::ir::Checked;
+use fresnel_gen::language::methods::{self, Contract, Input, Method};
+use fresnel_gen::physics::num::ulp_distance;
+use fresnel_gen::physics::optics;
 
 /// Every library function, built once.
 static FUNCTIONS: LazyLock<BTreeMap<&str, Checked>> = LazyLock::new(|| {

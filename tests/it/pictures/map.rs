@@ -2,15 +2,6 @@
 
 use std::fs;
 
-use fresnel_gen::generator::fit::values;
-use fresnel_gen::generator::reference::Derivation;
-use fresnel_gen::lab::stability::{Cell, Map, ScanAxis, maps};
-use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods::{self, Class, Contract, Light, Method};
-use fresnel_gen::physics::materials::Channels;
-use fresnel_gen::physics::num::Precision;
-use fresnel_gen::pictures::png::png;
-use fresnel_gen::pictures::stability_map::heat_map;
 use roxmltree::Document;
 use tempfile::TempDir;
 
@@ -25,6 +16,15 @@ use super::reader::beside;
 use super::reader::upwards;
 use super::reader::words;
 use crate::cli::Place;
+use fresnel_gen::generator::fit::values;
+use fresnel_gen::generator::reference::Derivation;
+use fresnel_gen::lab::stability::{Cell, Map, ScanAxis, maps};
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods::{self, Class, Contract, Light, Method};
+use fresnel_gen::physics::materials::Channels;
+use fresnel_gen::physics::num::Precision;
+use fresnel_gen::pictures::png::png;
+use fresnel_gen::pictures::stability_map::heat_map;
 
 pub static FACTS: &[Fact] = &[
     Fact {

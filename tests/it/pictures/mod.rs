@@ -18,6 +18,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Command, CommandFactory};
+
 use fresnel_gen::cli::Cli;
 
 /// What a picture must show.

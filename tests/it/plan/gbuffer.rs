@@ -6,6 +6,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes,
     IntegerBounds, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
 };
+
 use fresnel_gen::pictures::plan::{
     FramePixels, GbufferFault, MaterialIds, ScenePixel, read_gbuffer,
 };

@@ -1,10 +1,11 @@
 //! glTF: what is read of it, and what is refused with its place.
 
+use serde_json::{Value, json};
+
 use fresnel_gen::lab::raster::{CUBE, Mesh, SPHERE};
 use fresnel_gen::pictures::plan::{
     GltfFault, GltfScene, GltfView, SceneFile, SceneLight, constant_index,
 };
-use serde_json::{Value, json};
 
 pub const VIEW: GltfView = GltfView {
     size: [64, 48],

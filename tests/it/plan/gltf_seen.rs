@@ -1,7 +1,5 @@
 //! glTF: what changes what a camera sees beside triangles: sides, clip planes, vertex colours, and what is not read and said.
 
-use fresnel_gen::lab::raster::{CUBE, Mesh, SPHERE};
-use fresnel_gen::pictures::plan::GltfScene;
 use serde_json::{Value, json};
 
 use super::gltf::VIEW;
@@ -9,6 +7,8 @@ use super::gltf::file;
 use super::gltf::glb;
 use super::gltf::no_file;
 use super::gltf::read_with;
+use fresnel_gen::lab::raster::{CUBE, Mesh, SPHERE};
+use fresnel_gen::pictures::plan::GltfScene;
 
 /// Pixels of the first material in the first frame.
 fn seen(json: &Value, buffer: &[u8]) -> usize {

@@ -4,6 +4,7 @@ use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     Encoding, Image, Layer, LayerAttributes, SpecificChannels, Vec2, WritableImage,
 };
+
 use fresnel_gen::physics::spectra::Space;
 use fresnel_gen::pictures::plan::check_primaries;
 use fresnel_gen::pictures::scene::Environment;

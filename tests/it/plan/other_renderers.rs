@@ -10,14 +10,14 @@ use std::path::PathBuf;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use exr::prelude::read_all_flat_layers_from_file;
-use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
-use fresnel_gen::pictures::plan::{FramePixels, MaterialIds, ScenePixel, read_gbuffer};
 use glam::DVec3;
 use serde_json::{Value, json};
 
 use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
 use crate::{bless, not_checked, subjects};
+use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::pictures::plan::{FramePixels, MaterialIds, ScenePixel, read_gbuffer};
 
 /// The version of three.js that drew the committed files.
 const THREE: &str = "0.187.0";

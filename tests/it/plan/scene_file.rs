@@ -1,8 +1,9 @@
 //! Scene files: what is read, what is drawn, and what is refused with its place.
 
+use glam::DVec3;
+
 use fresnel_gen::lab::raster::CUBE;
 use fresnel_gen::pictures::plan::{MappedMaterial, SceneFile};
-use glam::DVec3;
 
 const GOOD: &str = "size = [64, 48]
 [camera]

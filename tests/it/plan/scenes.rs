@@ -4,6 +4,9 @@
 use std::fs;
 use std::path::Path;
 
+use glam::DVec3;
+
+use crate::subjects;
 use fresnel_gen::generator::fit;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::language::ir::{Value, evaluate};
@@ -11,9 +14,6 @@ use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::in_parallel;
 use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
 use fresnel_gen::pictures::plan::{FramePixels, SceneFile, ScenePixel};
-use glam::DVec3;
-
-use crate::subjects;
 
 /// Cosines at which the reference is computed; linear between them it is right to 1e-6.
 const STEPS: usize = 8192;

@@ -1,5 +1,9 @@
 //! Errors over the angles that pictures show.
 
+use glam::DVec3;
+
+use super::few_cameras;
+use crate::stated::{check_stated, short, stated};
 use fresnel_gen::generator::fit;
 use fresnel_gen::generator::reference::{Derivation, ReferenceCurve};
 use fresnel_gen::lab::raster::{
@@ -8,11 +12,6 @@ use fresnel_gen::lab::raster::{
 };
 use fresnel_gen::language::methods::{self, Light};
 use fresnel_gen::physics::materials::{self, Channels, Surface, THESIS_NM};
-
-use glam::DVec3;
-
-use super::few_cameras;
-use crate::stated::{check_stated, short, stated};
 
 fn channels(material: &str) -> Channels {
     let material = materials::find(material).unwrap().unwrap();

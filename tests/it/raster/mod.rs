@@ -4,11 +4,12 @@ mod errors;
 pub mod obj;
 mod surface_points;
 
+use glam::DVec3;
+
 use fresnel_gen::lab::raster::{
     Body, CUBE, Camera, CosineHistogram, Frame, Lens, Mesh, RELIEF, SPHERE, Turntable, Vertex,
     draw, shown,
 };
-use glam::DVec3;
 
 const ORIGIN: DVec3 = DVec3::ZERO;
 

@@ -1,8 +1,7 @@
 //! Meshes of others: what is read, and what is refused with its line.
 
-use fresnel_gen::lab::raster::{CUBE, MOST_TRIANGLES, Mesh, SPHERE, draw, mesh_of_obj};
-
 use super::camera;
+use fresnel_gen::lab::raster::{CUBE, MOST_TRIANGLES, Mesh, SPHERE, draw, mesh_of_obj};
 
 /// A mesh as OBJ.
 pub fn obj(mesh: &Mesh, with_normals: bool) -> String {

@@ -1,10 +1,10 @@
 //! What pixels show of a surface: normals, directions, and the camera that stands for an orthographic one.
 
-use fresnel_gen::lab::raster::{CUBE, Camera, RELIEF, SPHERE, draw, rotated, surface_points};
 use glam::DVec3;
 
 use super::camera;
 use super::few_cameras;
+use fresnel_gen::lab::raster::{CUBE, Camera, RELIEF, SPHERE, draw, rotated, surface_points};
 
 /// A camera with parallel rays that looks at the origin.
 fn orthographic(eye: DVec3, height: f64, size: [u32; 2]) -> Camera {

@@ -1,10 +1,9 @@
 //! Light that a ball gathers, against the exact map of rings.
 
+use super::device;
 use fresnel_gen::pictures::scene::{
     Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
 };
-
-use super::device;
 
 const N: f64 = 1.5;
 

@@ -1,7 +1,5 @@
 //! Transparent bodies.
 
-use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{self, Camera, Glass, Paths};
 use glam::DVec3;
 
 use super::around;
@@ -12,6 +10,8 @@ use super::pictured_in;
 use super::plain;
 use super::row;
 use super::traced;
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{self, Camera, Glass, Paths};
 
 const N: f64 = 1.5;
 

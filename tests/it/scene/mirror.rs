@@ -1,16 +1,16 @@
 //! Metals: a room seen in a ball, and dents.
 
-use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::pictures::scene::{
-    self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance,
-    sky,
-};
 use glam::DVec3;
 
 use super::at;
 use super::device;
 use super::one_surface::glass_of;
 use super::pictured;
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::pictures::scene::{
+    self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance,
+    sky,
+};
 
 /// The share of pixels whose channels all differ by less than 3 hundredths from the truth.
 fn share_alike(picture: &Picture) -> f64 {

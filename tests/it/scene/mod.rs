@@ -9,14 +9,14 @@ mod recorded;
 mod water;
 mod window;
 
+use glam::DVec3;
+
+use super::not_checked;
 use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
 use fresnel_gen::pictures::scene::{
     self, Around, Camera, Display, Environment, Glass, Order, Paths, Picture, RenderRow,
     TONE_CURVES, Things,
 };
-use glam::DVec3;
-
-use super::not_checked;
 
 /// The device at hand, or a word that there is none.
 #[track_caller]

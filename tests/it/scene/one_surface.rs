@@ -1,8 +1,5 @@
 //! What one look-up shows, and metals.
 
-use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Glass, Paths};
 use glam::DVec3;
 
 use super::around;
@@ -11,6 +8,9 @@ use super::device;
 use super::pictured;
 use super::row;
 use super::traced;
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{Glass, Paths};
 
 pub fn glass_of(material: &str) -> Glass {
     let material = materials::find(material).unwrap().unwrap();

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::physics::records::rows;
-use fresnel_gen::pictures::scene::{self, Glass, RenderRow, sky};
-
 use super::device;
 use super::pictured;
 use crate::{bless, records};
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::physics::records::rows;
+use fresnel_gen::pictures::scene::{self, Glass, RenderRow, sky};
 
 const SIZE: u32 = 128;
 const HEAD: [&str; 12] = [

@@ -1,8 +1,5 @@
 //! Water: nothing leaks through its surface, and it reflects and refracts as physics says.
 
-use fresnel_gen::lab::gpu::Device;
-use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Camera, Environment, Glass, PassRow, RenderRow, View};
 use glam::DVec3;
 
 use super::around;
@@ -11,6 +8,9 @@ use super::device;
 use super::pictured;
 use super::pictured_row;
 use super::row;
+use fresnel_gen::lab::gpu::Device;
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{Camera, Environment, Glass, PassRow, RenderRow, View};
 
 const N: f64 = 1.333;
 const SIZE: u32 = 128;

@@ -1,13 +1,13 @@
 //! Stained glass: what it lets through.
 
-use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Body, Camera, Glass, Picture};
 use glam::{DVec2, DVec3};
 
 use super::around;
 use super::device;
 use super::pictured;
 use super::row;
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{Body, Camera, Glass, Picture};
 
 const N: f64 = 1.525;
 const SIZE: u32 = 128;

@@ -3,10 +3,10 @@
 use std::fs;
 use std::process::Command;
 
-use fresnel_gen::generator::output::depfile::depfile;
 use tempfile::TempDir;
 
 use crate::compilers::Tool;
+use fresnel_gen::generator::output::depfile::depfile;
 
 /// A path with each sign that the depfile lets pass, as an output and as an input, read by both programs.
 #[test]

@@ -3,13 +3,13 @@
 use std::fs;
 use std::process::{Command, Stdio};
 
+use tempfile::TempDir;
+
+use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::output::artifact::Scope;
 use fresnel_gen::generator::output::manifest::FILE;
 use fresnel_gen::generator::output::tree::plan;
-use tempfile::TempDir;
-
-use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
 
 #[test]
 fn a_manifest_that_is_not_ours_stops_the_run() {

@@ -6,9 +6,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use fresnel_gen::generator::output::manifest::Manifest;
-use fresnel_gen::generator::output::tree::plan;
-use fresnel_gen::generator::output::{folder, lock, manifest, ours};
 use tempfile::TempDir;
 
 use super::Snapshot;
@@ -16,6 +13,9 @@ use super::big_tree;
 use super::provenance;
 use super::snapshot;
 use super::write;
+use fresnel_gen::generator::output::manifest::Manifest;
+use fresnel_gen::generator::output::tree::plan;
+use fresnel_gen::generator::output::{folder, lock, manifest, ours};
 
 #[cfg(unix)]
 #[test]

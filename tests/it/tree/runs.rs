@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use tempfile::TempDir;
+
+use super::{artifact, provenance, put, run, silver, snapshot, whole, write};
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::output::artifact::{Scope, sha256};
 use fresnel_gen::generator::output::lock::Lock;
 use fresnel_gen::generator::output::manifest::FILE;
 use fresnel_gen::generator::output::tree::{State, TreePlan, plan, report};
 use fresnel_gen::generator::output::write as writer;
-use tempfile::TempDir;
-
-use super::{artifact, provenance, put, run, silver, snapshot, whole, write};
 
 #[test]
 fn a_second_run_writes_nothing() {

@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::Path;
 
-use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::depfile::depfile;
-use fresnel_gen::generator::output::write::write_file;
 use tempfile::TempDir;
 
 use super::put;
 use super::snapshot;
+use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::depfile::depfile;
+use fresnel_gen::generator::output::write::write_file;
 
 #[test]
 fn a_single_file_is_written_if_it_differs() {

@@ -1,10 +1,10 @@
 //! Half precision as it runs: within its bound of f64, and how far from the emulation that rounds after every operation.
 
-use fresnel_gen::lab::verify::{halves, halves_beyond};
 use serde_json::Value;
 
 use super::command::verify;
 use crate::cli::Place;
+use fresnel_gen::lab::verify::{halves, halves_beyond};
 
 /// How far a device may be from the emulation: it may fuse, divide in two steps, and take numbers below the smallest
 /// normal one for 0.

@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use clap::Parser;
-use fresnel_gen::cli::{Cli, Command as Subcommand};
 use serde_json::Value;
 
 use crate::cli::pipelines::path_with_program;
 use crate::cli::{Place, Ran};
 use crate::not_checked;
+use fresnel_gen::cli::{Cli, Command as Subcommand};
 
 fn path(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

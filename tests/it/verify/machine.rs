@@ -2,11 +2,10 @@
 
 use std::process::Command;
 
-use crate::cli::{PROGRAM, Place, Ran};
-use crate::not_checked;
-
 use super::command::rows;
 use super::tools::put_compiler;
+use crate::cli::{PROGRAM, Place, Ran};
+use crate::not_checked;
 
 /// Runs the program with these variables.
 fn run(place: &Place, line: &str, variables: &[(&str, &str)]) -> Ran {

@@ -1,6 +1,8 @@
 //! Mutants: functions with one thing wrong, written in every language and run. All must be caught, on every target; one
 //! that cannot be is named below, with the reason.
 
+use super::subjects;
+use crate::not_checked;
 use fresnel_gen::generator::emit::{self, Emitted, Naming};
 use fresnel_gen::generator::fit::{self, Measured, values_for_material};
 use fresnel_gen::generator::reference::MaterialInMedium;
@@ -10,9 +12,6 @@ use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
 use fresnel_gen::language::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
 use fresnel_gen::language::targets;
-
-use super::subjects;
-use crate::not_checked;
 
 const TARGETS: [&str; 4] = ["wgsl", "spirv", "gles", "hlsl"];
 const POINTS: usize = 2000;

@@ -6,9 +6,8 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::cli::{Place, Ran};
-
 use super::tools::put_compiler;
+use crate::cli::{Place, Ran};
 
 /// A compiler that does not end, as a process with a process of its own.
 const HANGS: &str = "echo $$ >> PIDS; sleep 300 & echo $! >> PIDS; wait";

@@ -2,6 +2,8 @@
 
 use std::process::Command;
 
+use super::subjects;
+use crate::exhaustive::{Line, lines};
 use fresnel_gen::generator::emit::{
     Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function,
 };
@@ -10,9 +12,6 @@ use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::DEFAULT_MATERIALS as MATERIALS;
 use fresnel_gen::language::ir::Op;
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
-
-use super::subjects;
-use crate::exhaustive::{Line, lines};
 
 fn emitted(method: &'static Method, subject: &MaterialInMedium) -> Emitted {
     specialised_function(method, subject, &Naming::default(), &Bounds::recorded()).unwrap()

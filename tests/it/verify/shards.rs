@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fresnel_gen::lab::verify::merge::{merged, parsed};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use serde_json::{Value, json};
 
 use crate::cli::{OUT, Place, Ran};
+use fresnel_gen::lab::verify::merge::{merged, parsed};
 
 /// Variables in which schedulers number tasks, and one that counts them, which nobody may believe.
 const VARIABLES: [&str; 3] = [

@@ -1,9 +1,8 @@
 //! A report says what share of all numbers was tried.
 
-use crate::cli::Place;
-
 use super::command::rows;
 use super::command::verify;
+use crate::cli::Place;
 
 #[test]
 fn how_many_numbers_were_tried_is_told_as_a_share_of_all() {

@@ -7,6 +7,8 @@
 //! <https://registry.khronos.org/OpenGL/specs/gl/glspec46.core.pdf>), and so does WGSL (W3C, *WebGPU Shading Language*, section 14.4.1,
 //! 2024, <https://www.w3.org/TR/WGSL/#alignment-and-size>).
 
+use serde::Serialize;
+
 use super::{CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
 use crate::generator::emit::comment;
 use crate::generator::emit::detail::{CatalogueDetail, Detail};
@@ -17,7 +19,6 @@ use crate::generator::emit::header::{OUTPUT_LICENCE, formula, source, start};
 use crate::generator::emit::page::{comments, finished, guard};
 use crate::generator::fit::rounded_up;
 use crate::language::targets::{self, Target};
-use serde::Serialize;
 
 /// The constant that says where the methods change.
 const DIELECTRICS: &str = "first_dielectric";

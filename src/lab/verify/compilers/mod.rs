@@ -10,7 +10,6 @@ use crate::generator::emit::{NAGA_VERSION, validate_wgsl};
 use crate::generator::fit::Measured;
 use crate::language::targets::{Compiler, DXC, Target, Validator};
 use crate::physics::num::Precision;
-
 use call::{Called, CompilerInput};
 
 pub use program::calls;

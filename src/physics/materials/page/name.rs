@@ -1,9 +1,9 @@
 //! The names that a page's path gives: of the page in its database, and of the material.
 
+use deunicode::deunicode_char;
+
 use super::Page;
 use crate::physics::materials::name_fault;
-
-use deunicode::deunicode_char;
 
 /// The folders that the database's data begins with.
 const SHELVES: [&str; 5] = ["main", "organic", "glass", "other", "specs"];

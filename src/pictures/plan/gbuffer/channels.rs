@@ -2,13 +2,15 @@
 //!
 //! The space of a G-buffer's light, where its file states one.
 
-use super::GbufferFault;
-use crate::physics::names::{nearest_names, offered};
-use crate::physics::spectra::Space;
+use std::io::Cursor;
+
 use exr::meta::MetaData;
 use exr::meta::header::Header;
 use exr::prelude::Vec2;
-use std::io::Cursor;
+
+use super::GbufferFault;
+use crate::physics::names::{nearest_names, offered};
+use crate::physics::spectra::Space;
 
 /// A channel.
 pub struct GbufferChannel {

@@ -1,9 +1,9 @@
 //! What is wrong with a G-buffer, and where.
 
-use crate::physics::foreign::{Foreign, one_line};
 use thiserror::Error;
 
 use super::GREATEST_SIDE;
+use crate::physics::foreign::{Foreign, one_line};
 
 /// Why a file is no G-buffer. The file's name is the caller's to put before it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]

@@ -18,7 +18,6 @@ mod samples;
 
 use super::ids::{MaterialIds, Shown};
 use super::{FramePixels, ScenePixel};
-
 use channels::{COS_THETA, COVERAGE, LIGHT, MATERIAL_ID, OTHER, Places, ROUGHNESS};
 use samples::Planes;
 

@@ -2,10 +2,11 @@
 //!
 //! What is wrong with a glTF file, and where in its JSON.
 
-use crate::physics::foreign::{Foreign, one_line};
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+
+use crate::physics::foreign::{Foreign, one_line};
 
 const MAGIC: &[u8] = b"glTF";
 const JSON: &[u8] = b"JSON";

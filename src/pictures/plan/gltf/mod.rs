@@ -29,12 +29,13 @@ use crate::lab::raster::{Camera, Mesh};
 use crate::physics::foreign::Foreign;
 use crate::physics::spectra::without_mark;
 use accessor::Buffers;
-pub use container::GltfFault;
 use container::{Container, Place};
 use materials::Looks;
-pub use materials::{Unplanned, constant_index};
 use nodes::cameras;
 use primitives::Tints;
+
+pub use container::GltfFault;
+pub use materials::{Unplanned, constant_index};
 
 /// How a glTF scene is seen.
 #[derive(Clone, Debug)]

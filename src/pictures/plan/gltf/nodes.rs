@@ -4,12 +4,13 @@
 //!
 //! The cameras of a file, or those that turn about its middle.
 
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+use gltf_json::{Material, Node, Root, camera};
+
 use super::super::scene_file::MOST_FRAMES;
 use super::container::Place;
 use crate::lab::raster::{Camera, Lens, Mesh, rotated};
 use crate::physics::foreign::Foreign;
-use glam::{DAffine3, DMat4, DQuat, DVec3};
-use gltf_json::{Material, Node, Root, camera};
 
 /// A node where it is.
 pub struct PlacedNode<'a> {

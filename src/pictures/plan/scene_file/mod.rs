@@ -39,9 +39,10 @@ use crate::lab::raster::Camera;
 use crate::physics::materials::{FileFault, FileText};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::Display;
-pub use assets::ReadFile;
 use check::Checked;
 use raw::RawScene;
+
+pub use assets::ReadFile;
 
 /// A scene has at most so many frames.
 pub const MOST_FRAMES: usize = 720;

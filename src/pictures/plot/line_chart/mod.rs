@@ -6,7 +6,6 @@ use crate::pictures::plot::axes::{ALONE, Layout, PanelFrame, Scale, Tick};
 use crate::pictures::plot::palette::Style;
 use crate::pictures::plot::text::{FOOT, Font, PANEL, SUBTITLE, TITLE};
 use crate::pictures::plot::ticks::{decimals, label, ticks};
-
 use drawing::Plot;
 
 /// A line chart: the curves, and the words that say what they are.

@@ -3,12 +3,13 @@
 //!
 //! Waves: a sum of sines. Their height is the surface of the truth, their slopes are the normal map of what is drawn.
 
+use glam::{DVec2, DVec3};
+
 use super::solids::{Hit, hit};
 use super::{BASIN_MAX, BASIN_MIN, Pool};
 use crate::physics::optics;
 use crate::pictures::scene::glass::Glass;
 use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
-use glam::{DVec2, DVec3};
 
 /// Places along a ray between the highest crest and the lowest trough that are tried, and steps of the search between two of them.
 const TRIES: usize = 12;
