@@ -10,39 +10,30 @@
 //! A `build.rs` that writes gold from the catalogue and a material of its own as WGSL:
 //!
 //! ```no_run
-//! use std::path::Path;
-//!
-//! use fresnel_gen::{Materials, Request, Source, generate, write_file};
+//! use fresnel_gen::{Method, Request, Space, Target, generate};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
-//!     let file = "materials/brass.toml";
-//!     println!("cargo::rerun-if-changed={file}");
-//!     let request = Request {
-//!         targets: vec!["wgsl".into()],
-//!         methods: vec!["conductor_exact".into()],
-//!         materials: Materials::These(vec![
-//!             Source::Named("gold".into()),
-//!             Source::File {
-//!                 file: file.into(),
-//!                 text: std::fs::read_to_string(file)?,
-//!             },
-//!         ]),
-//!         ..Request::default()
-//!     };
-//!     let out_dir = std::env::var("OUT_DIR")?;
-//!     for artifact in generate(&request)?.artifacts {
-//!         // For example OUT_DIR/wgsl/materials/gold.wgsl. A file that is right already is left alone.
-//!         write_file(&Path::new(&out_dir).join(&artifact.path), &artifact.bytes)?;
+//!     let request = Request::new()
+//!         .target(Target::WGSL)
+//!         .method(Method::CONDUCTOR_EXACT)
+//!         .material("gold")
+//!         .material_file("materials/brass.toml")?
+//!         .space(Space::DisplayP3);
+//!     for input in request.inputs() {
+//!         println!("cargo::rerun-if-changed={input}");
 //!     }
+//!     // For example OUT_DIR/wgsl/materials/gold.wgsl. What an earlier build wrote there and this one does not goes.
+//!     generate(&request)?.write_to(std::env::var("OUT_DIR")?)?;
 //!     Ok(())
 //! }
 //! ```
 //!
 //! # What is stable
 //!
-//! The names at the root of this crate: [`Request`], [`Materials`], [`Source`] and [`Precision`] say what is wanted;
-//! [`generate()`] and [`generate_single`] give [`Generated`], [`Artifact`]s or bytes; [`write_file`] writes them; [`Error`] says
-//! what was wrong. A change of them has an entry in the changelog. Fields and variants whose types are not among these names
+//! The names at the root of this crate. [`Request`] says what is wanted, step by step; [`Target`], [`Method`], [`Effect`], [`Flavour`]
+//! and [`Space`] are read from their names (`"wgsl".parse()`) or named as constants, and their fields are internal. [`generate()`] and
+//! [`generate_single`] give [`Generated`], [`Artifact`]s or bytes; [`Generated::write_to`] and [`write_file`] write them; [`Error`]
+//! says what was wrong. A change of them has an entry in the changelog. Fields and variants whose types are not among these names
 //! keep their default values, and are internal.
 //!
 //! All modules are internal. They are public for the program and its tests, and may change in any release.
@@ -66,12 +57,19 @@ pub mod physics;
 pub mod pictures;
 
 // What build scripts use. The test `snapshots::api` lists it.
+pub use generator::emit::HeaderForm;
 pub use generator::error::Error;
+pub use generator::flavours::Flavour;
 pub use generator::generate::{Generated, generate, generate_single};
 pub use generator::output::artifact::Artifact;
 pub use generator::output::write::write_file;
 pub use generator::request::{Materials, Request, Source};
+pub use language::effects::Effect;
+pub use language::methods::Method;
+pub use language::targets::Target;
+pub use physics::materials::ViewingConditions;
 pub use physics::num::Precision;
+pub use physics::spectra::Space;
 
 /// The documents' Rust is compiled as a test.
 #[cfg(doctest)]

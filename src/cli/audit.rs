@@ -1,4 +1,4 @@
-//! `audit`: a user's own function held against the exact law and against ours.
+//! `audit`: compares a user's own function with the exact law and with our methods.
 
 use std::path::{Path, PathBuf};
 
@@ -91,7 +91,7 @@ pub struct AuditFlags {
 }
 
 impl AuditFlags {
-    /// The command that reports this again under these viewing conditions, without places.
+    /// The command that makes this report again under these viewing conditions, without paths.
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let file = self.file.as_deref().unwrap_or_default();
         let command = CommandLine::new("audit")
@@ -112,7 +112,7 @@ impl AuditFlags {
     }
 }
 
-/// The parser of a word of `--gpu`.
+/// Parses a word of `--gpu`.
 fn asked_family(word: &str) -> Result<Choice<&'static Family>, UnknownName> {
     match word {
         "none" => Ok(Choice::None),
@@ -120,14 +120,14 @@ fn asked_family(word: &str) -> Result<Choice<&'static Family>, UnknownName> {
     }
 }
 
-/// The GPUs that are asked unless others are named: one of a desktop, one of a phone.
+/// The GPUs that are measured unless others are named: one desktop, one phone.
 const USUAL: [&str; 2] = ["rdna2", "adreno330"];
 
 /// Audits.
 pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     if flags.worker {
         let served = serve();
-        // The supervisor has gone: nobody is there to be told.
+        // The supervisor is gone.
         return Ok(Output {
             code: u8::from(served.is_err()),
             ..Output::default()
@@ -179,8 +179,8 @@ fn audited(subjects: Vec<MaterialInMedium>, rows: &[AuditRow]) -> Vec<MaterialIn
     subjects.into_iter().filter(has_row).collect()
 }
 
-/// The charts of these materials with the function as one more point; and where they are, and what lacks. The place is a
-/// folder, and whether files of others are replaced there.
+/// Draws the charts of these materials with the function as one more point. Returns where they are, and what is missing. The
+/// place is a folder, and whether foreign files are replaced there.
 fn charted(
     (folder, overwrite): (&Path, bool),
     rows: &[AuditRow],
@@ -257,7 +257,7 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     })
 }
 
-/// Refuses a limit of errors that says nothing.
+/// Refuses an error limit without meaning.
 fn check_max_error(most: Option<f64>) -> Result<(), Error> {
     match most {
         Some(most) if !(0.0..=1.0).contains(&most) => Err(RequestFault::OutOfRange {
@@ -284,7 +284,7 @@ fn families(asked: &[Choice<&'static Family>]) -> Result<Vec<&'static Family>, E
     Ok(named.copied().collect())
 }
 
-/// 1 for findings; 3 where nothing could be run.
+/// The exit code: 1 for findings; 3 where nothing could be run.
 fn code(rows: &[AuditRow]) -> u8 {
     let any = |status| rows.iter().any(|row| row.status == status);
     match (any(Status::Fail), any(Status::NotChecked)) {
@@ -294,7 +294,7 @@ fn code(rows: &[AuditRow]) -> u8 {
     }
 }
 
-/// A row for people.
+/// The text of a row.
 pub fn audit_text(row: &AuditRow) -> String {
     let [function, file, material] = [&row.function, &row.file, &row.material].map(Foreign);
     let mut text = format!("{function} in {file} (line {}), {material}\n", row.line);
@@ -348,7 +348,7 @@ fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
     lines
 }
 
-/// How the conditions around a function and in it were decided.
+/// How the conditional compilation around a function and in it was decided.
 fn conditions(all: &[ConditionRow]) -> String {
     let words = |one: &ConditionRow| {
         let taken = if one.is_taken { "taken" } else { "not taken" };
@@ -358,7 +358,7 @@ fn conditions(all: &[ConditionRow]) -> String {
     all.join("; ")
 }
 
-/// What the function computes, where it is a method of ours or would be with another quantity.
+/// What the function computes, where it is one of our methods or would be with another argument.
 fn computes(row: &AuditRow) -> Option<String> {
     if let Some(method) = row.computes {
         return Some(format!("{method}, as it is bound"));
@@ -375,7 +375,7 @@ fn computes(row: &AuditRow) -> Option<String> {
     ))
 }
 
-/// How much it takes, and how much it gives.
+/// The numbers that it takes, and the number that it returns.
 fn inputs(row: &AuditRow) -> String {
     let numbers = match row.input_numbers {
         0 => "no numbers".to_owned(),
@@ -409,7 +409,7 @@ fn model_error(error: &ModelError) -> String {
     let mean = error.mean_rel.map_or("no mean".to_owned(), |mean| {
         format!("{:.3} % in the mean", 100.0 * mean)
     });
-    // What is not finite is no number, here as in the JSON.
+    // A figure that is not finite counts as missing, here as in the JSON.
     let number = |figure: f64| if figure.is_finite() { figure } else { f64::NAN };
     format!(
         "{:.6} at most, at {:.1} degrees; {:.6} in the mean; relative {mean}",
@@ -431,7 +431,7 @@ fn cost_line(row: &AuditRow, cost: &AuditCost) -> String {
     }
 }
 
-/// What is wrong, for stderr.
+/// The findings, for stderr.
 pub fn audit_remarks(row: &AuditRow) -> Vec<String> {
     let head = match row.status {
         Status::Fail => "FAIL ",

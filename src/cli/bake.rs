@@ -1,4 +1,4 @@
-//! `bake`: lookup tables as files, and how wrong each is.
+//! `bake`: writes lookup tables as files, with the error of each.
 
 use clap::Args;
 
@@ -112,7 +112,7 @@ pub struct BakeFlags {
     pub quiet: bool,
 }
 
-/// A language whose functions read tables, or `all`.
+/// Parses a language whose functions read tables, or `all`.
 fn target(word: &str) -> Result<Choice<&'static Target>, String> {
     if targets::find(word).is_some_and(|target| target.finish == Finish::Spirv) {
         return Err("a module is not a function that a shader could call; take wgsl, and compile it with your shader".to_owned());
@@ -123,16 +123,16 @@ fn target(word: &str) -> Result<Choice<&'static Target>, String> {
     parse(word).map_err(|unknown| unknown.to_string())
 }
 
-/// A method. Those that are not affine are known, and refused with the reason when they are baked.
+/// Parses a method. Those that are not affine are accepted here, and refused with the reason when they are baked.
 fn split_sum_method(word: &str) -> Result<&'static Method, UnknownName> {
     methods::find(word).ok_or_else(|| UnknownName::new("method", word, &split_sum_methods()))
 }
 
 impl BakeFlags {
-    /// The axis of tables of materials, where one is named.
+    /// The axis of material tables, where one is named.
     ///
     /// # Errors
-    /// No such axis.
+    /// There is no such axis.
     pub fn table_axis(&self) -> Result<Option<TableAxis>, UnknownName> {
         let parse = in_any_case(one_of("axis", TableAxis::ALL, TableAxis::name));
         self.axis.as_deref().map(parse).transpose()
@@ -141,7 +141,7 @@ impl BakeFlags {
     /// The axes of cosine and roughness of a split-sum table.
     ///
     /// # Errors
-    /// No such axis.
+    /// There is no such axis.
     pub fn split_sum_axes(&self) -> Result<[SplitSumAxis; 2], UnknownName> {
         let parse = in_any_case(one_of("axis", SplitSumAxis::ALL, SplitSumAxis::name));
         let Some(words) = self.axis.as_deref() else {
@@ -152,7 +152,7 @@ impl BakeFlags {
     }
 }
 
-/// The files that a search chooses from where none are asked for: one of each depth.
+/// The formats that a search chooses from where none are named: one for each bit depth.
 const SEARCHED_FORMATS: [Format; 4] = [
     Format::Png8,
     Format::ExrHalf,
@@ -212,7 +212,7 @@ fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Resul
     finished(flags, request.command_line(), vec![baked], &[], announce)
 }
 
-/// Writes what was baked, and tells of it.
+/// Writes the baked files and reports on them.
 fn finished(
     flags: &BakeFlags,
     command: CommandLine,
@@ -278,7 +278,7 @@ fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
     }
 }
 
-/// The formats, in the order of the list, each once.
+/// The formats in the list's order, each once.
 fn formats(flags: &BakeFlags) -> Vec<Format> {
     match (flags.format.is_empty(), flags.budget) {
         (true, Some(_)) => SEARCHED_FORMATS.to_vec(),
@@ -287,7 +287,7 @@ fn formats(flags: &BakeFlags) -> Vec<Format> {
     }
 }
 
-/// The languages that get functions, each once; `all` is those that are written by default.
+/// The languages that get functions, each once; `all` means those that are written by default.
 fn targets(words: &[Choice<&'static Target>]) -> Vec<&'static Target> {
     let is_text = |target: &&Target| target.finish != Finish::Spirv;
     let is_chosen = |target: &&Target| {
@@ -300,12 +300,12 @@ fn targets(words: &[Choice<&'static Target>]) -> Vec<&'static Target> {
     text.filter(is_chosen).collect()
 }
 
-/// Whether a table of `--dfg` may have this name.
+/// Whether this is a reserved name of `--dfg` tables.
 fn is_split_sum(name: &str) -> bool {
     name.starts_with("dfg_")
 }
 
-/// There is something to bake, and no material bears the atlas's name.
+/// Checks that there is something to bake, and that no material has the atlas's name.
 fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
     if subjects.is_empty() {
         let why = "`--material none` leaves nothing to bake; name materials, or all";

@@ -1,4 +1,4 @@
-//! `chart`: error against cost.
+//! `chart`: draws error against cost.
 
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,7 @@ pub struct ChartFlags {
 }
 
 impl ChartFlags {
-    /// The command that reports this again, without places.
+    /// The command that makes this report again, without paths.
     pub fn command_line(&self) -> CommandLine {
         let unless = |usual: &'static str, name: &'static str| (name != usual).then_some(name);
         CommandLine::new("chart")
@@ -69,7 +69,7 @@ impl ChartFlags {
     }
 }
 
-/// The name of a cost that charts know. The records of costs are read only where it is asked for.
+/// Parses the name of a cost that charts know. The cost records are read only if they are needed.
 fn cost(word: &str) -> Result<&'static str, UnknownName> {
     one_of("cost", cost_names(), |name| name)(word)
 }
@@ -130,16 +130,16 @@ fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
     }
 }
 
-/// The files that a chart is, where it has a folder.
+/// The paths of a chart's files, if it has a folder.
 pub(super) fn files(folder: Option<&Path>) -> Vec<PathBuf> {
     let each = |folder: &Path| [PICTURE, PAGE].map(|file| folder.join(file));
     folder.into_iter().flat_map(each).collect()
 }
 
-/// Picture and page, as files that are to be written.
+/// Picture and page as files to be written.
 ///
 /// # Errors
-/// Nothing of the view is known.
+/// The view has no known points.
 pub(super) fn drawn_files(
     folder: &Path,
     overwrite: bool,
@@ -158,7 +158,7 @@ pub(super) fn drawn_files(
     Ok(files.map(file).collect())
 }
 
-/// Where picture and page lie, and what they are.
+/// Remarks on where picture and page lie, and what they are.
 pub(super) fn drawn_remarks(files: &[OutputFile]) -> Vec<String> {
     let about = ["the picture of what is shown", "a page with all charts"];
     let remark = |(file, about): (&OutputFile, &str)| {
@@ -167,7 +167,7 @@ pub(super) fn drawn_remarks(files: &[OutputFile]) -> Vec<String> {
     files.iter().zip(about).map(remark).collect()
 }
 
-/// The set that is shown unless another is asked for: the first class of which there are two, else the first material.
+/// The default set: the first class with two materials, otherwise the first material.
 pub(super) fn usual_set(data: &ChartData, of: &str) -> usize {
     let class = MaterialClass::ALL.into_iter().find_map(|class| {
         let name = set_name(class, of);
@@ -195,7 +195,7 @@ fn set(flags: &ChartFlags, data: &ChartData) -> Result<usize, Error> {
     Ok(found.expect("what is shown was checked"))
 }
 
-/// Refuses, before the work, to show what is not among the materials.
+/// Refuses, before the work, a set that is not among the materials.
 fn check_shown(flags: &ChartFlags, subjects: &[MaterialInMedium]) -> Result<(), Error> {
     let Some(show) = &flags.show else {
         return Ok(());
@@ -212,7 +212,7 @@ fn check_shown(flags: &ChartFlags, subjects: &[MaterialInMedium]) -> Result<(), 
     Err(unknown("material", show, &all).into())
 }
 
-/// The points by cost, the frontier marked, and the headline.
+/// The points by cost with the frontier marked, and the headline.
 pub fn chart_text(view: &ChartView) -> String {
     let head = [
         "",
@@ -236,13 +236,13 @@ pub fn chart_text(view: &ChartView) -> String {
     )
 }
 
-/// The methods that have no point, or one without some materials: a line a reason.
+/// The methods that have no point, or one without some materials: a line for each reason.
 fn absent(view: &ChartView) -> String {
     let lines = without_point(view).into_iter();
     lines.map(|line| format!("  {line}\n")).collect()
 }
 
-/// A remark on each method that fails: the frontier is without it.
+/// A remark on each method that fails: the frontier leaves it out.
 fn failing(points: &[ChartPoint]) -> String {
     let own = points.iter().filter(|point| !point.entry.is_best);
     let remark = |point: &ChartPoint| {
@@ -267,8 +267,8 @@ fn cells(point: &ChartPoint) -> Vec<String> {
     ]
 }
 
-/// What a method of ours gains on a competitor with its intended inputs and with its best ones, at which part of its cost: of each against
-/// the nearest competitor that is no cheaper than it by more than a tenth.
+/// What a method of ours gains on a competitor with its intended inputs and with its best ones, and at which share of its cost.
+/// Each is compared with the most accurate competitor that is at most a tenth cheaper and at most twice as expensive.
 fn gains_of_ours(view: &ChartView) -> String {
     let points = view.points();
     let ours = points

@@ -26,12 +26,12 @@ pub fn completions(shell: Shell) -> String {
     let mut command = with_names(Cli::command(), "");
     clap_complete::generate(shell, &mut command, "fresnel-gen", &mut script);
     let script = String::from_utf8_lossy(&script);
-    // clap_complete 4.6 spells a program's hyphen in two ways, so that no subcommand is found (clap's issue 6421).
+    // clap_complete 4.6 spells a program's hyphen in two ways, so no subcommand is found (clap's issue 6421).
     script.replace("fresnel__subcmd__gen", "fresnel__gen")
 }
 
-/// The command with the names that its flags take. A name is looked for in the list that the command above is named after:
-/// `methods show NAME`. Flags parse their words themselves, and take paths beside names; only the script is made of these.
+/// The command with the names that its flags take. The list of a name is found by the command above: `methods show NAME`. Flags
+/// parse their values themselves and accept paths beside names, so only the script uses these.
 fn with_names(command: Command, above: &str) -> Command {
     let here = command.get_name().to_owned();
     let command = command.mut_args(|arg| {
@@ -47,7 +47,7 @@ fn with_names(command: Command, above: &str) -> Command {
     command.mut_subcommands(|below| with_names(below, &here))
 }
 
-/// The names that a flag, or a list of this name, has.
+/// The names that a flag or a list accepts.
 fn names(list: &str) -> Option<Vec<&'static str>> {
     let all = ["all"].into_iter();
     Some(match list {

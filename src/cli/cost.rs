@@ -1,4 +1,4 @@
-//! `cost`: what compilers of real GPUs make of functions.
+//! `cost`: what functions cost by the compilers of real GPUs.
 
 use core::time::Duration;
 use std::path::PathBuf;
@@ -76,7 +76,7 @@ pub struct CostFlags {
 }
 
 impl CostFlags {
-    /// The command that reports this again, without places.
+    /// The command that makes this report again, without paths.
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("cost")
             .list("gpu", &self.gpu)
@@ -90,14 +90,14 @@ impl CostFlags {
     }
 }
 
-/// The page in the folder asked for.
+/// The page's name in its folder.
 const PAGE: &str = "cost.html";
 
 /// Measures.
 pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     if let Some(family) = flags.worker {
         let served = serve(family);
-        // The supervisor has gone: nobody is there to be told.
+        // The supervisor is gone.
         return Ok(Output {
             code: u8::from(served.is_err()),
             ..Output::default()
@@ -146,7 +146,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// 1 where a check found something, 3 where something that could be measured was not and all was required.
+/// The exit code: 1 where a check found something; 3 where something that can be measured was not, and all was required.
 fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
     let is_lacking = |row: &CostRow| {
         let cannot = row.precision.is_half() && !row.family.half;
@@ -155,14 +155,14 @@ fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
     let is_lacking = !checked.whole || table.iter().flatten().any(is_lacking);
     match checked.differ {
         0 if flags.require_all && is_lacking => 3,
-        // What nothing was held against is not checked.
+        // A check that compared nothing has not checked anything.
         0 if flags.check && checked.agree == 0 && !checked.whole => 3,
         0 => 0,
         _ => 1,
     }
 }
 
-/// The functions of a request, and why some are left out.
+/// The requested functions, and the reasons why some are left out.
 fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Error> {
     let request = Request {
         materials: flags.materials.materials()?,
@@ -192,7 +192,7 @@ fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Er
     Ok((functions, left_out))
 }
 
-/// The functions of the effects, by each method that is named.
+/// The functions of the effects, by each named method.
 fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
     let usual = methods::find(USUAL_METHOD).expect("the usual method is registered");
     let named = if flags.method.is_empty() {
@@ -221,7 +221,7 @@ fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
     Ok(functions)
 }
 
-/// Fresh counts against the record: what differs, how much, and whether all that has a compiler was compared.
+/// Compares fresh counts with the record: what differs, by how much, and whether everything that has a compiler was compared.
 fn check(table: &[Vec<CostRow>]) -> (String, Checks) {
     let (mut text, mut all) = (String::new(), Checks::NONE);
     for rows in table {
@@ -235,12 +235,12 @@ fn check(table: &[Vec<CostRow>]) -> (String, Checks) {
     (text, all)
 }
 
-/// What came of `--check`, all families together.
+/// The result of `--check` over all families.
 struct Checks {
-    /// Counts that are as recorded, and that are not.
+    /// How many counts agree with the record, and how many differ.
     agree: usize,
     differ: usize,
-    /// Whether every family was asked that has a compiler.
+    /// Whether every family with a compiler was measured.
     whole: bool,
 }
 
@@ -252,7 +252,7 @@ impl Checks {
     };
 }
 
-/// A family's fresh counts against its record.
+/// The comparison of a family's fresh counts with its record.
 #[derive(Default)]
 struct RecordComparison {
     agree: usize,
@@ -328,13 +328,13 @@ fn unasked(rows: &[CostRow]) -> String {
         .unwrap_or_else(|| "its compiler is not here".to_owned())
 }
 
-/// The page, as a file that is to be written.
+/// The page as a file to be written.
 fn paged(flags: &CostFlags, table: &[Vec<CostRow>], file: PathBuf) -> Result<OutputFile, Error> {
     let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
     Ok(OutputFile::of_report(file, page, flags.pictures.overwrite))
 }
 
-/// The rows of each family, all of the same functions in the same order.
+/// The rows of each family. All families have the same functions in the same order.
 pub fn cost_text(families: &[Vec<CostRow>]) -> String {
     match families {
         [one] => format!(
@@ -396,7 +396,7 @@ fn beside(families: &[Vec<CostRow>]) -> String {
     table::text_table(&head, &lines)
 }
 
-/// Who said it, and what it is.
+/// The compiler of a family's figures, and the family's description.
 fn about(rows: &[CostRow]) -> String {
     let Some(first) = rows.first() else {
         return String::new();

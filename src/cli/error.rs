@@ -1,11 +1,11 @@
-//! What a command ends with where it fails, and the exit code of the program.
+//! The faults of commands, and their exit codes.
 
 use thiserror::Error;
 
 use crate::generator;
 use crate::lab::{audit, budget, overdraw, process, verify};
 
-/// A fault of what was asked for, of the files, or of the machine.
+/// A fault of the request, of the files, or of the machine.
 #[derive(Debug, Error)]
 pub enum Error {
     /// A fault of the request or of files.
@@ -14,13 +14,13 @@ pub enum Error {
     /// A user's function cannot be audited.
     #[error(transparent)]
     Audit(#[from] audit::Error),
-    /// Nothing can be verified as it was asked for.
+    /// The request cannot be verified.
     #[error(transparent)]
     Verify(#[from] verify::Error),
     /// The processes of a run cannot be started.
     #[error(transparent)]
     Process(#[from] process::Error),
-    /// Nothing can be drawn.
+    /// Nothing can be drawn for timing.
     #[error(transparent)]
     Overdraw(#[from] overdraw::Error),
     /// No function can be chosen within a budget.
@@ -43,12 +43,12 @@ impl Error {
         Error::Generator(generator::Error::Usage { what: what.into() })
     }
 
-    /// Something that this takes is not here.
+    /// Something that the command needs is missing here.
     pub fn lacking(what: impl Into<String>) -> Error {
         Error::Generator(generator::Error::Lacking { what: what.into() })
     }
 
-    /// The exit code of the program: faults of the input are 2, what is missing here is 3.
+    /// The program's exit code: 2 for faults of the input, 3 for what is missing on this machine.
     pub fn exit_code(&self) -> u8 {
         let is_lacking = match self {
             Error::Generator(fault) => matches!(fault, generator::Error::Lacking { .. }),

@@ -1,4 +1,4 @@
-//! What `fresnel-gen` alone says in a folder that holds no tree of ours: what people want first.
+//! The first help: what `fresnel-gen` alone prints in a folder without a generated tree.
 
 use crate::cli::generate::GenerateFlags;
 use crate::cli::output::Output;
@@ -16,10 +16,10 @@ fresnel-gen writes Fresnel reflectance functions for shaders. What most people w
 
 `fresnel-gen --help` shows all flags and commands.";
 
-/// Help in place of a run that names nothing, where no manifest lies in the folder that it would write to.
+/// The help that replaces a run which names nothing, where the output folder has no manifest.
 pub fn first_help(flags: &GenerateFlags) -> Option<Output> {
     let manifest = folder_or_current(&flags.tree.out_dir).join(manifest::FILE);
-    // One that cannot be read, or is another program's, is for the run to refuse.
+    // A manifest that cannot be read, or is another program's, is for the run to refuse.
     if !matches!(folder::read(&manifest), Ok(None)) {
         return None;
     }

@@ -1,4 +1,4 @@
-//! `fit`: the coefficients of fitted methods.
+//! `fit`: computes the coefficients of fitted methods.
 
 use clap::Args;
 use serde::{Serialize, Serializer};
@@ -80,7 +80,7 @@ pub struct FitFlags {
 }
 
 impl FitFlags {
-    /// The command that reports this again under these viewing conditions, without places.
+    /// The command that makes this report again under these viewing conditions, without paths.
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let weight = (self.weight != Weight::default()).then_some(self.weight.name());
         CommandLine::new("fit")
@@ -117,7 +117,7 @@ impl End {
     }
 }
 
-/// A number of coefficients that forms have.
+/// A number of coefficients that some form has.
 fn terms(word: &str) -> Result<usize, &'static str> {
     let terms = word.parse().ok();
     let terms = terms.filter(|terms| [4, 5].contains(terms));
@@ -143,7 +143,7 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// What is to be minimised and met.
+/// The objective: what is minimised, and which constraints hold.
 fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
     if flags.weight.is_of_colours() && flags.f0.is_some() {
         let why = format!(
@@ -160,7 +160,7 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
             grazing: flags.exact.contains(&End::Grazing),
         },
         space: flags.gamut.viewing.space.unwrap_or_default(),
-        // Forms are compared by what they can follow. Where one is limited does not count.
+        // Forms are compared by what they can represent, before any limit is applied.
         gamut: if flags.search {
             Gamut::Keep
         } else {
@@ -169,13 +169,13 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
     })
 }
 
-/// A fitted method, and what an evaluation of its library function costs, where that is known.
+/// A fitted method, and the cost of an evaluation of its library function, where that is known.
 struct Form {
     method: &'static Method,
     cost: Option<f64>,
 }
 
-/// The fitted methods with so many coefficients, the fewest first.
+/// The fitted methods with this many coefficients, the fewest first.
 fn forms(flags: &FitFlags) -> Vec<Form> {
     let fitted = ALL.iter().copied().filter(|method| method.is_fitted());
     let mut chosen: Vec<&Method> = fitted
@@ -191,7 +191,7 @@ fn forms(flags: &FitFlags) -> Vec<Form> {
     chosen.into_iter().map(form).collect()
 }
 
-/// The materials that are meant, as they are seen, with what was left out; a search is of all unless some are named.
+/// The requested materials under viewing conditions, and the remarks on those left out. A search takes all unless some are named.
 pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<String>), Error> {
     let materials = if flags.search && flags.materials.material.is_empty() {
         Materials::All
@@ -215,7 +215,7 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<S
     Ok((found.materials(), left_out))
 }
 
-/// A row for each material and method that describes it, and what was left out.
+/// A row for each material and method that describes it, and the remarks on what was left out.
 fn of_materials(
     flags: &FitFlags,
     aim: FitObjective,
@@ -240,10 +240,10 @@ fn of_materials(
     Ok((rows, remarks))
 }
 
-/// Why there is no row.
+/// Why a fit has no row.
 const NO_FIT: &str = "under these weights its terms do not tell angles apart";
 
-/// A row for each form that describes a material, none where it has no fit, with the names of both.
+/// A row for each form that describes a material, or `None` where there is no fit, with the names of both.
 fn of_subject(
     subject: &MaterialInMedium,
     aim: FitObjective,
@@ -254,7 +254,7 @@ fn of_subject(
         ..aim
     };
     let (curve, before_gamut) = (FitCurve::of(subject), FitCurve::unclipped(subject));
-    // Promises of classes are of functions, whose fit is the usual one without a gamut.
+    // Promises for classes hold for functions, whose fit is the default one without a gamut.
     let promised = aim.weight == Weight::Absolute && !aim.exact.is_any();
     let error = |method: &'static Method, fitted: &Coefficients| {
         let function = method.specialise(&fitted.values);
@@ -309,7 +309,7 @@ fn of_colours(
 /// A fitted method and what it was fitted to.
 #[derive(Clone, Debug, Serialize)]
 pub struct FitRow {
-    /// The material's name, where it is one.
+    /// The material's name, if the fit is of a material.
     material: Option<String>,
     /// Its class.
     class: Option<&'static str>,
@@ -318,7 +318,7 @@ pub struct FitRow {
     method: &'static str,
     terms: usize,
     shape: &'static [&'static str],
-    /// Every shape is one for all materials.
+    /// Always true: every shape is shared by all materials.
     shared: bool,
     /// The coefficients of each channel.
     coefficients: [Vec<f64>; 3],
@@ -331,29 +331,29 @@ pub struct FitRow {
     precision: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     error_without_exact: Option<f64>,
-    /// The largest error where the form need not keep to [0, 1] before its limit.
+    /// The largest error of a form that need not stay in [0, 1] before its limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     max_abs_without_gamut: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// Whether it misses what its method promises of the material's class.
+    /// The promise of its method for the material's class, where the fit misses it.
     #[serde(
         skip_serializing_if = "Option::is_none",
         serialize_with = "missed_columns"
     )]
     misses_its_class: Option<Missed>,
-    /// What each channel follows, where two colours were given.
+    /// The curve that each channel follows, where two colours were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<[FollowedCurve; 3]>,
     #[serde(skip)]
     aim: FitObjective,
 }
 
-/// What a channel follows between its two colours.
+/// The curve that a channel follows between its two colours.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FollowedCurve {
-    /// The exact law of an index.
+    /// The exact law for an index.
     Law {
         /// Its real part.
         n: f64,
@@ -364,7 +364,7 @@ pub enum FollowedCurve {
     F82Tint {
         /// The reflectance at 0 degrees.
         f0: f64,
-        /// That at 81.79 degrees, over Schlick's value there.
+        /// The reflectance at 81.79 degrees, divided by Schlick's value there.
         tint: f64,
     },
 }
@@ -387,7 +387,7 @@ fn missed_columns<S: Serializer>(missed: &Option<Missed>, to: S) -> Result<S::Ok
 
 impl FitRow {
     /// The row of a method with these coefficients and errors, and with the cost of its library function where that was recorded.
-    /// It is of no material yet.
+    /// It has no material yet.
     pub fn new(
         method: &'static Method,
         fitted: &Coefficients,
@@ -422,7 +422,7 @@ impl FitRow {
         }
     }
 
-    /// The row of a material, with the largest error of a form that need not keep to [0, 1].
+    /// The row of a material, with the largest error of a form that need not stay in [0, 1].
     pub fn of_material(
         mut self,
         subject: &MaterialInMedium,
@@ -436,7 +436,7 @@ impl FitRow {
         self
     }
 
-    /// The row of two colours, with what each channel follows between them.
+    /// The row of two colours, with the curve that each channel follows between them.
     pub fn of_colours(mut self, follows: [Follows; 3]) -> FitRow {
         self.follows = Some(follows.map(FollowedCurve::from));
         self
@@ -447,7 +447,7 @@ impl FitRow {
     }
 }
 
-/// Why a figure is not known, where one is not.
+/// Why a figure is missing, where one is.
 fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
     let reasons = [
         (
@@ -461,10 +461,10 @@ fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
     (!lacking.is_empty()).then(|| lacking.join("; "))
 }
 
-/// What the first column means.
+/// The meaning of the first column.
 const STAR: &str = "A star marks the frontier of a material: what errs less costs more, and what costs less errs more.";
 
-/// The rows for a terminal; a star where no other of the same material is cheaper and as near.
+/// The rows for a terminal. A star marks a row if no other of the same material is both cheaper and as accurate.
 pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
     let aim = rows.first().map_or(FitObjective::default(), |row| row.aim);
     let mut head = vec!["", "material", "method", "terms", "largest error"];
@@ -491,10 +491,10 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
     format!("{table}\n{STAR}\n{coefficients}{}", remarks(rows))
 }
 
-/// A column of a row's.
+/// A column's title and its value in a row.
 type Column = (&'static str, fn(&FitRow) -> Option<f64>);
 
-/// The columns of the measure that was minimised, of what the gamut and of what an exact end cost.
+/// The columns of the minimised measure, and of what the gamut and an exact end cost in error.
 fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
     let title = match aim.weight {
         Weight::Absolute => "largest on paper",
@@ -519,7 +519,7 @@ fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
         .chain(columns)
 }
 
-/// Rows of which the coefficients are printed too.
+/// The most rows for which the coefficients are printed too.
 const SHOWN: usize = 6;
 
 fn cells(row: &FitRow, is_best: bool, columns: &[Column]) -> Vec<String> {
@@ -537,7 +537,7 @@ fn cells(row: &FitRow, is_best: bool, columns: &[Column]) -> Vec<String> {
     cells
 }
 
-/// The coefficients as arguments, one after the other.
+/// The coefficients as arguments, in order.
 fn coefficient_lines(row: &FitRow) -> String {
     let line = |i: usize| {
         let channels = row.coefficients.iter();
@@ -548,7 +548,7 @@ fn coefficient_lines(row: &FitRow) -> String {
     format!("\n{}, {}:\n{lines}", Foreign(row.name()), row.method)
 }
 
-/// What became of colours that no index has.
+/// The note on coefficients in half precision.
 const HALF: &str = "\ncoefficients are rounded to f16, errors are those of exact arithmetic with them, and costs those of single precision\n";
 
 fn remarks(rows: &[FitRow]) -> String {

@@ -1,4 +1,4 @@
-//! `gallery`: the effects as a page that draws them.
+//! `gallery`: writes the page that draws the effects.
 
 use std::path::PathBuf;
 
@@ -34,13 +34,13 @@ pub struct GalleryFlags {
 }
 
 impl GalleryFlags {
-    /// The command that makes the page again, without places.
+    /// The command that makes the page again, without paths.
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("gallery").list("material", self.materials.choices())
     }
 }
 
-/// The page in its folder.
+/// The page's name in its folder.
 const PAGE: &str = "index.html";
 
 /// Writes the page.

@@ -1,6 +1,5 @@
-//! `fresnel-gen` without a subcommand: generate, check, list.
-//!
-//! Fitted methods that were asked for by name, for materials that the one of their own class follows far better: `fitted` for water.
+//! `fresnel-gen` without a subcommand: generates, checks or lists files. Also the remarks on fitted methods that a user named for
+//! a material, although the method of the material's own class fits it far better: `fitted` for water.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -115,7 +114,7 @@ pub struct GenerateFlags {
     pub quiet: bool,
 }
 
-/// Generates. `announce` hears what a person should know before the run ends.
+/// Generates. `announce` gets what a person should know before the run ends.
 pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
     let request = request(flags)?;
     let (request, said) = match &flags.plan {
@@ -141,12 +140,12 @@ pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// The tree of files: listed, compared or written.
+/// Lists, compares or writes the tree of files.
 fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<Output, Error> {
     let out_dir = folder_or_current(&flags.tree.out_dir);
     let changes_nothing = flags.check || flags.list;
     let mut lock = (!changes_nothing).then(|| Lock::take(out_dir, announce));
-    // Only a run that names methods adds to what a material's file holds.
+    // Only a run that names methods adds to the methods of a material's file.
     let kept = if flags.method.is_empty() && request.chosen.is_empty() {
         Kept::new()
     } else {
@@ -158,7 +157,8 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
     }
     if generated.scope.whole {
         let viewing = as_tables_are_seen(&request.viewing, flags.viewing.gamut.is_some());
-        add_tables(&mut generated, request.medium.clone(), viewing)?;
+        let medium = request.medium.clone();
+        add_tables(&mut generated, Materials::Default, medium, viewing)?;
     }
     if flags.list {
         let names: Vec<String> = generated
@@ -183,7 +183,7 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
     }
 }
 
-/// The request with the methods that a budget chooses, where one is given, and what is said of the choice.
+/// The request with the methods that a budget chooses, where one is given, and the remarks on the choice.
 fn chosen(flags: &GenerateFlags, request: Request) -> Result<(Request, Vec<String>), Error> {
     let Some(most) = flags.budget else {
         return Ok((request, Vec::new()));
@@ -203,7 +203,7 @@ fn chosen(flags: &GenerateFlags, request: Request) -> Result<(Request, Vec<Strin
 
 /// The request with one method for each material.
 fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Error> {
-    // A run with a budget names its materials, so that no catalogue and no tables go with it.
+    // A run with a budget names its materials, so it includes no catalogue and no tables.
     let materials = match request.materials {
         Materials::Default => Materials::These(Materials::Default.sources()),
         named => named,
@@ -225,7 +225,7 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
     Ok((request, rows.iter().flat_map(budget_remarks).collect()))
 }
 
-/// Whose costs decide where none is named.
+/// The GPU family whose costs decide where none is named.
 const USUAL_GPU: &str = "rdna2";
 
 fn request(flags: &GenerateFlags) -> Result<Request, Error> {
@@ -245,6 +245,7 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         chosen: BTreeMap::new(),
         viewing: flags.viewing.conditions()?,
         header: flags.header,
+        tables: false,
     })
 }
 
@@ -281,7 +282,7 @@ fn checked(flags: &GenerateFlags, plan: &TreePlan) -> Output {
     output
 }
 
-/// What a person should know of files that stay, or that are not as this program left them.
+/// Remarks on files that stay, or that are not as this program left them.
 pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<String> {
     let stays = plan.stays.iter();
     let stays = stays.map(|stay| format!("left alone: {}: {}", Foreign(&stay.path), stay.why));
@@ -332,7 +333,7 @@ fn written(
     lock: &mut Lock,
 ) -> Result<Output, Error> {
     let out_dir = &plan.out_dir;
-    // Files of materials first: what a build names as its own output is one of these where there is one.
+    // Material files first: the output that a build names is one of these, if there are any.
     let (of_materials, others): (Vec<&Artifact>, Vec<&Artifact>) = generated
         .artifacts
         .iter()
@@ -380,7 +381,7 @@ fn written(
     Ok(output)
 }
 
-/// After the first run in a folder: what to do next with adapters, and one of the functions.
+/// After the first run in a folder: the next steps with adapters, and with one of the functions.
 fn first_steps(flags: &GenerateFlags, generated: &Generated, out_dir: &Path) -> Vec<String> {
     let artifacts = generated.artifacts.iter();
     let pages = artifacts.filter(|artifact| artifact.path.ends_with("/README.md"));
@@ -391,13 +392,13 @@ fn first_steps(flags: &GenerateFlags, generated: &Generated, out_dir: &Path) -> 
             crate::physics::foreign::path(&page)
         )
     });
-    // What an adapter's folder holds is no function for `verify`.
+    // An adapter's folder holds no functions for `verify`.
     let is_of_functions = flags.flavour.is_empty() || !flags.target.is_empty();
     let functions = is_of_functions.then(|| first_function(flags, generated, out_dir));
     pages.chain(functions.into_iter().flatten()).collect()
 }
 
-/// One of the functions, and what to do next with it.
+/// One of the functions, and the next step with it.
 fn first_function<'g>(
     flags: &GenerateFlags,
     generated: &'g Generated,
@@ -422,7 +423,7 @@ fn first_function<'g>(
     ]
 }
 
-/// What runs the functions. What chose them, or gave the header's form, is no flag of `verify`.
+/// The command that runs the functions. Flags that chose them, or that set the header's form, are no flags of `verify`.
 fn next_step(flags: &GenerateFlags) -> String {
     let is_chosen = flags.plan.is_some() || flags.budget.is_some();
     let run = if is_chosen {
@@ -435,7 +436,7 @@ fn next_step(flags: &GenerateFlags) -> String {
     format!("next: use it; `fresnel-gen verify` {run} runs it on this machine")
 }
 
-/// The depfile, where one is asked for. Its rule is of these outputs, unless the build system knows one of another name.
+/// The depfile, where one is requested. Its rule has these outputs, unless the build system names another target.
 fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>, Error> {
     let Some(file) = &flags.depfile else {
         return Ok(Vec::new());
@@ -463,7 +464,7 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
     Ok(vec![OutputFile::named(file, rule)])
 }
 
-/// A smaller error does not matter below this share of the difference between published measurements.
+/// Below this share of the difference between published measurements, a smaller error does not matter.
 const NEGLIGIBLE: f64 = 0.1;
 
 /// The remarks on a material's choice, a line each.
@@ -530,13 +531,13 @@ fn measurements(error: f64, spread: Option<Spread>) -> String {
     }
 }
 
-/// How many times the error of the class's own method is told.
+/// A method is reported if its error is at least this many times that of the class's own method.
 const FAR: f64 = 2.0;
 
-/// A sentence for each such method, with the figures of one material. One that errs little more is none of them.
+/// A sentence for each such method, with the figures of one material. Methods with only slightly larger errors are not reported.
 ///
 /// # Errors
-/// The request names what does not exist, or a material's file has a fault.
+/// The request names something that does not exist, or a material's file has a fault.
 pub fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
     let named = request.resolved_methods()?.unwrap_or_default();
     let named: Vec<&Method> = named
@@ -554,10 +555,10 @@ pub fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
         .collect())
 }
 
-/// What is said of a method and the materials that want another.
+/// The sentence on a method and the materials that another method suits.
 fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<String> {
     let other = |subject: &MaterialInMedium| {
-        // With as many coefficients, and so at about the same cost.
+        // A method with as many coefficients, and so of about the same cost.
         let other = methods::find(subject.fitted_with_four()?)?;
         (other.class != method.class).then_some(other)
     };
@@ -584,7 +585,7 @@ fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<St
     ))
 }
 
-/// `0.00349 (6.48 % in the mean)`.
+/// An error in words: `0.00349 (6.48 % in the mean)`.
 fn words(error: &ModelError) -> String {
     let mean = error.mean_rel.map(|share| 100.0 * share);
     let mean = mean.map_or_else(String::new, |mean| format!(" ({mean:.2} % in the mean)"));

@@ -1,4 +1,4 @@
-//! `materials import`: a page or table becomes a material file.
+//! `materials import`: turns a page or table into a material file.
 
 use std::path::Path;
 
@@ -74,7 +74,7 @@ pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
     })
 }
 
-/// Writes the material file. It is there to be edited: what somebody wrote into it is not in the page, and stays.
+/// Writes the material file. A user may have edited an existing file, so one with other contents is kept.
 fn write_material(file: &Path, toml: &str) -> Result<(), Error> {
     if folder::is_plain_file(file) && folder::read(file)?.is_some_and(|old| old != toml.as_bytes())
     {
@@ -88,7 +88,7 @@ fn write_material(file: &Path, toml: &str) -> Result<(), Error> {
     Ok(())
 }
 
-/// Only the visible part, where the material is known over all of it.
+/// The visible part of a material that is known over all of it.
 fn visible(whole: &Material, output: &mut Output) -> Material {
     let (from, to) = OBSERVED_NM;
     if !whole.covers(FIRST_NM, LAST_NM) {

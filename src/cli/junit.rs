@@ -1,4 +1,4 @@
-//! JUnit: a case for each function, target and material, as build servers read them.
+//! Reports in JUnit's XML, as build servers read them: a case for each function, target and material.
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
@@ -6,7 +6,7 @@ use crate::lab::audit::AuditRow;
 use crate::lab::verify::{Status, VerifyRow};
 use crate::physics::foreign::{Foreign, one_line};
 
-/// A row as a case of JUnit's.
+/// A row as a JUnit case.
 struct JunitCase<'a> {
     target: &'a str,
     device: Option<&'a str>,
@@ -18,13 +18,13 @@ struct JunitCase<'a> {
     reason: Option<&'a str>,
 }
 
-/// What stands where nothing is known.
+/// The placeholder for a name that is not known.
 const NONE: &str = "none";
 
 /// A verification as JUnit's XML; a suite for each target and device.
 ///
 /// # Errors
-/// The writer refuses.
+/// The writer fails.
 pub fn verify_junit(rows: &[VerifyRow]) -> Result<String, String> {
     let cases = rows.iter().map(|row| JunitCase {
         target: &row.target,
@@ -42,7 +42,7 @@ pub fn verify_junit(rows: &[VerifyRow]) -> Result<String, String> {
 /// An audit as JUnit's XML; a suite for each target and device.
 ///
 /// # Errors
-/// The writer refuses.
+/// The writer fails.
 pub fn audit_junit(rows: &[AuditRow]) -> Result<String, String> {
     let cases = rows.iter().map(|row| JunitCase {
         target: row.target,
@@ -71,7 +71,7 @@ fn junit<'a>(name: &str, cases: impl Iterator<Item = JunitCase<'a>>) -> Result<S
     }
     report.add_test_suites(suites.into_iter().map(|(_, suite)| suite));
     let text = report.to_string().map_err(|why| why.to_string())?;
-    // The writer lets these two through, which no document of XML may hold.
+    // The writer passes these two characters, which XML forbids.
     Ok(text.replace(['\u{fffe}', '\u{ffff}'], "\u{fffd}"))
 }
 

@@ -135,7 +135,7 @@ pub fn targets(flags: &TargetsFlags) -> Result<Output, Error> {
     listed("targets", targets::ALL.iter().map(row).collect(), file)
 }
 
-/// A name of a list, with what it stands for.
+/// A name in a list, with its summary and source.
 #[derive(Serialize)]
 struct NameRow {
     name: &'static str,
@@ -174,7 +174,7 @@ fn method_text(method: &Method) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What is known of a method.
+/// The facts about a method.
 #[derive(Serialize)]
 struct MethodSheet {
     schema: u32,
@@ -276,7 +276,7 @@ fn effect_text(effect: &Effect) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What a function takes; behind these stand the inputs of the method, where it asks for R.
+/// The arguments of a function. Behind these stand the inputs of the method, where the function needs R.
 fn effect_arguments(function: &EffectFunction) -> Vec<ArgumentRow> {
     let row = |argument: &effects::Argument| ArgumentRow {
         name: argument.name,
@@ -294,7 +294,7 @@ fn effect_arguments(function: &EffectFunction) -> Vec<ArgumentRow> {
     rows
 }
 
-/// What is known of an effect.
+/// The facts about an effect.
 #[derive(Serialize)]
 struct EffectSheet {
     schema: u32,
@@ -364,7 +364,7 @@ fn target_text(target: &Target) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What is known of a target.
+/// The facts about a target.
 #[derive(Serialize)]
 struct TargetSheet {
     schema: u32,
@@ -402,10 +402,10 @@ impl TargetSheet {
     }
 }
 
-/// The targets as a request names them: those of `--target`, or the one of the file's ending. None where neither says one.
+/// The targets as a request names them: those of `--target`, or the one of the file's extension. `None` where neither names one.
 ///
 /// # Errors
-/// No language's files end so, or those of another language than `--target` do.
+/// No language's files have this extension, or the extension is of another language than `--target`.
 pub fn target_words(
     named: &[Choice<&'static Target>],
     file: Option<&Path>,
@@ -417,7 +417,7 @@ pub fn target_words(
     let ending = file.extension().and_then(|ending| ending.to_str());
     let ending = ending.map(str::to_lowercase);
     let of_ending = of_ending(ending.as_deref().unwrap_or_default());
-    // Of two languages with one ending the usual one.
+    // If two languages share the extension, the default one.
     let usual = of_ending.iter().find(|target| target.by_default);
     match (usual.or(of_ending.first()), words.as_slice()) {
         (Some(first), []) => Ok(vec![first.name.to_owned()]),
@@ -431,7 +431,7 @@ pub fn target_words(
     }
 }
 
-/// The targets whose files end so.
+/// The targets whose files have this extension.
 fn of_ending(ending: &str) -> Vec<&'static Target> {
     let all = targets::ALL.iter().copied();
     all.filter(|target| target.endings().any(|one| one == ending))

@@ -1,4 +1,4 @@
-//! `materials`: list with filters, show as text and as a picture; the rest has files of its own.
+//! `materials`: lists with filters, shows a material as text and as a picture. The other subcommands have their own files.
 
 use std::path::{Path, PathBuf};
 
@@ -210,7 +210,7 @@ fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
     report(text, &full, json)
 }
 
-/// A substance that nothing is made of is a slip of the pen.
+/// Refuses a substance that no material has: it is a typo.
 fn check_substance(filter: &FilterFlags, all: &[Material]) -> Result<(), Error> {
     let mut substances: Vec<&str> = all.iter().map(|m| m.substance.as_str()).collect();
     substances.sort_unstable();
@@ -308,7 +308,7 @@ pub(super) struct MaterialRecord<'a> {
     conditions: &'a str,
     note: &'a str,
     data: Vec<[f64; 3]>,
-    /// Why rows of the measurement are not among these.
+    /// Why rows of the measurement are missing here.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<String>,
 }
@@ -320,7 +320,7 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     let (mut output, own) = reported(text(&loaded.material), &record, json);
     let mut files: Vec<OutputFile> = own.into_iter().collect();
     for (file, bytes) in drawn(flags, &loaded)? {
-        // What goes to stdout goes there in place of the text.
+        // A file on stdout replaces the text.
         if file == Path::new("-") {
             output.stdout = bytes;
             output.is_file = true;
@@ -335,7 +335,7 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// The material drawn, where that was asked for: each picture with its place.
+/// The pictures of the material that were requested, each with its path.
 fn drawn<'a>(flags: &'a ShowFlags, loaded: &Loaded) -> Result<Vec<(&'a Path, Vec<u8>)>, Error> {
     let medium = medium(&flags.of.medium)?;
     let viewing = flags.of.viewing.conditions()?;
@@ -363,7 +363,7 @@ fn drawn<'a>(flags: &'a ShowFlags, loaded: &Loaded) -> Result<Vec<(&'a Path, Vec
     Ok(placed.collect())
 }
 
-/// What goes to stdout goes there alone, and two pictures want two files.
+/// Refuses more than one output on stdout, and two pictures in one file.
 fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
     let places = [flags.svg.as_deref(), flags.png.as_deref(), json];
     let given: Vec<&Path> = places.into_iter().flatten().collect();
@@ -381,10 +381,10 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
     }
 }
 
-/// Pixels of a PNG for one of the SVG: sharp on today's screens.
+/// Pixels of the PNG for each unit of the SVG, sharp on today's screens.
 const PNG_SCALE: f32 = 2.0;
 
-/// The command that draws it again as `svg` or `png`, without the output's place.
+/// The command that draws it again as `svg` or `png`, without the output's path.
 fn command(
     loaded: &Loaded,
     medium: Option<&Loaded>,
@@ -399,7 +399,7 @@ fn command(
         .into()
 }
 
-/// A medium by its name or file, which must be transparent.
+/// A medium by its name or file. It must be transparent.
 pub fn medium(flags: &MediumFlags) -> Result<Option<Loaded>, Error> {
     let medium = flags.source()?;
     let medium = medium.map(|medium| load(&medium)).transpose()?;
@@ -456,8 +456,8 @@ pub(super) fn material_record(m: &Material) -> MaterialRecord<'_> {
     }
 }
 
-/// Wavelength, n and k wherever one of them was measured; every 10 nm of the visible range for a formula. Where both are known and one
-/// cannot be, it says so.
+/// Wavelength, n and k wherever either was measured; for a formula, every 10 nm of the visible range. Also the reasons why there
+/// is no index at others of these wavelengths.
 fn samples(m: &Material) -> (Vec<[f64; 3]>, Vec<String>) {
     let (from, to) = m.range_nm();
     let mut places: Vec<f64> = m.measured_nm();

@@ -1,4 +1,4 @@
-//! `merge`: the reports of shards as the report of a whole run.
+//! `merge`: combines the reports of shards into the report of a whole run.
 
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ impl MergeFlags {
     }
 }
 
-/// Puts reports together.
+/// Merges the reports.
 pub fn run(flags: &MergeFlags) -> Result<Output, Error> {
     let places = flags.report();
     try_places(places.report.json(), places.junit.as_deref())?;

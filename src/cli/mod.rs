@@ -1,10 +1,10 @@
-//! The program: one file a command, with its flags, what it does, and its text.
+//! The program: one file for each command, with its flags, what it does, and its text.
 //!
-//! [`run`] takes the parsed command line and gives an [`Output`]; `main.rs` alone prints it.
-//! A command computes nothing: what it shows comes from the wings below, as typed rows, which it prints as text or as JSON.
-//! Flags that several commands have stand in `flags`, where outputs may lie in `places.rs`, exit codes in `error.rs`.
+//! [`run`] takes the parsed command line and returns an [`Output`]. Only `main.rs` prints it.
+//! A command computes nothing. What it shows comes from the wings below as typed rows, which it prints as text or as JSON.
+//! Flags shared by several commands stand in `flags`, rules for output places in `places.rs`, exit codes in `error.rs`.
 //! It imports all wings, and is left out without the feature `cli`.
-//! Start with [`Command`], which lists the commands, and open the file of the one that you look for.
+//! Start with [`Command`], which lists the commands, and open the file of the command that you look for.
 
 mod audit;
 mod bake;
@@ -53,7 +53,7 @@ pub use first_help::first_help;
 pub use flags::renamed::with_names_of_today;
 pub use output::{Output, Progress, legible};
 
-/// What stands at the end of the help, of the program's and of `generate`'s.
+/// The end of the help of the program and of `generate`.
 const EXAMPLES: &str = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 a check could not be made on this machine (a driver or a compiler is missing, or failed).";
 
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
@@ -194,12 +194,13 @@ impl Cli {
     }
 }
 
-/// Runs what the command line asks for.
+/// Runs the command line.
 ///
-/// `progress` hears how far long work is; `announce` hears what a person should know before the run ends.
+/// `progress` gets the progress of long work; `announce` gets what a person should know before the run ends.
 ///
 /// # Errors
-/// Flags contradict each other or name what does not exist, a file cannot be read or written, or something needed is missing.
+/// Flags contradict each other or name something that does not exist, a file cannot be read or written, or something needed is
+/// missing.
 pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
     refuse_clashes(&cli.named_files())?;
     match &cli.command {

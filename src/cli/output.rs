@@ -1,7 +1,8 @@
-//! What a run leaves: text or a file for stdout, remarks, an exit code; and reports as text or as JSON.
+//! The output of a run: text or a file for stdout, remarks, an exit code; and reports as text or as JSON.
 //!
-//! Text as a terminal may have it: characters that move its cursor, change its title or turn its lines are shown as escapes. It is a
-//! second fence: a message holds no such text of others, since [`foreign`](crate::physics::foreign) cleans what is put into it.
+//! Text is made safe for a terminal: characters that move its cursor, change its title or reverse its lines are shown as escapes.
+//! This is a second line of defence: messages hold no such characters, since [`foreign`](crate::physics::foreign) cleans foreign
+//! text before it is put in.
 
 use std::path::Path;
 
@@ -13,23 +14,23 @@ use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::physics::materials::{escaped, is_hidden};
 
-/// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
+/// The output of a run: text or a file for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Output {
     /// For stdout.
     pub stdout: Vec<u8>,
-    /// Whether that is a file, which stays as it is to the byte, and not text for people.
+    /// Whether stdout is a file, which is written byte for byte, rather than text for people.
     pub is_file: bool,
     /// For stderr, a line each.
     pub remarks: Vec<String>,
-    /// 0 done, 1 findings, 2 help where nothing was asked for, 3 a check was not made. That of a fault: `Error::exit_code`.
+    /// 0 done, 1 findings, 2 help where nothing was requested, 3 a check was not made. For faults see `Error::exit_code`.
     pub code: u8,
 }
 
-/// Long work says how far it is: done, of how many, what.
+/// Receives the progress of long work: the number done, the total, and what is counted.
 pub type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
-/// Refuses a time limit of 0, and one that no clock can add.
+/// Refuses a time limit of 0, and one that overflows a clock.
 pub fn check_limit(seconds: u64) -> Result<(), Error> {
     const MOST_SECONDS: u64 = 86_400;
     if (1..=MOST_SECONDS).contains(&seconds) {
@@ -43,7 +44,7 @@ pub fn check_limit(seconds: u64) -> Result<(), Error> {
     .into())
 }
 
-/// What could not be drawn, for this reason.
+/// The fault of a picture that cannot be drawn, with the reason.
 pub fn not_drawn(reason: String) -> Error {
     RequestFault::NotDrawn { reason }.into()
 }
@@ -53,12 +54,12 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
     crate::pictures::png::png(svg, scale).map_err(not_drawn)
 }
 
-/// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.
+/// A report as text, or as JSON where that was requested. JSON on stdout stands there alone.
 pub fn report<T: Serialize>(text: String, json: &T, file: Option<&Path>) -> Result<Output, Error> {
     report_beside(text, json, file, Vec::new())
 }
 
-/// A report, and the other files of its run: all are written, or none. Files that a report's folder had before are named.
+/// A report and the other files of its run: all are written, or none. Files of the folder that were replaced are named.
 pub fn report_beside<T: Serialize>(
     text: String,
     json: &T,
@@ -74,7 +75,7 @@ pub fn report_beside<T: Serialize>(
     })
 }
 
-/// What a report prints, and its file where it has one.
+/// The printed part of a report, and its file where it has one.
 pub fn reported<T: Serialize>(
     text: String,
     json: &T,
@@ -96,7 +97,7 @@ pub fn reported<T: Serialize>(
     (output(text, false), Some(OutputFile::named(file, json)))
 }
 
-/// The text with such characters as `\u{1b}`. Line breaks and tabs stay.
+/// The text with control characters as escapes, such as `\u{1b}`. Line breaks and tabs stay.
 pub fn legible(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     let mut letters = text.chars().peekable();

@@ -1,5 +1,4 @@
-//! `materials params`: the numbers that an engine wants of a material, as a report or in an engine's own format.
-//!
+//! `materials params`: the parameters of a material for an engine, as a report or in an engine's own format. Also
 //! `materials coat`: the colours of a surface under a clear coat.
 
 use std::path::{Path, PathBuf};
@@ -103,7 +102,7 @@ fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// Into a file, or to stdout. A device is written to.
+/// Writes into a file or to stdout. A device file is written to directly.
 fn put(
     file: Option<(&PathBuf, bool)>,
     bytes: Vec<u8>,
@@ -124,7 +123,7 @@ fn put(
     Ok(())
 }
 
-/// The parameters of a material in a medium, and how well each is known.
+/// The parameters of a material in a medium, and how accurately each is known.
 pub fn params_text(
     of_material: &MaterialParams,
     material: &Material,
@@ -230,14 +229,14 @@ pub fn run_coat(flags: &CoatFlags, json: Option<&Path>) -> Result<Output, Error>
     report(text, &Report::new(command, vec![row]), json)
 }
 
-/// The numbers of each channel, and where no index gives the colours.
+/// The numbers of each channel, and a note where no index gives the colours.
 pub fn coated_text(row: &CoatedRow) -> String {
     let cells = |name: &str, values: [f64; 3], what: &str| {
         let numbers = values.map(|value| format!("{value:.5}"));
         let cells = [name.to_owned()].into_iter().chain(numbers);
         cells.chain([what.to_owned()]).collect::<Vec<String>>()
     };
-    // An index that gives neither colour is no material's: JSON has it.
+    // An index that gives neither colour belongs to no material. Only the JSON has it.
     let index_cells = |name: &str, values: [f64; 3]| {
         let mut shown = cells(name, values, "in air");
         for (cell, exact) in shown[1..].iter_mut().zip(row.exact) {

@@ -1,4 +1,4 @@
-//! Where a run's outputs may lie: not in the place of an input, of each other, or of a file of a generated tree.
+//! Checks of where a run's outputs may lie: not in the place of an input, of each other, or of a file of a generated tree.
 
 use std::path::{Path, PathBuf};
 
@@ -45,14 +45,14 @@ pub fn refuse_read<'a>(
     })
 }
 
-/// Refuses a file of a generated tree, whichever run made it: the manifest in a folder above lists it, or it is the manifest.
+/// Refuses a file of a generated tree, whichever run made it: the manifest, or a file that the manifest in a folder above lists.
 pub fn refuse_listed(named: &Path) -> Result<(), Error> {
-    /// A file of a tree lies this many folders below it at most, with some to spare for tables.
+    /// The most folders between a tree's root and its files, with some to spare for tables.
     const DEPTH: usize = 5;
     let whole = resolved(named);
     for folder in whole.ancestors().skip(1).take(DEPTH) {
         let path = folder.join(manifest::FILE);
-        // A manifest that is not ours, or cannot be read, lists nothing of ours.
+        // A manifest that is not ours, or cannot be read, lists none of our files.
         let text = if is_plain_file(&path) {
             read(&path).ok().flatten()
         } else {
@@ -62,7 +62,7 @@ pub fn refuse_listed(named: &Path) -> Result<(), Error> {
         let manifest = Manifest::parse(&path, &text);
         let files = manifest.iter().flat_map(|manifest| &manifest.files);
         let mut places: Vec<PathBuf> = files.map(|entry| folder.join(&entry.file)).collect();
-        // One that cannot be read, for a merge conflict in it, is ours all the same.
+        // A manifest that cannot be parsed, for instance because of a merge conflict, is ours all the same.
         let whole = String::from_utf8_lossy(&text);
         if manifest.is_ok()
             || whole.contains("\"tool\": \"fresnel-gen\"") && whole.contains("\"naga\":")
@@ -74,7 +74,7 @@ pub fn refuse_listed(named: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses two outputs that are one file.
+/// Refuses two outputs that are the same file.
 pub fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
     for (i, file) in files.iter().enumerate() {
         if files[..i].iter().any(|other| is_same_file(other, file)) {
@@ -113,20 +113,20 @@ pub fn refuse_place_of(places: &[PathBuf], named: &Path) -> Result<(), Error> {
     .into())
 }
 
-/// Refuses places that cannot be written, before the work: a report's, and another file's.
+/// Refuses paths that cannot be written, before the work: a report's, and another file's.
 pub fn try_places(report: Option<&Path>, other: Option<&Path>) -> Result<(), Error> {
     let files: Vec<&Path> = report.into_iter().chain(other).collect();
     try_files(&files)
 }
 
-/// Refuses files that cannot be written, and two that are one, before the work.
+/// Refuses files that cannot be written, and two that are the same, before the work.
 pub fn try_files(files: &[&Path]) -> Result<(), Error> {
     refuse_one_place(files)?;
     let named = files.iter().filter(|file| **file != Path::new("-"));
     Ok(named.copied().try_for_each(try_file)?)
 }
 
-/// An output folder as it is named; the current folder where its name is empty.
+/// An output folder as the user named it; the current folder where the name is empty.
 pub fn folder_or_current(out_dir: &Path) -> &Path {
     if out_dir.as_os_str().is_empty() {
         Path::new(".")
@@ -135,7 +135,7 @@ pub fn folder_or_current(out_dir: &Path) -> &Path {
     }
 }
 
-/// What is said of files of ours that a report replaced.
+/// The remarks on files of ours that a report replaced.
 pub fn replaced(files: &[PathBuf]) -> impl Iterator<Item = String> {
     files
         .iter()

@@ -1,4 +1,4 @@
-//! `plan`: of each material of a scene the cheapest function whose error nobody sees.
+//! `plan`: chooses for each material of a scene the cheapest function whose error is not visible.
 
 use std::path::PathBuf;
 
@@ -27,11 +27,11 @@ use crate::pictures::plan::{
 };
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 
-/// Frames of a renderer, as one word lists them.
+/// Frames of a renderer, from one word that lists them.
 #[derive(Clone, Debug)]
 pub struct Frames(Vec<PathBuf>);
 
-/// The parser of a word of `--gbuffer`.
+/// Parses a word of `--gbuffer`.
 fn frames(list: &str) -> Result<Frames, String> {
     let words = comma_list(list).into_iter();
     let files = words.map(|word| file_only("--gbuffer")(&word));
@@ -151,7 +151,7 @@ impl PlanFlags {
         self.budget.unwrap_or(self.metric.usual_budget())
     }
 
-    /// The command that makes this plan again, without places of outputs.
+    /// The command that makes this plan again, without the paths of outputs.
     pub fn command_line(&self) -> CommandLine {
         let again = |file: &PathBuf| path_again(&file.to_string_lossy());
         let above_0 = |value: f64| (value != 0.0).then_some(value);
@@ -199,13 +199,13 @@ impl PlanFlags {
     }
 }
 
-/// Whose costs decide where none is named.
+/// The GPU family whose costs decide where none is named.
 const USUAL_GPU: &str = "rdna2";
 
-/// The page in the folder asked for.
+/// The page's name in its folder.
 const PAGE: &str = "plan.html";
 
-/// Reads the scene, judges, chooses.
+/// Reads the scene, judges the candidates, and chooses.
 pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     check(flags)?;
     let page = flags.pictures.folder().map(|folder| folder.join(PAGE));
@@ -262,7 +262,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// The page, as a file that is to be written, with pictures of the frames where functions are worst.
+/// The page as a file to be written, with pictures of the frames where functions are worst.
 fn paged(
     flags: &PlanFlags,
     request: &PlanRequest,
@@ -333,7 +333,7 @@ fn viewing(flags: &PlanFlags) -> ViewingConditions {
     viewing
 }
 
-/// What the flags ask for; what they leave open the scene says.
+/// The settings from the flags; what they leave open, the scene states.
 fn request(
     flags: &PlanFlags,
     viewing: &ViewingConditions,

@@ -1,4 +1,4 @@
-//! A plan that `plan --json` wrote, read back: the request for exactly its functions.
+//! Reads back a plan that `plan --json` wrote, as the request for exactly its functions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -17,13 +17,13 @@ use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
 
-/// The beginning of the command of a plan.
+/// The first word of a plan's command.
 const COMMAND: &str = "plan";
 
-/// The request for a plan's functions: each material's own, and library files.
+/// The request for a plan's functions: those of each material, and library files.
 ///
 /// # Errors
-/// The file cannot be read, is no plan, or names what does not exist.
+/// The file cannot be read, is no plan, or names something that does not exist.
 pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Request, Error> {
     let plan = read(file)?;
     let mut sources = Vec::new();
@@ -72,7 +72,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
     })
 }
 
-/// Refuses a material's file that a plan must not name.
+/// Refuses a material file that a plan must not name.
 fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<(), Error> {
     let Some(path) = name.path() else {
         return Ok(());
@@ -81,7 +81,7 @@ fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<
     checked.map_err(Error::usage)
 }
 
-/// The method of a row: one that plans choose, in a form that they choose.
+/// The method of a row, which must be one that plans choose, in a form that they choose.
 fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
     let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
     let method = methods::find(&row.method);
@@ -147,7 +147,7 @@ fn space(plan: &PlanFile) -> Result<Space, Error> {
     found.ok_or_else(|| unknown("space", &plan.space, &Space::ALL.map(Space::name)).into())
 }
 
-/// The one precision of a plan.
+/// The precision of a plan, which must have only one.
 fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
     let first = plan.rows[0].precision;
     if plan.rows.iter().all(|row| row.precision == first) {

@@ -1,4 +1,4 @@
-//! What `plan` reads: frames of a user's renderer, or a scene.
+//! The input of `plan`: frames of a user's renderer, or a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -18,33 +18,33 @@ use crate::pictures::plan::{
 };
 use crate::pictures::scene::{Display, Environment, TONE_CURVES};
 
-/// Gives one frame after another.
+/// Returns the frame of an index.
 pub type FrameOf<'a> = Box<dyn FnMut(usize) -> Result<FramePixels, Error> + 'a>;
 
-/// What a plan is made of.
+/// The input of a plan.
 pub struct PlanInput<'a> {
     /// The materials, each once, in the order of the frames' pixels.
     pub materials: Vec<PlannedMaterial>,
     /// Materials of the scene that get no function.
     pub unplanned: Vec<Unplanned>,
-    /// What the scene says and is not read.
+    /// What the scene states and this program does not read.
     pub remarks: Vec<String>,
-    /// The files that were read beside those that flags name.
+    /// The files that were read in addition to those that flags name.
     pub read: Vec<PathBuf>,
-    /// What to say where no frame shows any of the materials.
+    /// The message for a scene in which no frame shows any of the materials.
     pub nothing_is_seen: String,
-    /// How the scene is shown, where nothing else is asked for.
+    /// How the scene is shown, unless flags say otherwise.
     pub display: Display,
-    /// How many frames.
+    /// How many frames there are.
     pub frames: usize,
-    /// The frames.
+    /// Reads or draws a frame.
     pub frame: FrameOf<'a>,
 }
 
 /// Reads what the flags name.
 ///
 /// # Errors
-/// A file cannot be read or has a fault, or a material is not there.
+/// A file cannot be read or has a fault, or a material does not exist.
 pub fn plan_input<'a>(
     flags: &'a PlanFlags,
     viewing: &ViewingConditions,
@@ -138,7 +138,7 @@ fn of_gltf<'a>(
     })
 }
 
-/// What is wrong with a glTF scene in which nothing is seen that could be planned.
+/// The message for a glTF scene of which no visible material can be planned.
 fn nothing_planned(file: &str, unplanned: &[Unplanned]) -> String {
     let reason = |one: &Unplanned| format!("; `{}`: {}", one.name, one.reason);
     let reasons: String = unplanned.iter().map(reason).collect();
@@ -148,7 +148,7 @@ fn nothing_planned(file: &str, unplanned: &[Unplanned]) -> String {
 /// A file that names other files, by paths relative to its folder.
 struct Naming<'a> {
     file: &'a Path,
-    /// What it may name though it lies elsewhere.
+    /// The paths that it may name although they lie elsewhere.
     allowed: Vec<PathBuf>,
 }
 
@@ -161,14 +161,14 @@ impl<'a> Naming<'a> {
         }
     }
 
-    /// A path that it names.
+    /// Resolves a path that the file names.
     fn path(&self, path: &str) -> Result<PathBuf, String> {
         let whole = self.file.parent().unwrap_or(Path::new("")).join(path);
         source::check_below(self.file, &whole, &self.allowed)?;
         Ok(whole)
     }
 
-    /// The bytes of a file that it names; that is entered among those that were read.
+    /// The bytes of a file that it names. The file's path is appended to `read`.
     fn bytes(&self, path: &str, read: &mut Vec<PathBuf>) -> Result<Vec<u8>, String> {
         let whole = self.path(path)?;
         let bytes = source::picture(&whole).map_err(|error| error.to_string());
@@ -177,7 +177,7 @@ impl<'a> Naming<'a> {
     }
 }
 
-/// The files that materials are read from.
+/// The paths of the materials that are files.
 fn material_files(materials: &[PlannedMaterial]) -> Vec<PathBuf> {
     let words = materials.iter().map(|material| &material.argument);
     words
@@ -191,10 +191,10 @@ const AS_IT_IS: Display = Display {
     exposure: 0.0,
     curve: TONE_CURVES[0],
 };
-/// Pixels of a glTF scene's frames, where nothing else is asked for.
+/// Pixels of a glTF scene's frames, unless flags say otherwise.
 const GLTF_SIZE: [u32; 2] = [640, 480];
 
-/// Frames of a user's renderer. Each is read when its turn comes, so that one is in memory.
+/// Frames of a user's renderer. Each is read when it is needed, so that only one is in memory.
 fn of_frames<'a>(
     flags: &'a PlanFlags,
     viewing: &ViewingConditions,
@@ -231,8 +231,8 @@ fn of_frames<'a>(
     })
 }
 
-/// Each material once, and for each that the scene names its place among them. `fault`
-/// says where the file names a material.
+/// Each material once, and for each material of the scene its index among them. `fault` gives the place where the file names a
+/// material.
 fn loaded(
     mapped: &[MappedMaterial],
     naming: &Naming,
@@ -273,7 +273,7 @@ fn loaded(
     Ok((planned, places))
 }
 
-/// A material by the word for it: a path, a name of the catalogue, or a constant index.
+/// A material by its word: a path, a name of the catalogue, or a constant index.
 fn material(
     word: String,
     viewing: &ViewingConditions,
@@ -303,7 +303,7 @@ fn material(
     })
 }
 
-/// The same frame with the pixels of one material together, whatever the scene calls it.
+/// The same frame with the pixels of a material merged, under whichever names the scene has for it.
 fn merged(frame: FramePixels, places: &[usize], count: usize) -> FramePixels {
     let mut whole = FramePixels::new(frame.size, count);
     for (pixels, place) in frame.of_material.into_iter().zip(places) {

@@ -1,4 +1,4 @@
-//! `render`: an effect drawn beside its truth.
+//! `render`: draws an effect beside its truth.
 
 use std::path::{Path, PathBuf};
 
@@ -67,13 +67,13 @@ pub struct RenderFlags {
 }
 
 impl RenderFlags {
-    /// Where the picture goes.
+    /// The picture's path.
     pub fn file(&self) -> PathBuf {
         let usual = || PathBuf::from(format!("{}.png", self.name.name));
         self.output.clone().unwrap_or_else(usual)
     }
 
-    /// The command that draws this again, without places of outputs.
+    /// The command that draws this again, without the paths of outputs.
     pub fn command_line(&self) -> CommandLine {
         let number = |value: f64| (value != 0.0).then_some(value);
         let curve = self.tone_curve.name;
@@ -106,7 +106,7 @@ fn after_help() -> String {
     )
 }
 
-/// Pixels a side that a run may ask for, and stops.
+/// The limits of a run: pixels a side, and stops of exposure.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=2048;
 const STOPS: std::ops::RangeInclusive<f64> = -16.0..=16.0;
 
@@ -196,7 +196,7 @@ fn is_exr(file: &Path) -> Result<bool, Error> {
     }
 }
 
-/// What the body is made of.
+/// The body's material.
 fn material(flags: &RenderFlags) -> Result<Material, Error> {
     let own = || Ok(Source::Named(flags.name.material.to_owned()));
     let named = flags
@@ -231,7 +231,7 @@ fn lacking(why: impl ToString) -> Error {
 /// The brightest colour of the error map, in CIEDE2000.
 pub const ERROR_SCALE: f64 = 20.0;
 
-/// What is known of a picture, a line each.
+/// The facts about a picture, a line each.
 pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
     let error = |of: Difference| format!("mean {:.2}, 99th percentile {:.2}", of.mean, of.p99);
     let mut lines = vec![
@@ -277,7 +277,7 @@ fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
 
-/// What the search for the second surface came to.
+/// The results of the search for the second surface.
 fn searched(row: &RenderedRow) -> String {
     format!(
         "{} hits, {} misses; {} reflected totally inside, {} in truth; {} falsely, {} missed",
@@ -290,10 +290,10 @@ fn searched(row: &RenderedRow) -> String {
     )
 }
 
-/// The three panels side by side as PNG, in sRGB; the map goes from 0 to [`ERROR_SCALE`].
+/// The three panels side by side as PNG, in sRGB; the error map goes from 0 to [`ERROR_SCALE`].
 ///
 /// # Errors
-/// The picture cannot be encoded, and why.
+/// The picture cannot be encoded; the text says why.
 pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<Vec<u8>, String> {
     let shown = |radiance: &DVec3| display.shown(*radiance).to_array().map(srgb_byte);
     let error = |error: &f64| shade_bytes(error / ERROR_SCALE);
@@ -310,7 +310,7 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
 /// The three panels side by side as OpenEXR in binary32: radiance, radiance, and the error in all three channels.
 ///
 /// # Errors
-/// The picture cannot be encoded, and why.
+/// The picture cannot be encoded; the text says why.
 pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
     let radiance = |of: &[DVec3]| {
         of.iter()
@@ -344,7 +344,7 @@ pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
     Ok(bytes.into_inner())
 }
 
-/// The rows of squares, each beside the others.
+/// The rows of the square panels, side by side.
 fn beside<T: Copy>(panels: &[Vec<T>; 3], size: usize) -> Vec<T> {
     let row = |y: usize| {
         panels

@@ -1,4 +1,4 @@
-//! `reproduce`: the thesis beside ours.
+//! `reproduce`: compares the thesis with our own figures.
 
 use clap::Args;
 
@@ -52,7 +52,7 @@ fn part(name: &str) -> Result<Part, String> {
     })
 }
 
-/// Reproduces.
+/// Reproduces the requested parts.
 pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> {
     let parts = flags
         .table
@@ -83,7 +83,7 @@ fn json(reproduced: &Reproduction, part: Option<Part>) -> Report<ComparisonRow> 
     Report::new(command, reproduced.comparisons().cloned().collect())
 }
 
-/// The figures, as files that are to be written.
+/// The figures as files to be written.
 fn figures(flags: &ReproduceFlags, reproduced: &Reproduction) -> Vec<OutputFile> {
     let (folder, overwrite) = (&flags.figures.out_dir, flags.figures.overwrite);
     let figures = reproduced.figures.iter().map(|figure| {
@@ -93,10 +93,10 @@ fn figures(flags: &ReproduceFlags, reproduced: &Reproduction) -> Vec<OutputFile>
     figures.collect()
 }
 
-/// How wide a paragraph is.
+/// The width of a paragraph, in characters.
 const WIDTH: usize = 110;
 
-/// The report. Where it has all parts it also says what is not among them.
+/// The report. If it has all parts, it also states what is not among them.
 pub fn reproduction_text(reproduced: &Reproduction) -> String {
     let sections = &reproduced.sections;
     let mut texts: Vec<String> = sections.iter().map(section).collect();
@@ -106,7 +106,7 @@ pub fn reproduction_text(reproduced: &Reproduction) -> String {
     texts.join("\n")
 }
 
-/// The tables that have no section, and why.
+/// The tables that have no section, with the reasons.
 fn not_measured() -> String {
     let reasons: Vec<String> = NOT_MEASURED
         .iter()
@@ -148,7 +148,7 @@ fn statement(row: &ComparisonRow) -> String {
     head + &thesis + &wrapped(&row.ours.in_words(), "  ours    ", "          ")
 }
 
-/// Figures that the thesis gives too.
+/// Figures that the thesis also gives, side by side with ours.
 fn beside<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
     if rows.is_empty() {
         return String::new();
@@ -167,7 +167,7 @@ fn beside<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
     "\n".to_owned() + &table::text_table(&["", "", "thesis", "ours", ""], &rows)
 }
 
-/// Figures of ours alone: a line a subject, and a new table where the columns change.
+/// Figures of ours alone: a line for each subject, and a new table where the columns change.
 fn alone<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
     let lines: Vec<&[&'a ComparisonRow]> = rows.chunk_by(|a, b| a.row == b.row).collect();
     let columns = |line: &[&'a ComparisonRow]| {
@@ -196,7 +196,7 @@ fn alone<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
 }
 
 impl<'a> Notes<'a> {
-    /// The mark that leads to a remark.
+    /// The number that refers to a remark.
     fn mark(&mut self, remark: &'a str) -> String {
         if remark.is_empty() {
             return String::new();
@@ -217,7 +217,7 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// Words in lines, the first after `first`, the others after `other`.
+/// Words wrapped into lines. The first line begins with `first`, the others with `other`.
 fn wrapped(words: &str, first: &str, other: &str) -> String {
     let mut lines = Vec::new();
     let mut line = first.to_owned();

@@ -81,7 +81,7 @@ pub struct SceneErrorFlags {
 }
 
 impl SceneErrorFlags {
-    /// The command that reports this again under these viewing conditions, without places of outputs.
+    /// The command that makes this report again under these viewing conditions, without the paths of outputs.
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let usual = Turntable::THESIS;
         let [width, height] = self.size;
@@ -111,7 +111,7 @@ impl SceneErrorFlags {
     }
 }
 
-/// A place in metres.
+/// A position in metres.
 fn place(word: &str) -> Result<[f64; 3], String> {
     const FARTHEST: f64 = 1e6;
     let numbers = numbers(word)?;
@@ -121,7 +121,7 @@ fn place(word: &str) -> Result<[f64; 3], String> {
             "it has {count} numbers; it wants x, y and z in metres, such as 0,0,-2"
         ));
     };
-    // NaN is within no limits.
+    // NaN fails every range.
     match three.iter().find(|x| !(-FARTHEST..=FARTHEST).contains(*x)) {
         Some(x) => Err(format!("it has {x}; a place lies within a million metres")),
         None => Ok(three),
@@ -149,14 +149,14 @@ const EXTENT: f64 = 1.0;
 const FRAMES: std::ops::RangeInclusive<usize> = 1..=720;
 const FIELDS_OF_VIEW: std::ops::RangeInclusive<f64> = 1.0..=170.0;
 
-/// A method that describes a material, as its function.
+/// A method that describes a material, and its function.
 struct Pair<'a> {
     subject: &'a MaterialInMedium,
     method: &'static Method,
     function: Checked,
 }
 
-/// Draws, and compares.
+/// Draws the pictures and compares them.
 pub fn run(flags: &SceneErrorFlags, progress: Progress) -> Result<Output, Error> {
     check(flags)?;
     let viewing = flags.viewing.conditions()?;
@@ -245,7 +245,7 @@ fn subjects(
     Ok(request.subjects()?.materials())
 }
 
-/// Each material with each method that describes it, and what is left out.
+/// Each material with each method that describes it, and the remarks on what is left out.
 fn pairs<'a>(
     flags: &SceneErrorFlags,
     subjects: &'a [MaterialInMedium],
@@ -278,7 +278,7 @@ fn methods(flags: &SceneErrorFlags, subject: &MaterialInMedium) -> Vec<&'static 
     Choice::methods(&flags.method)
 }
 
-/// The object, in the origin.
+/// The object, centred at the origin.
 fn mesh(flags: &SceneErrorFlags) -> Result<Mesh, Error> {
     let Some(file) = &flags.mesh else {
         let body = flags.object.expect("clap asks for an object or a mesh");
@@ -343,7 +343,7 @@ fn rows(
     })
 }
 
-/// The places of all pictures, which [`pictures`] fills in this order.
+/// The paths of all pictures, which [`pictures`] fills in this order.
 fn places(flags: &SceneErrorFlags, pairs: &[Pair]) -> Vec<PathBuf> {
     let Some(folder) = flags.pictures.folder() else {
         return Vec::new();
@@ -447,17 +447,17 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
 /// A picture as PNG, in sRGB. `about` is ASCII.
 ///
 /// # Errors
-/// It cannot be encoded, and why.
+/// The picture cannot be encoded; the text says why.
 pub fn painted_png(picture: &Painted, about: &str) -> Result<Vec<u8>, String> {
     let bytes = picture.pixels.iter().map(|pixel| pixel.map(srgb_byte));
     let bytes = bytes.collect::<Vec<_>>().concat();
     rgb_png(&bytes, picture.size, about.to_owned())
 }
 
-/// A picture as OpenEXR in binary32, linear, with the space of its channels where they are one.
+/// A picture as OpenEXR in binary32, linear, with the colour space of its channels where they have one.
 ///
 /// # Errors
-/// It cannot be encoded, and why.
+/// The picture cannot be encoded; the text says why.
 pub fn painted_exr(
     picture: &Painted,
     space: Option<Space>,

@@ -1,4 +1,4 @@
-//! `fit --search`: shapes tried on the catalogue.
+//! `fit --search`: tries families of shapes on the catalogue.
 
 use crate::cli::error::Error;
 use crate::cli::fit::{FitFlags, subjects};
@@ -57,10 +57,10 @@ pub(super) fn run(
     Ok(output)
 }
 
-/// Why a material takes no part.
+/// Why a material is left out.
 const OUTSIDE: &str = "gases, dielectrics that absorb, and what is known at three wavelengths alone are in no class that shapes are for";
 
-/// All shapes tried on the materials of a class; none where there are none.
+/// All shapes, tried on the materials of a class; `None` where it has no materials.
 fn tried_shapes(
     class: &SearchedClass,
     subjects: &[MaterialInMedium],
@@ -90,7 +90,7 @@ fn tried_shapes(
     })
 }
 
-/// What a material is: of the catalogue its substance, of a page besides it the book that it stands in, such as `main/Au`.
+/// The substance of a material. A page from outside the catalogue is identified by its book, such as `main/Au`.
 fn substance(material: &Material) -> String {
     let is_known = find(&material.substance).is_some();
     let mut parts = material.page.split('/');
@@ -100,7 +100,7 @@ fn substance(material: &Material) -> String {
     }
 }
 
-/// The report for a terminal; a star where nothing with fewer operations comes as near.
+/// The report for a terminal. A star marks a shape if none with fewer operations is as accurate.
 pub fn search_text(results: &[SearchResult], gpu: &str) -> String {
     let one = |result: &SearchResult| {
         let choices = result.choices.iter();
@@ -121,7 +121,7 @@ pub fn search_text(results: &[SearchResult], gpu: &str) -> String {
     format!("{}\n{STAR}\n", texts.join("\n"))
 }
 
-/// What the first column means.
+/// The meaning of the first column.
 const STAR: &str =
     "A star marks the frontier: no shape with as few operations has as small a 90th percentile.";
 
@@ -166,7 +166,7 @@ fn quantile_cells(errors: &ErrorQuantiles) -> [String; 5] {
     [median, p90, worst, median_by_substance, p90_by_substance].map(short_number)
 }
 
-/// Leaving out one substance after the other.
+/// The results of leaving out each substance in turn.
 fn choice_text(choice: &ChoiceRow) -> String {
     let head = [
         "errors of",

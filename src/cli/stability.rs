@@ -1,4 +1,4 @@
-//! `stability`: where methods fail.
+//! `stability`: finds where methods fail.
 
 use std::path::Path;
 
@@ -47,7 +47,7 @@ pub struct StabilityFlags {
 }
 
 impl StabilityFlags {
-    /// The command that reports this again, without places.
+    /// The command that makes this report again, without paths.
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("stability")
             .list("method", &self.method)
@@ -56,7 +56,7 @@ impl StabilityFlags {
     }
 }
 
-/// A method that is scanned. What reads a texture is as stable as its sampler.
+/// Parses a method that is scanned. A method that reads a texture is refused: it is as stable as the sampler.
 fn scanned_method(word: &str) -> Result<Choice<&'static Method>, String> {
     if methods::find(word).is_some_and(Method::is_textured) {
         return Err(format!(
@@ -68,7 +68,7 @@ fn scanned_method(word: &str) -> Result<Choice<&'static Method>, String> {
     parse(word).map_err(|unknown| unknown.to_string())
 }
 
-/// Pixels of a map to a unit of its drawing.
+/// Pixels of a map for each unit of its drawing.
 const SCALE: f32 = 1.0;
 
 /// What is scanned.
@@ -77,7 +77,7 @@ struct Asked<'a> {
     study: Study,
 }
 
-/// The page in the folder asked for.
+/// The page's name in its folder.
 fn index(precision: Precision) -> String {
     format!("index{}.html", precision.suffix())
 }
@@ -114,8 +114,8 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     Ok(output)
 }
 
-/// The methods asked for, and why others are left out. What reads a texture is as stable as its sampler; what is not
-/// written in this precision is scanned where it is named.
+/// The requested methods, and the reasons why others are left out. A method that reads a texture is as stable as the sampler. A
+/// method that is not written in this precision is scanned only if it is named.
 fn methods_of(
     words: &[Choice<&'static Method>],
     precision: Precision,
@@ -157,7 +157,7 @@ impl Asked<'_> {
         Ok(self.study.specialised_rows(&subjects, progress)?)
     }
 
-    /// The maps and the page, as files that are to be written, and what is said of them.
+    /// The maps and the page as files to be written, and the remarks on them.
     fn drawn(
         &self,
         rows: &[StabilityRow],
@@ -215,7 +215,7 @@ fn cells(row: &StabilityRow) -> Vec<String> {
     cells
 }
 
-/// The region; of arguments that no medium has, with that said.
+/// The region in words, with a note where no medium has such arguments.
 fn region(finding: &Finding) -> String {
     if finding.is_media {
         finding.region.clone()
@@ -224,7 +224,7 @@ fn region(finding: &Finding) -> String {
     }
 }
 
-/// All rows for people.
+/// The text of all rows.
 pub fn stability_text(rows: &[StabilityRow]) -> String {
     let head = ["method", "material", "failure", "where", "of it", "worst"];
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();

@@ -42,8 +42,8 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
     report(survey_text(&all), &full, json)
 }
 
-/// A page by its name below the folder, so that no report depends on where that lies. One that cannot be read is refused as
-/// one that cannot be understood is.
+/// A page by its name below the folder, so that no report depends on the folder's place. A page that cannot be read is refused in
+/// the same way as one that cannot be understood.
 fn surveyed(folder: &Path, file: &str, viewing: &ViewingConditions) -> SurveyedPage {
     let (path, named) = if file.is_empty() {
         (folder.to_owned(), folder.display().to_string())
@@ -79,7 +79,7 @@ pub struct SurveyRow<'a> {
     facts: Option<FactColumns>,
 }
 
-/// The colours of a page that is seen.
+/// The colours of a page that can be viewed.
 #[derive(Clone, Debug, Serialize)]
 struct ColourColumns<'a> {
     f0: [f64; 3],
@@ -88,7 +88,7 @@ struct ColourColumns<'a> {
     extrapolated: Option<&'a str>,
 }
 
-/// What is known of a page that can be used.
+/// The facts about a page that can be used.
 #[derive(Clone, Debug, Serialize)]
 struct FactColumns {
     class: &'static str,
@@ -141,7 +141,7 @@ impl FactColumns {
     }
 }
 
-/// The survey in words: counts, what was refused and why, how far glasses are from their makers' indices.
+/// The survey in words: counts, refusals and their reasons, and how far glasses are from their makers' indices.
 pub fn survey_text(all: &[SurveyedPage]) -> String {
     let count =
         |wanted: fn(&PageOutcome) -> bool| all.iter().filter(|s| wanted(&s.outcome)).count();
@@ -159,7 +159,7 @@ pub fn survey_text(all: &[SurveyedPage]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// How many colours rest on held ends.
+/// How many colours use extrapolated data, held from the ends of the measured range.
 fn extrapolated(all: &[SurveyedPage]) -> Option<String> {
     let is_held = |s: &&SurveyedPage| matches!(&s.outcome, PageOutcome::Seen(_, colours) if colours.held.is_some());
     let count = all.iter().filter(is_held).count();
@@ -170,7 +170,7 @@ fn extrapolated(all: &[SurveyedPage]) -> Option<String> {
     })
 }
 
-/// Reasons with the number of pages, and the page where it is one alone.
+/// Reasons with their number of pages; a reason with a single page names it.
 fn refusals(all: &[SurveyedPage]) -> Vec<String> {
     let mut reasons: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for surveyed in all {
@@ -189,7 +189,7 @@ fn refusals(all: &[SurveyedPage]) -> Vec<String> {
     reasons.into_iter().map(line).collect()
 }
 
-/// How far each formula is from the indices that glass makers print.
+/// How far each formula is from the indices that glass makers publish.
 fn glasses(all: &[SurveyedPage]) -> Vec<String> {
     let mut formulas: BTreeMap<u8, (usize, f64)> = BTreeMap::new();
     for about in all.iter().filter_map(SurveyedPage::facts) {

@@ -1,4 +1,4 @@
-//! `time`: what functions cost on the device at hand.
+//! `time`: measures what functions cost on this machine's device.
 
 use core::fmt::Display;
 use core::time::Duration;
@@ -28,7 +28,7 @@ use crate::physics::foreign::{lines, one_line};
 use crate::physics::num::Precision;
 use crate::pictures::table;
 
-/// OpenGL ES runs vertex shaders here, and draws nothing.
+/// The backends that can draw. OpenGL ES only runs vertex shaders here, and draws nothing.
 const DRAWING_BACKENDS: [Backend; 4] = [
     Backend::Vulkan,
     Backend::Metal,
@@ -88,7 +88,7 @@ pub struct TimeFlags {
 }
 
 impl TimeFlags {
-    /// The command that reports this again, without places.
+    /// The command that makes this report again, without paths.
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("time")
             .list("method", &self.method)
@@ -107,7 +107,7 @@ impl TimeFlags {
     }
 }
 
-/// Pixels a side that a run may ask for, operations in a chain, rounds, and seconds of a submission.
+/// The limits of a run: pixels a side, operations in a chain, rounds, and seconds of a submission.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 const OPERATIONS: std::ops::RangeInclusive<usize> = 100..=20_000;
 const ROUNDS: std::ops::RangeInclusive<usize> = 1..=1000;
@@ -115,7 +115,7 @@ const SECONDS: std::ops::RangeInclusive<f64> = 1e-6..=3600.0;
 
 /// Measures.
 pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
-    // Before the work begins, so that a worker ends with its supervisor at any time.
+    // Opened before the work begins, so that a worker ends with its supervisor at any time.
     let inbox = flags.worker.then(Inbox::open);
     check(flags)?;
     let wanted = Wanted {
@@ -129,7 +129,7 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
             again.map_or_else(|_| timed.plan.clone(), |timed| timed.plan)
         };
         let served = serve(inbox, &plan, &wanted, flags.size);
-        // The supervisor has gone: nobody is there to be told.
+        // The supervisor is gone.
         return Ok(Output {
             code: u8::from(served.is_err()),
             ..Output::default()
@@ -168,7 +168,7 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// What is drawn; in software chains are shorter where nothing is said.
+/// The functions to be timed. In software, chains are shorter by default.
 fn timed_functions(flags: &TimeFlags, is_software: bool) -> Result<TimedFunctions, Error> {
     let usual = usual_operations(is_software);
     let request = TimeRequest {
@@ -232,7 +232,7 @@ fn no_hardware(facts: &DeviceFacts, wanted: &Wanted) -> Error {
     Error::lacking(what)
 }
 
-/// What failed, each reason once; what was left out; and how the time was taken where that was not asked for.
+/// The failures, each reason once; what was left out; and the clock, where it was not requested.
 fn remarks(
     timed: &TimedFunctions,
     measured: &MeasuredDrawings,
@@ -252,7 +252,7 @@ fn remarks(
     remarks
 }
 
-/// What the time was taken by, where that was not asked for and is not the device's own clock.
+/// The clock that measured, where it was not requested and is not the device's own.
 fn chosen(measured: &MeasuredDrawings) -> Option<String> {
     let why = match measured.clock {
         Clock::Gpu => return None,
@@ -266,7 +266,7 @@ fn chosen(measured: &MeasuredDrawings) -> Option<String> {
     Some(why.to_owned())
 }
 
-/// 1 where a shader failed, 3 where this machine cannot run some and all was asked for.
+/// The exit code: 1 where a shader failed; 3 where this machine cannot run some and all were required.
 fn code(flags: &TimeFlags, rows: &[TimeRow]) -> u8 {
     let missing = |row: &&TimeRow| row.figure.is_err();
     if rows.iter().filter(missing).any(|row| !row.is_lacking) {
@@ -278,7 +278,7 @@ fn code(flags: &TimeFlags, rows: &[TimeRow]) -> u8 {
     }
 }
 
-/// What was measured, with what is known of it.
+/// The readings, with the facts about the measurement.
 #[derive(Serialize)]
 pub struct TimeReport<'a> {
     #[serde(flatten)]
@@ -298,7 +298,7 @@ pub struct TimeReport<'a> {
     rounds: usize,
 }
 
-/// What the two shaders without a function vary by.
+/// The noise of the two shaders without a function.
 #[derive(Serialize)]
 struct NoiseOfShaders {
     heavy: Noise,
@@ -331,7 +331,7 @@ impl<'a> TimeReport<'a> {
         }
     }
 
-    /// The report as a table, the cheapest first; what was not measured comes last.
+    /// The report as a table, the cheapest first; what was not measured stands last.
     pub fn text(&self) -> String {
         let share = |row: &TimeRow| {
             let figure = row.figure.as_ref();
@@ -343,7 +343,7 @@ impl<'a> TimeReport<'a> {
         self.head() + &table::text_table(&COLUMNS, &cells)
     }
 
-    /// What a reader must know of the table.
+    /// What a reader must know before the table.
     fn head(&self) -> String {
         let clock = match self.clock {
             Clock::Gpu => "the device's timestamps",
@@ -375,7 +375,7 @@ const COLUMNS: [&str; 9] = [
     "95 % interval",
 ];
 
-/// What a shader's readings vary by.
+/// The noise of a shader's readings.
 fn noise_text(name: &str, noise: &Noise) -> String {
     if noise.readings == 0 {
         return format!("{name}: not read");

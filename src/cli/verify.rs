@@ -1,4 +1,4 @@
-//! `verify`: what is generated, run on every target and held against what it means.
+//! `verify`: runs the generated functions on every target and compares the results with their exact meaning.
 
 use core::time::Duration;
 use std::collections::{BTreeMap, BTreeSet};
@@ -117,7 +117,7 @@ pub struct VerifyFlags {
 }
 
 impl VerifyFlags {
-    /// The command that reports this again under these viewing conditions, without places.
+    /// The command that makes this report again under these viewing conditions, without paths.
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let is_half = self.precision.precision == Some(Precision::F16);
         let points = (!self.exhaustive && !is_half).then_some(self.points);
@@ -139,12 +139,12 @@ impl VerifyFlags {
     }
 }
 
-/// Cosines that a run may ask for.
+/// The range of `--points`.
 const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
 
 /// Verifies.
 pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
-    // Before the work begins, so that a worker ends with its supervisor at any time.
+    // Opened before the work begins, so that a worker ends with its supervisor at any time.
     let inbox = flags.worker.then(Inbox::open);
     check_limit(flags.limit)?;
     let shard = shard(flags)?;
@@ -165,7 +165,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     if let Some(inbox) = inbox {
         let devices = Devices::new(wanted);
         let served = serve(inbox, &plan, &devices, effort, shard.is_some());
-        // The supervisor has gone: nobody is there to be told.
+        // The supervisor is gone.
         return Ok(Output {
             code: u8::from(served.is_err()),
             ..Output::default()
@@ -201,7 +201,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// The shard that this run is.
+/// The shard that this run takes.
 fn shard(flags: &VerifyFlags) -> Result<Option<Shard>, Error> {
     let variables = VARIABLES.map(|name| (name, machine::variable(name)));
     Ok(shard_of(flags.shards, flags.shard, &variables)?)
@@ -237,7 +237,7 @@ fn effort(flags: &VerifyFlags) -> Result<VerifyEffort, Error> {
     })
 }
 
-/// The report, and how the run ends.
+/// The report and the exit code.
 fn reported(
     flags: &VerifyFlags,
     request: &Request,
@@ -279,7 +279,7 @@ fn reported(
     Ok(output)
 }
 
-/// What is said of files that the run leaves out.
+/// The remark on files that the run leaves out.
 fn unasked_words(files: &[String]) -> String {
     const NAMED: usize = 3;
     let names: Vec<String> = files
@@ -298,7 +298,7 @@ fn unasked_words(files: &[String]) -> String {
     )
 }
 
-/// The report of a shard, and how it ends.
+/// The report of a shard, and its exit code.
 fn shard_report(
     whole: WholeRun,
     shard: Shard,
@@ -321,7 +321,7 @@ fn shard_report(
     Ok(output)
 }
 
-/// The report of a whole run, and how it ends.
+/// The report of a whole run, and its exit code.
 pub(super) fn whole_report(whole: Whole, files: &CheckReportFlags) -> Result<Output, Error> {
     let rows = whole.rows;
     let full = Report::new(whole.command, rows.clone()).with_device(devices(&rows));
@@ -332,7 +332,7 @@ pub(super) fn whole_report(whole: Whole, files: &CheckReportFlags) -> Result<Out
     Ok(output)
 }
 
-/// What people are told of files without rows: a line for each reason.
+/// The remarks on files without rows: a line for each reason.
 fn remarks_on_parts_without_rows(parts: &[PartStatement]) -> Vec<String> {
     let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for part in parts {
@@ -347,7 +347,7 @@ fn remarks_on_parts_without_rows(parts: &[PartStatement]) -> Vec<String> {
     by_reason.into_iter().map(line).collect()
 }
 
-/// A report in all its forms.
+/// A report in all its formats.
 fn told<T: Serialize>(
     rows: &[VerifyRow],
     full: &T,
@@ -366,8 +366,9 @@ fn told<T: Serialize>(
     Ok(output)
 }
 
-/// 1 for findings; 3 where a target could not be run at all, or, if all is asked for, anything was not checked. A shard has few rows of
-/// a target, and all of them may be such as are run nowhere: it ends with 3 where its machine lacks something.
+/// The exit code: 1 for findings; 3 where a target could not be run at all or, with `--require-all`, where anything was not
+/// checked. A shard has few rows of a target, and possibly none of them can run anywhere. So it ends with 3 where its machine
+/// lacks something.
 fn code(rows: &[VerifyRow], require_all: bool, shard: Option<&MachineStatement>) -> u8 {
     if rows.iter().any(|row| row.status == Status::Fail) {
         return 1;
@@ -389,7 +390,7 @@ fn code(rows: &[VerifyRow], require_all: bool, shard: Option<&MachineStatement>)
 /// How many findings are shown in full; the JSON has all.
 const SHOWN: usize = 20;
 
-/// A line for each row, and what share of all numbers was run.
+/// A line for each row, and the share of all numbers that was run.
 pub fn verify_text(rows: &[VerifyRow]) -> String {
     let head = [
         "target",
@@ -428,7 +429,7 @@ fn cells(row: &VerifyRow) -> Vec<String> {
     ]
 }
 
-/// In half precision the absolute error, else ulp.
+/// In half precision the absolute error, otherwise ulp.
 fn code_error(row: &VerifyRow) -> Option<String> {
     let error = row.code_error.as_ref()?;
     match (error.max_ulp, error.max_abs) {
@@ -453,7 +454,7 @@ fn allowed(row: &VerifyRow) -> Option<String> {
     }
 }
 
-/// What share of all numbers was tried: a sample finds what is wrong at a single number by luck only.
+/// The share of all numbers that was tried. A sample finds a result that is wrong at a single number only by luck.
 fn covered(rows: &[VerifyRow]) -> String {
     let shares = |precision: Precision| {
         let rows = rows.iter().filter(move |row| row.precision == precision);
@@ -485,7 +486,7 @@ fn with_status(rows: &[VerifyRow], status: Status) -> impl Iterator<Item = &Veri
     rows.iter().filter(move |row| row.status == status)
 }
 
-/// What was not checked, each once.
+/// The reasons why something was not checked, each once.
 pub fn not_checked(rows: &[VerifyRow]) -> BTreeSet<String> {
     let mut all = BTreeSet::new();
     for row in rows {
@@ -506,9 +507,9 @@ pub fn not_checked(rows: &[VerifyRow]) -> BTreeSet<String> {
     all
 }
 
-/// Findings and what was not checked, for stderr; where GitHub reads them it shows findings beside the file.
+/// Findings, and what was not checked, for stderr. On GitHub, findings are shown beside the file.
 pub fn verify_remarks(rows: &[VerifyRow], is_github: bool) -> Vec<String> {
-    // What is wrong with a file stands in all of its rows.
+    // A fault of a file is repeated in all of its rows.
     let mut findings: Vec<String> = Vec::new();
     for row in with_status(rows, Status::Fail) {
         let finding = finding(row, is_github);
@@ -549,7 +550,7 @@ fn finding(row: &VerifyRow, is_github: bool) -> String {
     }
     let reason: Vec<String> = reason.lines().map(one_line).collect();
     let (file, reason) = (one_line(&row.file), reason.join("\n"));
-    // As GitHub's own tool escapes a property and a message.
+    // Escaped as GitHub's own tool escapes a property and a message.
     let line = reason.replace('%', "%25").replace('\n', "%0A");
     let file = file
         .replace('%', "%25")

@@ -1,11 +1,11 @@
-//! The command that makes a file or a report again, as a user types it: in headers, in JSON, in manifests.
+//! The command that makes a file or a report again, as a user would type it. It appears in headers, JSON and manifests.
 
 use core::fmt::Display;
 
 use crate::physics::materials::{Extrapolate, Surface, ViewingConditions};
 use crate::physics::spectra::Integration;
 
-/// A command that grows flag by flag, in the order in which its flags are given here.
+/// A command that is built flag by flag. Flags appear in the order of the calls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CommandLine(String);
 
@@ -15,13 +15,14 @@ impl CommandLine {
         CommandLine(words.to_owned())
     }
 
-    /// A word without a flag.
+    /// Adds a word without a flag.
     #[must_use]
     pub fn argument(self, word: &str) -> CommandLine {
         CommandLine(format!("{} {}", self.0, quoted(word)))
     }
 
-    /// A flag with these words, commas between; nothing where there are none. Where a word has a comma itself, each has the flag.
+    /// Adds a flag with these words, separated by commas; nothing if there are none. If a word itself has a comma, each word gets
+    /// the flag.
     #[must_use]
     pub fn list<T: Display>(self, name: &str, words: impl IntoIterator<Item = T>) -> CommandLine {
         let words: Vec<String> = words
@@ -39,13 +40,13 @@ impl CommandLine {
         CommandLine(format!("{} --{name} {}", self.0, words.join(&separator)))
     }
 
-    /// A flag with a number, which is written as it is.
+    /// Adds a flag with a number, unquoted.
     #[must_use]
     pub fn number(self, name: &str, value: impl Display) -> CommandLine {
         CommandLine(format!("{} --{name} {value}", self.0))
     }
 
-    /// A flag without a value, where it is set.
+    /// Adds a flag without a value, if it is set.
     #[must_use]
     pub fn switch(self, name: &str, is_set: bool) -> CommandLine {
         if is_set {
@@ -55,13 +56,13 @@ impl CommandLine {
         }
     }
 
-    /// The flags of these viewing conditions.
+    /// Adds the flags of these viewing conditions.
     #[must_use]
     pub fn seen_as(self, viewing: &ViewingConditions) -> CommandLine {
         CommandLine(self.0 + &viewing_condition_flags(viewing))
     }
 
-    /// The same command with more flags, each with a space before it.
+    /// Adds more flags, each with a space before it.
     #[must_use]
     pub fn with(self, flags: &str) -> CommandLine {
         CommandLine(self.0 + flags)
@@ -74,8 +75,8 @@ impl From<CommandLine> for String {
     }
 }
 
-/// A word of a shell's command line, in ASCII and on one line, since it stands in comments of shaders. `printf` says what is not,
-/// for POSIX has no other escape.
+/// A word quoted for a shell, in ASCII and on one line, since it stands in comments of shaders. `printf` writes other characters,
+/// since POSIX has no other escape.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -88,7 +89,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// A byte as the format of `printf` has it, within single quotes.
+/// A byte as in the format string of `printf`, within single quotes.
 fn printed(byte: u8) -> String {
     match byte {
         b'%' => "%%".to_owned(),
@@ -100,8 +101,9 @@ fn printed(byte: u8) -> String {
     }
 }
 
-/// A path as a user types it again: a relative one as it was typed; of an absolute one its last part, since no output names a folder of
-/// this machine. It is no name of a list and no flag: `gold` is a material of the catalogue, and `./gold` a file.
+/// A path as a user would type it again. A relative one is unchanged. Of an absolute one only the last part is given, since no
+/// output names a folder of this machine. The result is neither a catalogue name nor a flag: `gold` is a material of the
+/// catalogue, and `./gold` a file.
 pub fn path_again(path: &str) -> String {
     let is_of_windows = cfg!(windows) && (path.contains(':') || path.starts_with('\\'));
     let typed = if path.starts_with('/') || is_of_windows {
@@ -123,8 +125,8 @@ fn last_part(path: &str) -> &str {
     path.rsplit(separators).next().unwrap_or(path)
 }
 
-/// The flags that say again how a surface was seen, each with a space before it; nothing where all is as usual. Where each
-/// channel is one wavelength, the rest of the viewing conditions says nothing.
+/// The flags that give a surface's viewing conditions again, each with a space before it; empty for the defaults. Where each
+/// channel is one wavelength, the other viewing conditions have no effect.
 pub fn surface_flags(viewing: &ViewingConditions, surface: &Surface) -> String {
     if surface.channels().is_none() {
         return viewing_condition_flags(viewing);
@@ -136,7 +138,7 @@ pub fn surface_flags(viewing: &ViewingConditions, surface: &Surface) -> String {
     })
 }
 
-/// The flags that say these viewing conditions again, each with a space before it.
+/// The flags that give these viewing conditions again, each with a space before it.
 fn viewing_condition_flags(viewing: &ViewingConditions) -> String {
     let (own, usual) = (&viewing.integration, Integration::default());
     let choices = [

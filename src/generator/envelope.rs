@@ -1,16 +1,16 @@
-//! The one form of JSON reports: which program wrote it, the command that writes it again, the device, the rows.
+//! The common form of JSON reports: the program that wrote it, the command that writes it again, the device, the rows.
 //!
 //! A report with keys of its own flattens [`Origin`] and lists its keys after that: the order of fields is the order of keys.
 
 use serde::Serialize;
 
-/// The version of the form of JSON reports. It rises when a key changes its meaning or goes.
+/// The version of the format of JSON reports. It rises when a key changes its meaning or is removed.
 pub const SCHEMA: u32 = 1;
 
 /// The name of the program, as reports give it.
 pub const TOOL: &str = "fresnel-gen";
 
-/// Where a report comes from.
+/// The origin of a report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Origin {
     tool: &'static str,
@@ -28,7 +28,7 @@ impl Origin {
         }
     }
 
-    /// The same of a form with a version of its own.
+    /// The same, for a format with its own version.
     pub fn with_schema(self, schema: u32) -> Origin {
         Origin { schema, ..self }
     }
@@ -39,7 +39,7 @@ impl Origin {
     }
 }
 
-/// A report of rows.
+/// A report with rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report<T> {
     #[serde(flatten)]
@@ -49,7 +49,7 @@ pub struct Report<T> {
 }
 
 impl<T> Report<T> {
-    /// The report that this command writes. No device took part.
+    /// A report that this command writes, without a device.
     pub fn new(command: impl Into<String>, rows: Vec<T>) -> Report<T> {
         Report {
             origin: Origin::new(command),
@@ -58,7 +58,7 @@ impl<T> Report<T> {
         }
     }
 
-    /// The same report, of what ran on this device.
+    /// The same report, measured on this device.
     pub fn with_device(self, device: Option<String>) -> Report<T> {
         Report { device, ..self }
     }

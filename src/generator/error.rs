@@ -1,6 +1,5 @@
-//! What can go wrong between the artifacts and the disk: each error names the path, the fault and the way out.
-//!
-//! What is wrong with a request, by kind: each says what was given, what is allowed, and where.
+//! Errors of this program. Those of the output folder and the disk name the path, the fault and the way out. Those of a request
+//! say what was given, what is allowed, and where.
 
 use std::io;
 use std::path::PathBuf;
@@ -13,14 +12,14 @@ use crate::physics::foreign::{self, Foreign, one_line};
 use crate::physics::materials;
 use crate::physics::names::UnknownName;
 
-/// A fault of the output folder, or of what was to be put there.
+/// An error of a run: of its request, of what it generates, or of the output folder.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A name that does not exist.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// A fault of the request that several commands know.
+    /// A fault of the request that several commands share.
     #[error(transparent)]
     Request(#[from] RequestFault),
     /// A request that contradicts itself or cannot be met.
@@ -29,13 +28,13 @@ pub enum Error {
         /// What was wrong, and what is allowed.
         what: String,
     },
-    /// Something that this takes is not here.
+    /// Something that the command needs is missing.
     #[error("{}", one_line(what))]
     Lacking {
         /// What is missing, and how to get it.
         what: String,
     },
-    /// A material that is not known where it is looked at.
+    /// A material that is not known at the wavelengths needed.
     #[error(transparent)]
     Unseen(#[from] materials::Unseen),
     /// A file that the user named cannot be read.
@@ -49,7 +48,7 @@ pub enum Error {
     /// A material file with a fault.
     #[error(transparent)]
     Material(#[from] materials::FileFault),
-    /// Emission refused.
+    /// Emission failed.
     #[error(transparent)]
     Emit(#[from] emit::Error),
     /// An adapter cannot be written.
@@ -89,7 +88,7 @@ pub enum Error {
         /// What was found and what was expected.
         reason: String,
     },
-    /// A file or folder is there and cannot be read.
+    /// An existing file or folder cannot be read.
     #[error(
         "cannot read {}: {source}; nothing was written. Check its permissions and that each folder above it is a folder",
         foreign::path(path)
@@ -100,16 +99,16 @@ pub enum Error {
         /// The system's reason.
         source: io::Error,
     },
-    /// A folder, pipe or device stands where a file is to be written.
+    /// A folder, pipe or device is in the place of a file to be written.
     #[error(
         "{} is not a file; nothing was written. Move it away or choose another output",
         foreign::path(path)
     )]
     NotAFile {
-        /// What stands there.
+        /// What is there.
         path: PathBuf,
     },
-    /// A file lies where one is to be written, and nothing proves that this program wrote it.
+    /// A file is in the place of one to be written, and nothing proves that this program wrote it.
     #[error(
         "{}: {}; nothing was written. Move it away, choose another place, or replace it with --overwrite",
         foreign::path(path),
@@ -118,7 +117,7 @@ pub enum Error {
     NotOurs {
         /// The place.
         path: PathBuf,
-        /// What lies there.
+        /// What is there.
         what: String,
     },
     /// A folder of the output is a link: what lies behind it is not this run's.
@@ -133,7 +132,7 @@ pub enum Error {
         /// Where it leads.
         leads_to: PathBuf,
     },
-    /// An output leads over a link, or into a pipe, that another user may have put there.
+    /// An output leads through a link, or into a pipe, that another user may have put there.
     #[error(
         "{} is a link or a pipe of another user in a folder that users share; nothing was written. Name another place, or remove it",
         foreign::path(link)
@@ -168,7 +167,7 @@ pub enum Error {
         /// How many files were to be replaced.
         pending: usize,
     },
-    /// All files were prepared, and something has appeared in the place of one.
+    /// All files were prepared, but something has appeared in the place of one.
     #[error(
         "{}: what lies there appeared or changed while this run wrote, or cannot be read, and stays; {replaced} of {pending} files are new, the others are as before. Move it away, or replace it with --overwrite, and run again",
         foreign::path(path)
@@ -199,14 +198,14 @@ pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
     UnknownName::new(kind, name, all).into()
 }
 
-/// How a material gets another name.
+/// The advice on how to rename a material.
 pub const NEW_NAME: &str = "rename one in its file; a page or a table is named after its file: rename that, or let `fresnel-gen materials import FILE --name NAME -o NAME.toml` make a material file";
 
 /// What is wrong with a request.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RequestFault {
-    /// A flag's number beyond its limits.
+    /// A flag's number outside its limits.
     #[error("--{flag} is {}; it {}", Foreign(value), one_line(allowed))]
     OutOfRange {
         /// The flag.
@@ -219,13 +218,13 @@ pub enum RequestFault {
     /// Flags, or values of one, that contradict each other.
     #[error("{}", one_line(why))]
     Conflict {
-        /// Why they do, and what to leave out.
+        /// Why they contradict each other, and what to leave out.
         why: String,
     },
-    /// A command of materials, and `--material none`.
+    /// A command that needs materials, with `--material none`.
     #[error("{why}")]
     NoMaterial {
-        /// What the command wants of materials.
+        /// What the command does with materials.
         why: &'static str,
     },
     /// Names that leave nothing to do.
@@ -236,20 +235,20 @@ pub enum RequestFault {
         /// Why nothing is left.
         why: &'static str,
     },
-    /// Two materials of one name.
+    /// Two materials with one name.
     #[error("two different materials are named `{}`: `{}` and `{}`; {NEW_NAME}", Foreign(name), Foreign(&words[0]), Foreign(&words[1]))]
     SameName {
         /// The name.
         name: String,
-        /// The words that name them.
+        /// The words that name them on the command line.
         words: [String; 2],
     },
-    /// A file of a material in the place of another's.
+    /// A file of one material in the place of another's.
     #[error("{} was written of `{}`, and `{}` comes out with the same name; nothing was written; {NEW_NAME}", Foreign(file), Foreign(&words[0]), Foreign(&words[1]))]
     Namesake {
         /// The file.
         file: String,
-        /// The words that name them, as a shell takes them.
+        /// The words that name them, quoted for a shell.
         words: [String; 2],
     },
     /// A material whose name means something else.
@@ -260,10 +259,10 @@ pub enum RequestFault {
     NameTaken {
         /// The name.
         name: String,
-        /// What it means.
+        /// What the name already means.
         meaning: &'static str,
     },
-    /// A medium that no light comes through.
+    /// A medium that is not transparent.
     #[error(
         "the medium `{}` is a {class}; a medium must be transparent: a dielectric",
         Foreign(name)
@@ -274,7 +273,7 @@ pub enum RequestFault {
         /// Its class.
         class: &'static str,
     },
-    /// A light's file whose name is that of a standard light.
+    /// A light's file that has the name of a standard light.
     #[error(
         "the light's file is named `{}`, as a standard light is; rename it",
         Foreign(name)
@@ -283,29 +282,29 @@ pub enum RequestFault {
         /// The name.
         name: String,
     },
-    /// An output that cannot lie where it should.
+    /// An output that must not lie where it should.
     #[error("{}: {why}", foreign::path(place))]
     Place {
         /// The output.
         place: PathBuf,
-        /// What lies there, and the way out.
+        /// What is there, and the way out.
         why: &'static str,
     },
-    /// A picture, a page or a report that cannot be made.
+    /// A picture, page or report that cannot be made.
     #[error("{}", one_line(reason))]
     NotDrawn {
-        /// The reason of whatever makes it.
+        /// The reason that its maker gives.
         reason: String,
     },
 }
 
 impl RequestFault {
-    /// Flags, or values of one, that contradict each other, and why.
+    /// The error for flags, or values of one, that contradict each other.
     pub fn conflict(why: impl Into<String>) -> RequestFault {
         RequestFault::Conflict { why: why.into() }
     }
 
-    /// A method that an effect cannot take R from.
+    /// The error for a method from which an effect cannot take R.
     pub fn textured_reflectance(method: &Method) -> RequestFault {
         RequestFault::conflict(format!(
             "method `{}` reads a texture of its own, which effects do not pass on; name another --method",

@@ -1,10 +1,9 @@
 //! From a request to files.
 //!
 //! It fits coefficients to materials, folds constants into graphs, prints them into pages, and bakes tables, adapters and
-//! parameters for engines. [`generate()`] is pure: it gives files in memory, which [`output`] compares with a folder or writes there.
-//! This is what a build script uses, so that no graphics stack and no command line is needed up to here.
-//! It imports physics and language.
-//! Start with [`generate()`] and follow a request through it.
+//! parameters for engines. [`generate()`] is pure: it returns files in memory, which [`output`] compares with a folder or writes
+//! there. A build script uses only this much, so nothing here needs a graphics stack or a command line. It imports physics and
+//! language. Start with [`generate()`] and follow a request through it.
 
 // Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours, fault < error < output < request < generate
 

@@ -1,8 +1,8 @@
-//! The hash that tells files and functions apart.
+//! The hash that identifies files and functions.
 
 use sha2::{Digest, Sha256};
 
-/// The SHA-256 of these bytes in hexadecimal digits.
+/// The SHA-256 of these bytes, in lower-case hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
     let digest = Sha256::digest(bytes);
     digest.iter().map(|byte| format!("{byte:02x}")).collect()

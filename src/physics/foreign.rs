@@ -1,31 +1,33 @@
-//! What others wrote, as it may stand in a message: names and texts of files, paths, words of a command line, words of compilers.
+//! Untrusted text in messages: names and texts of files, paths, words of a command line, messages of compilers.
 //!
-//! Each such value is put into a message by one of these. It is one line then: controls, line breaks and what turns the direction of
-//! text are escapes. It is no command: build servers obey a line that begins with `::` (GitHub), or that holds `##[`, `##vso[` or
-//! `##teamcity[`. It is not longer than a person reads. What is shown already is shown as it is, so that messages may hold messages.
+//! Each such value is put into a message by one of these functions.
+//! - It becomes one line: control characters, line breaks and marks of text direction are escaped.
+//! - It is no command: build servers obey a line that begins with `::` (GitHub), or that holds `##[`, `##vso[` or `##teamcity[`.
+//! - It is shortened to what a person reads.
+//! - Escaping it again changes nothing, so that messages may hold messages.
 
 use core::fmt::{self, Display};
 use std::path::Path;
 
-/// As many characters of a value are shown, its first and its last.
+/// The number of characters of a long value that are shown: its first and its last.
 const VALUE: [usize; 2] = [400, 100];
-/// As many of a line that holds values: no list of ours is longer.
+/// The same of a line that holds values. No list of ours is longer.
 const LINE: [usize; 2] = [5000, 1000];
-/// As many lines of a compiler are shown, and of each as many characters.
+/// The number of lines of a compiler that are shown, and of characters of each.
 const LINES: usize = 200;
 const WIDTH: usize = 2000;
-/// What stands before each line of a compiler.
+/// The prefix of each line of a compiler.
 const MARGIN: &str = "  | ";
 
-/// Whether a character is one that a reader does not see and a terminal obeys: controls of C0 and C1, line breaks of Unicode,
-/// controls of the direction of text. Line breaks and tabs are.
+/// Whether a character is invisible and obeyed by a terminal: C0 and C1 controls (line breaks and tabs included), Unicode line
+/// breaks, and marks of text direction.
 pub fn is_hidden(c: char) -> bool {
     let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     c.is_control() || turns || matches!(c, '\u{2028}' | '\u{2029}')
 }
 
-/// A text of JSON or TOML with these as escapes inside of its strings. Line breaks and tabs stay: a writer of either escapes
-/// them itself where they stand in a string.
+/// JSON or TOML text with these characters escaped in its strings. Line breaks and tabs stay: a writer of either format has
+/// escaped those in strings itself.
 pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
@@ -38,7 +40,7 @@ pub fn escaped(text: &str) -> String {
     safe
 }
 
-/// A value of others in a message.
+/// An untrusted value in a message: displayed as one line, shortened.
 #[derive(Clone, Copy, Debug)]
 pub struct Foreign<T>(pub T);
 
@@ -53,27 +55,27 @@ pub fn path<P: AsRef<Path> + ?Sized>(path: &P) -> Foreign<String> {
     Foreign(path.as_ref().to_string_lossy().into_owned())
 }
 
-/// A message that holds values of others, as one line. A word of it is no longer than a value.
+/// A message that holds untrusted values, as one line. Each word is shortened like a value.
 pub fn one_line(text: &str) -> String {
     clipped(&words_clipped(&unbroken(text)), LINE)
 }
 
-/// A line of a file, as one line. What is compared may differ anywhere in a long word.
+/// A line of a file, as one line. Words are not shortened, since compared lines may differ anywhere in a long word.
 pub fn line_of_file(text: &str) -> String {
     clipped(&unbroken(text), LINE)
 }
 
-/// A text whose words, what stands between blanks, are not longer than a person reads.
+/// A text whose words (separated by white space) are each shortened like a value.
 fn words_clipped(text: &str) -> String {
     text.split_inclusive(char::is_whitespace)
         .map(|word| clipped(word, VALUE))
         .collect()
 }
 
-/// A text without line breaks, and without what is obeyed.
+/// A text with line breaks, control characters and commands escaped.
 fn unbroken(text: &str) -> String {
     let mut line = String::with_capacity(text.len());
-    // GitHub's runner takes blanks off before it looks for a command.
+    // GitHub's runner trims white space before it looks for a command.
     let begins_command = text.trim_start().starts_with("::");
     let mut letters = text.chars().peekable();
     let mut before = ' ';
@@ -99,7 +101,7 @@ fn opens(c: char) -> bool {
     c == '[' || c.is_ascii_alphabetic()
 }
 
-/// A message of several lines: the first is one line, those below it stand behind a margin.
+/// A message of several lines: the lines below the first stand behind a margin.
 pub fn lines(text: &str) -> String {
     match text.trim_end().split_once('\n') {
         None => one_line(text.trim_end()),
@@ -107,7 +109,7 @@ pub fn lines(text: &str) -> String {
     }
 }
 
-/// Each line as one that nothing obeys, behind a margin.
+/// Each line escaped, behind a margin.
 fn behind_margin(text: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut rest = text.trim_end().lines();

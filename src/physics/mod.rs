@@ -1,9 +1,8 @@
-//! What light does at a surface, and what is known of materials.
+//! Physics of reflection: number types, the exact laws, spectra with their colours, and the catalogue of n and k.
 //!
-//! Here stand the numbers that formulas compute with, the exact laws, spectra with their colours, and the catalogue of n and k.
-//! Nothing here knows a shader, a graph or a file of ours but those of materials: what is generated is judged by this wing.
-//! It imports nothing else of this crate.
-//! Start with [`optics`], the laws in a page, and with [`materials::Surface`], a material as light meets it.
+//! Generated code is tested against this wing. So it knows no shader, no graph, and no file format of ours except that of
+//! materials. It imports nothing else of this crate.
+//! Start with [`optics`], the laws on one page, and with [`materials::Surface`], a material under viewing conditions.
 
 // Rooms: foreign < num, cite, names, records, digest < optics < spectra < materials
 

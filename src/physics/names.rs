@@ -1,14 +1,14 @@
-//! Names: which are legal in every language, and for one that is not there, which come nearest.
+//! Names: which are legal in every language, and which are nearest to an unknown one.
 
 use thiserror::Error;
 
 use crate::physics::foreign::{Foreign, one_line};
 
-/// How alike two names must be (Jaro-Winkler, 0 to 1) before one is offered for the other.
+/// The similarity (Jaro-Winkler, 0 to 1) from which a name is suggested for another.
 const ALIKE: f64 = 0.7;
-/// How many are offered at most.
+/// The most names that are suggested.
 const OFFERED: usize = 3;
-/// No name is longer. What is longer is like none, and comparing it takes its time.
+/// No name is longer, in bytes. A longer one is not compared, which would be slow.
 const LONGEST: usize = 200;
 /// More names than this are not listed.
 const MANY: usize = 40;
@@ -21,13 +21,12 @@ const MANY: usize = 40;
     offered(nearest)
 )]
 pub struct UnknownName {
-    /// What was named: `method`, `material`, `target`.
+    /// The kind of thing: `method`, `material`, `target`.
     kind: &'static str,
-    /// The name.
     name: String,
-    /// The nearest right names.
+    /// The nearest names that exist.
     nearest: Vec<String>,
-    /// All of them.
+    /// The list of all names, or where to find it.
     all: String,
 }
 
@@ -43,7 +42,7 @@ impl UnknownName {
     }
 }
 
-/// The question whether one of these was meant; nothing where there are none.
+/// ` (did you mean …?)` with these names; nothing where there are none.
 pub fn offered(nearest: &[String]) -> String {
     if nearest.is_empty() {
         String::new()
@@ -52,7 +51,7 @@ pub fn offered(nearest: &[String]) -> String {
     }
 }
 
-/// All names, or where to find them where they are many.
+/// The list of all names, or where to find it if it is long.
 fn listed(kind: &str, all: &[&str]) -> String {
     if all.len() > MANY {
         let see = if kind == "substance" {
@@ -66,8 +65,8 @@ fn listed(kind: &str, all: &[&str]) -> String {
     }
 }
 
-/// The names most like this one, best first: all that are alike, or that hold the name. Of a short list where none is, the best
-/// that shares a letter with it.
+/// The names most similar to this one, best first: up to three that are alike or contain it. If none is and the list is short,
+/// the best one that shares a letter with it.
 pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
     if name.len() > LONGEST {
         return Vec::new();
@@ -92,7 +91,7 @@ pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// File systems allow 255 bytes, and endings follow.
+/// In bytes: file systems allow 255, and extensions follow.
 const LONGEST_NAME: usize = 200;
 
 /// What is wrong with a name, if anything: it must be legal in every language.

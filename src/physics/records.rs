@@ -1,8 +1,8 @@
-//! Our own records: the CSV files of `data/`, read as typed rows. Lines before the head begin with `#`.
+//! Our own records: the CSV files of `data/`, read as typed rows. Lines that begin with `#` are comments.
 
 use serde::de::DeserializeOwned;
 
-/// The rows of a record that is part of the program.
+/// The rows of a record that is embedded in the program.
 ///
 /// # Panics
 /// A row does not fit its type. Tests read every record.

@@ -1,4 +1,4 @@
-//! One page with all figures: a bar for each function on each family. Self-contained, for any browser.
+//! The HTML page of costs: a bar for each function on each GPU family. Self-contained, for any browser.
 
 use serde::Serialize;
 use tera::Context;
@@ -8,7 +8,7 @@ use crate::pictures::html;
 
 static TEMPLATE: &str = include_str!("../../templates/cost.html.tera");
 
-/// A family on the page.
+/// A GPU family on the page.
 #[derive(Serialize)]
 struct FamilySection {
     name: &'static str,
@@ -16,18 +16,18 @@ struct FamilySection {
     vendor: &'static str,
     measure: &'static str,
     compiler: String,
-    /// Why nothing is known, where nothing is.
+    /// Why no cost is known, where none is.
     reason: Option<String>,
     lines: Vec<Line>,
 }
 
-/// A function in a family.
+/// A function on a family.
 #[derive(Serialize)]
 struct Line {
     label: String,
     cost: String,
     share: String,
-    /// The length of its bar, in per cent of the longest.
+    /// The length of its bar, as a percentage of the longest.
     length: String,
     fetches: usize,
     registers: String,
@@ -88,7 +88,7 @@ fn line(row: &CostRow, longest: f64) -> Line {
     }
 }
 
-/// A figure with at most two decimals.
+/// A cost with at most two decimals.
 pub fn short(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| {
         let rounded = (100.0 * value).round() / 100.0;
@@ -96,7 +96,7 @@ pub fn short(value: Option<f64>) -> String {
     })
 }
 
-/// The share, with a mark for each fetch.
+/// The share of the exact law's cost in per cent, with a `+` for each fetch.
 pub fn percent(row: &CostRow) -> String {
     let fetches = "+".repeat(row.fetches);
     row.share.map_or_else(

@@ -1,8 +1,8 @@
-//! The first picture of README: gold and platinum by Schlick's approximation, by `fitted` and by the exact law of the whole
+//! The first picture of README: gold and platinum by Schlick's approximation, by `fitted` and by the exact law over the whole
 //! spectrum, as spheres and as curves.
 //!
-//! A sphere is seen from afar in a room that is white everywhere, so that a pixel's colour is the reflectance at its angle:
-//! at r of the radius sin θ = r. The right half of a sphere shows the error in place of the colour.
+//! A sphere is seen from afar in a room that is white everywhere, so a pixel's colour is the reflectance at its angle:
+//! at r of the radius sin θ = r. The right half of a sphere shows the error instead of the colour.
 
 use crate::lab::chart::exact_and_approximated;
 use crate::pictures::plot::{
@@ -10,17 +10,17 @@ use crate::pictures::plot::{
     hex_colour, ticks,
 };
 
-/// The materials, with the lowest reflectance of each axis.
+/// The materials, each with the lowest reflectance on its axis.
 const MATERIALS: [(&str, f64); 2] = [("gold", 0.6), ("platinum", 0.4)];
 /// The methods, cheapest first; the exact law comes last.
 const METHODS: [(&str, &str); 2] = [("schlick", "Schlick"), ("fitted", "fitted")];
 /// The exact law's name in the picture.
 const EXACT: &str = "exact law";
-/// How much the error is brightened.
+/// The factor that brightens the error.
 const BRIGHTER: f64 = 5.0;
-/// From 0 to 90 degrees, half a degree apart.
+/// The number of angles: from 0 to 90 degrees, half a degree apart.
 const ANGLES: u32 = 181;
-/// Of these angles a sphere's gradient takes each so many.
+/// The stride in these angles of a sphere's gradient.
 const STOPS: usize = 4;
 
 const PICTURE: PanelFrame = PanelFrame {
@@ -43,16 +43,16 @@ const CURVES: PanelFrame = PanelFrame {
 };
 const RADIUS: f64 = 90.0;
 
-/// A reflectance at all angles, and what it is called.
+/// A reflectance at all angles, and its name.
 struct Curve {
     name: &'static str,
     colours: Vec<[f64; 3]>,
 }
 
-/// The picture as SVG text; `command` is what makes it, for its foot.
+/// The picture as SVG text. `command` makes it again and stands at its foot.
 ///
 /// # Errors
-/// A material or a method is not there, or cannot be seen.
+/// A material or a method does not exist, or the material cannot be viewed.
 pub fn headline(command: &str) -> Result<String, String> {
     let mut layout = Layout::new(PICTURE);
     let title = "Schlick's approximation, fitted, and the exact law";
@@ -78,7 +78,7 @@ fn degrees() -> impl Iterator<Item = f64> {
     (0..ANGLES).map(|i| 90.0 * f64::from(i) / f64::from(ANGLES - 1))
 }
 
-/// The methods' reflectance, and last that of the whole spectrum.
+/// The reflectance by each method, and last by the whole spectrum.
 fn curves(material: &str) -> Result<Vec<Curve>, String> {
     let degrees: Vec<f64> = degrees().collect();
     let found = exact_and_approximated(material, &METHODS.map(|(method, _)| method), &degrees)?;

@@ -1,10 +1,10 @@
-//! Pages for a browser: a template of ours, filled.
+//! HTML pages from templates.
 
 use tera::{Context, Tera};
 
 use crate::physics::materials::is_hidden;
 
-/// A page, or why it cannot be made. What is put in is escaped, and holds no character that a reader does not see.
+/// A page, or why it cannot be made. The inserted text is escaped, and holds no invisible characters.
 pub fn fill(template: &str, context: &Context) -> Result<String, String> {
     let mut tera = Tera::new();
     tera.autoescape_on(vec![".tera"]);

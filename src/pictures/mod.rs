@@ -1,7 +1,7 @@
 //! What people look at: scenes, plots, pages, and the plan of a scene.
 //!
 //! [`scene`] draws effects with the functions that users import, beside a ray tracer that shares nothing with them.
-//! [`plan`] takes for each material of a scene the cheapest function whose error nobody sees.
+//! [`plan`] chooses for each material of a scene the cheapest function whose error is not visible.
 //! All else draws rows of the lab or spectra of physics, and computes nothing of its own.
 //! It imports all wings but the command line, and is left out without the feature `pictures`.
 //! Start with [`plot`], which every curve goes through, or with [`plan`].

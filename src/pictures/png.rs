@@ -1,9 +1,7 @@
-//! Pictures as PNG: SVG text drawn by `resvg` with fonts that are part of the program.
+//! Pictures as PNG: SVG text drawn by `resvg` with embedded fonts, and raw pixels.
 //!
-//! No font and no file of the machine is read, so that equal text gives equal bytes everywhere. The fonts are parts of
-//! DejaVu Sans, Latin and Greek; what they lack is drawn as an empty box.
-//!
-//! Pixels as PNG.
+//! No font and no file of the machine is read, so equal text gives equal bytes everywhere. The fonts are parts of DejaVu Sans,
+//! Latin and Greek. A character that they lack is drawn as an empty box.
 
 use std::sync::Arc;
 
@@ -13,17 +11,17 @@ use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
 
 use crate::generator::emit::MARK;
 
-/// Regular first: it has letters that the bold one lacks, and is asked for these next.
+/// The regular font comes first. It has letters that the bold one lacks, and is searched for these.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("../../data/fonts/DejaVuSans-subset.ttf"),
     include_bytes!("../../data/fonts/DejaVuSans-Bold-subset.ttf"),
 ];
 const FAMILY: &str = "DejaVu Sans";
 
-/// The largest picture: what most viewers can still show.
+/// The largest side of a picture, which most viewers can still show.
 const MOST_PIXELS: f32 = 16_384.0;
 
-/// A self-contained SVG document as PNG, `scale` pixels to each of its units, on white; or why it cannot be drawn.
+/// A self-contained SVG document as PNG on white, with `scale` pixels to each of its units, or why it cannot be drawn.
 ///
 /// # Errors
 /// The text is not SVG, or the picture is too large.
@@ -58,7 +56,7 @@ fn parse(svg: &str) -> Result<Tree, String> {
         .map_err(|why| format!("the picture is not well-formed SVG: {why}"))
 }
 
-/// The embedded fonts, for whatever family a text asks for.
+/// The embedded fonts, which serve every font family that a text names.
 fn fonts() -> fontdb::Database {
     let mut fonts = fontdb::Database::new();
     for font in FONTS {
@@ -80,7 +78,7 @@ fn pixels(length: f32, scale: f32) -> Result<u32, String> {
     ))
 }
 
-/// Red, green and blue of each pixel, marked as sRGB; the white ground leaves nothing transparent.
+/// Red, green and blue of each pixel, marked as sRGB. On the white ground nothing is transparent.
 fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, map.width(), map.height());
@@ -96,10 +94,10 @@ fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     Ok(bytes)
 }
 
-/// Bytes of red, green and blue, row after row, in sRGB. `about` is ASCII.
+/// A PNG from bytes of red, green and blue, row by row, in sRGB. `about` is ASCII.
 ///
 /// # Errors
-/// It cannot be encoded, and why.
+/// The picture cannot be encoded; the text says why.
 pub fn rgb_png(pixels: &[u8], size: [u32; 2], about: String) -> Result<Vec<u8>, String> {
     encoded(pixels, size, about).map_err(|why| why.to_string())
 }
@@ -158,7 +156,7 @@ mod tests {
     #[test]
     fn each_letter_has_its_own_shape() {
         let picture = |letter: char| png(&drawn_text(&letter.to_string()), 1.0).unwrap();
-        // A character that no font has: Chinese.
+        // A Chinese character, which no font has.
         let missing = picture('\u{6c34}');
         for letter in "aZ9°θληΔµ×−–·…²³₀₂₈éáčćšžüöäøåłşğő".chars()
         {

@@ -1,8 +1,8 @@
-//! Tables as plain text: columns padded, numbers to the right.
+//! Tables as plain text: columns padded, numbers aligned right.
 
 use crate::physics::foreign::one_line;
 
-/// A table with a head and a line under it. No cell breaks its line.
+/// A table with a head and a rule under it. No cell breaks its line.
 pub fn text_table(head: &[&str], rows: &[Vec<String>]) -> String {
     let shown = |row: &Vec<String>| row.iter().map(|cell| one_line(cell)).collect();
     let rows: Vec<Vec<String>> = rows.iter().map(shown).collect();
@@ -48,7 +48,7 @@ fn padded(cell: &str, width: usize) -> String {
     }
 }
 
-/// Three digits that count.
+/// A number with three significant digits.
 pub fn short_number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");

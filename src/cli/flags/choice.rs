@@ -1,6 +1,4 @@
-//! Names on the command line, parsed to what they name.
-//!
-//! What functions compute in, as the command line says it: single or half precision.
+//! Parsers of names on the command line, and the flags for the precision that functions compute in.
 
 use core::fmt;
 
@@ -15,24 +13,24 @@ use crate::language::targets::{self, Target};
 use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
 
-/// A word of a list of names.
+/// A word in a list of names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Choice<T> {
-    /// `all` that there are.
+    /// `all`: every item of the list.
     All,
-    /// `none`, where nothing can be chosen too.
+    /// `none`, where choosing nothing is allowed.
     None,
     /// A name, and what it names.
     One(String, T),
 }
 
 impl<T> Choice<T> {
-    /// Whether these words mean all that there are: `all`, or nothing was said.
+    /// Whether these words mean everything: `all`, or no words at all.
     pub fn is_all(words: &[Choice<T>]) -> bool {
         words.is_empty() || words.iter().any(|word| matches!(word, Choice::All))
     }
 
-    /// Whether these words mean none of what they choose.
+    /// Whether these words choose nothing.
     ///
     /// # Errors
     /// `none` stands beside another word.
@@ -46,7 +44,7 @@ impl<T> Choice<T> {
         Ok(is_none)
     }
 
-    /// What it names, where it is a name.
+    /// The chosen item, if the word is a name.
     pub fn named(&self) -> Option<&T> {
         match self {
             Choice::One(_, named) => Some(named),
@@ -54,7 +52,7 @@ impl<T> Choice<T> {
         }
     }
 
-    /// Those of a list that these words mean, in the list's order.
+    /// The items of a list that these words choose, in the list's order.
     pub fn chosen(
         words: &[Choice<T>],
         list: impl IntoIterator<Item = T>,
@@ -71,7 +69,7 @@ impl<T> Choice<T> {
 }
 
 impl Choice<&'static Method> {
-    /// The methods that these words mean, sorted by name.
+    /// The methods that these words choose, sorted by name.
     pub fn methods(words: &[Choice<&'static Method>]) -> Vec<&'static Method> {
         Choice::chosen(words, methods::ALL.iter().copied(), |method| method.name)
     }
@@ -87,7 +85,7 @@ impl<T> fmt::Display for Choice<T> {
     }
 }
 
-/// The parser of a flag whose values are names of a list.
+/// The parser of a flag whose values are names in a list.
 pub fn one_of<T: Copy>(
     kind: &'static str,
     list: impl IntoIterator<Item = T>,
@@ -95,7 +93,7 @@ pub fn one_of<T: Copy>(
 ) -> impl Fn(&str) -> Result<T, UnknownName> + Clone {
     let list: Vec<(&str, T)> = list.into_iter().map(|one| (name(one), one)).collect();
     move |word: &str| {
-        // Of a list in quotes, a blank after a comma.
+        // A quoted list may have a blank after a comma.
         let word = word.trim();
         let found = list.iter().find(|(name, _)| *name == word);
         let names = || list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
@@ -105,7 +103,7 @@ pub fn one_of<T: Copy>(
     }
 }
 
-/// The parser of a flag whose values are names of a list, or `all`.
+/// The parser of a flag whose values are names in a list, or `all`.
 pub fn one_or_all<T: Copy>(
     kind: &'static str,
     list: impl IntoIterator<Item = T>,
@@ -122,7 +120,7 @@ pub fn one_or_all<T: Copy>(
     }
 }
 
-/// A parser that takes capitals for small letters.
+/// A parser that ignores the case of letters.
 pub fn in_any_case<T, E>(
     parse: impl Fn(&str) -> Result<T, E> + Clone,
 ) -> impl Fn(&str) -> Result<T, E> + Clone {
@@ -156,12 +154,12 @@ pub fn precision() -> impl Fn(&str) -> Result<Precision, UnknownName> + Clone {
     one_of("precision", Precision::ALL, Precision::name)
 }
 
-/// The parser of the name of a family of GPUs.
+/// The parser of the name of a GPU family.
 pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone {
     one_of("GPU family", FAMILIES, |family| family.name)
 }
 
-/// The parser of the name of a family of GPUs, or `all`.
+/// The parser of the name of a GPU family, or `all`.
 pub fn family_or_all() -> impl Fn(&str) -> Result<Choice<&'static Family>, UnknownName> + Clone {
     one_or_all("GPU family", FAMILIES, |family| family.name)
 }
@@ -178,13 +176,13 @@ pub struct PrecisionFlags {
 }
 
 impl PrecisionFlags {
-    /// What functions compute in.
+    /// The precision that functions compute in.
     pub fn precision(&self) -> Precision {
         self.precision.unwrap_or_default()
     }
 }
 
-/// The precisions of these, each once and in order; both where none is named.
+/// These precisions, each once and in order; both if none is named.
 pub fn each_once(named: &[Precision]) -> Vec<Precision> {
     let all = Precision::ALL.into_iter();
     all.filter(|precision| named.is_empty() || named.contains(precision))

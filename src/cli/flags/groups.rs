@@ -1,9 +1,9 @@
-//! Under which heading `--help` shows a flag. A flag of this name stands there in every command; all others are options of a command
-//! alone.
+//! The headings under which `--help` shows flags. A flag named here stands under its heading in every command. All others are
+//! options of one command only.
 
 use clap::{Arg, Command};
 
-/// A heading, and the flags below it.
+/// A heading and its flags.
 const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Everyday",
@@ -52,7 +52,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ),
 ];
 
-/// The flag under its heading. A word without a flag's dashes stays where it is.
+/// The flag under its heading. A positional argument stays where it is.
 pub fn in_group(arg: Arg) -> Arg {
     let id = arg.get_id().as_str();
     let group = GROUPS.iter().find(|(_, flags)| flags.contains(&id));
@@ -62,7 +62,7 @@ pub fn in_group(arg: Arg) -> Arg {
     }
 }
 
-/// The command with its flags under headings, and its own commands with theirs.
+/// The command with its flags under headings, and its subcommands likewise.
 pub fn with_groups(command: Command) -> Command {
     command.mut_args(in_group).mut_subcommands(with_groups)
 }

@@ -1,4 +1,4 @@
-//! Materials and media, as the command line names them.
+//! Flags for materials and media.
 
 use core::fmt;
 
@@ -13,13 +13,13 @@ use crate::generator::request::{Materials, Source};
 use crate::physics::materials::{self, ConstantIndex, IndexFault};
 use crate::physics::names::UnknownName;
 
-/// A word that is no medium.
+/// Why a word is no medium.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum NoMedium {
-    /// It is no name either.
+    /// The word is no known name.
     #[error("{0}; a medium can be a refractive index from 1 to 10 too, such as 1.5")]
     Unknown(#[from] UnknownName),
-    /// A number beyond its limits.
+    /// A number outside its limits.
     #[error(transparent)]
     Index(#[from] IndexFault),
 }
@@ -32,10 +32,10 @@ pub struct MaterialName {
 }
 
 impl MaterialName {
-    /// The parser of a material's name.
+    /// Parses a material's name.
     ///
     /// # Errors
-    /// It is no path, and the catalogue has no such material.
+    /// The word is no path, and the catalogue has no such material.
     pub fn parse(word: &str) -> Result<MaterialName, UnknownName> {
         let is_known = materials::source(word).is_some();
         if !is_known && !is_path(word) {
@@ -47,10 +47,10 @@ impl MaterialName {
         })
     }
 
-    /// The parser of a medium: a material's name, or a number.
+    /// Parses a medium: a material's name, or a number.
     ///
     /// # Errors
-    /// It is no path, the catalogue has no such material, and it is no refractive index within limits.
+    /// The word is no path, no material of the catalogue, and no refractive index within limits.
     pub fn parse_medium(word: &str) -> Result<MaterialName, NoMedium> {
         match ConstantIndex::parse(word) {
             Some(index) => Ok(MaterialName {
@@ -61,12 +61,12 @@ impl MaterialName {
         }
     }
 
-    /// The path, of a file.
+    /// The path, if the material is a file.
     pub fn path(&self) -> Option<&str> {
         self.is_file.then_some(&self.word)
     }
 
-    /// The material's source, read where it is a file.
+    /// The material's source, read if it is a file.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -83,7 +83,7 @@ impl MaterialName {
     }
 }
 
-/// As a user types it again.
+/// The name or path as a user would type it again.
 impl fmt::Display for MaterialName {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         if self.is_file {
@@ -98,7 +98,7 @@ impl fmt::Display for MaterialName {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MaterialList(Vec<Choice<MaterialName>>);
 
-/// The parser of a word of `--material`.
+/// Parses a word of `--material`.
 fn material_list(list: &str) -> Result<MaterialList, UnknownName> {
     let choice = |word: String| {
         Ok(match word.as_str() {
@@ -128,7 +128,7 @@ impl MaterialFlags {
         self.material.iter().flat_map(|list| &list.0)
     }
 
-    /// The materials, read where they are files.
+    /// The materials, read if they are files.
     ///
     /// # Errors
     /// `none` stands beside another name, or a file cannot be read.
@@ -166,7 +166,7 @@ pub struct MediumFlags {
 }
 
 impl MediumFlags {
-    /// The medium, read where it is a file; none for air.
+    /// The medium, read if it is a file; `None` for air.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -174,7 +174,7 @@ impl MediumFlags {
         self.medium.as_ref().map(MaterialName::source).transpose()
     }
 
-    /// The path, of a file.
+    /// The path, if the medium is a file.
     pub fn path(&self) -> Option<&str> {
         self.medium.as_ref().and_then(MaterialName::path)
     }

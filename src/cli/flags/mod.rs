@@ -1,4 +1,4 @@
-//! Flags that several commands have, and how their values are read.
+//! Flags that several commands share, and the parsers of their values.
 
 pub mod choice;
 pub mod groups;

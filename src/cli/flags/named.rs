@@ -1,4 +1,4 @@
-//! The files that a command line names: what a run reads, and what it writes by name.
+//! The files that a command line names: those that a run reads, and those that it writes by name.
 
 use std::path::{Path, PathBuf};
 
@@ -9,12 +9,12 @@ use crate::cli::generate::GenerateFlags;
 use crate::cli::materials::{MaterialsCommand, MaterialsFlags, SeenFlags};
 use crate::cli::merge::MergeFlags;
 
-/// The files of a run that stand on its command line.
+/// The files that stand on a run's command line.
 #[derive(Debug, Default)]
 pub struct NamedFiles<'a> {
-    /// Materials, media, lights, pages, shaders of the user's.
+    /// The user's materials, media, lights, pages, shaders.
     pub inputs: Vec<&'a Path>,
-    /// `-o`, `--depfile`, `--json`, `--junit`, `--svg`, `--png`; not stdout.
+    /// Paths of `-o`, `--depfile`, `--json`, `--junit`, `--svg` and `--png`, except stdout.
     pub outputs: Vec<&'a Path>,
 }
 

@@ -1,4 +1,4 @@
-//! Where outputs go.
+//! Flags for where outputs go.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ pub struct ReportFlags {
 }
 
 impl ReportFlags {
-    /// The file of the report as JSON, or `-`.
+    /// The path of the JSON report, or `-`.
     pub fn json(&self) -> Option<&Path> {
         self.json.as_deref()
     }
@@ -37,7 +37,7 @@ impl CheckReportFlags {
     }
 }
 
-/// The parser of a flag that takes a file, and not `-` for stdout.
+/// Parses a flag that takes a file but not `-` for stdout.
 pub fn file_only(flag: &'static str) -> impl Fn(&str) -> Result<PathBuf, String> + Clone {
     move |word: &str| match word {
         "-" => Err(format!("{flag} takes a file, and not stdout")),

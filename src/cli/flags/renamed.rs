@@ -1,10 +1,10 @@
-//! Old names of methods on the command line, for all commands in one place.
+//! Old names of methods on the command line, handled in one place for all commands.
 
 use std::ffi::OsString;
 
 use crate::language::methods::{Renamed, renamed};
 
-/// The words of a command line with the names that methods have today, and a remark for each old one.
+/// The words of a command line with today's names of methods, and a remark for each old name.
 pub fn with_names_of_today(
     words: impl Iterator<Item = OsString>,
     all: &[Renamed],

@@ -1,4 +1,4 @@
-//! Viewing conditions: how materials are looked at, as the command line says it.
+//! Flags for viewing conditions.
 
 use clap::Args;
 
@@ -39,7 +39,7 @@ pub struct ViewingFlags {
 }
 
 impl ViewingFlags {
-    /// The viewing conditions, with colours clipped to the space. Reads the light's file where one is named.
+    /// The viewing conditions, with colours clipped to the space. Reads the light's file if one is named.
     ///
     /// # Errors
     /// The light's file cannot be read, or has a fault.
@@ -63,7 +63,7 @@ impl ViewingFlags {
         })
     }
 
-    /// The path of the light's file, where one is named.
+    /// The path of the light's file, if one is named.
     pub fn path(&self) -> Option<&str> {
         match &self.illuminant {
             Some(Light::File(path)) => Some(path),
@@ -84,7 +84,7 @@ pub struct GamutFlags {
 }
 
 impl GamutFlags {
-    /// The viewing conditions. Reads the light's file where one is named.
+    /// The viewing conditions. Reads the light's file if one is named.
     ///
     /// # Errors
     /// The light's file cannot be read, or has a fault.
@@ -99,9 +99,9 @@ impl GamutFlags {
 /// A light by its name, or the path of its file.
 #[derive(Clone, Debug)]
 pub enum Light {
-    /// A standard one.
+    /// A standard illuminant.
     Standard(Illuminant),
-    /// A file of two columns.
+    /// The path of a file of two columns: wavelength in nm, and power.
     File(String),
 }
 
@@ -127,7 +127,7 @@ impl Light {
                     let name = own.name().to_owned();
                     return Err(RequestFault::LightNameTaken { name }.into());
                 }
-                // Commands that are written down name the file as materials' files are named.
+                // Commands in outputs name this file in the same way as material files.
                 Ok(own.named(&path_again(path)))
             }
         }
@@ -152,7 +152,7 @@ fn wavelengths(word: &str) -> Result<[f64; 3], String> {
     }
 }
 
-/// Three reflectances with commas between them.
+/// Three reflectances, separated by commas.
 pub fn colour(word: &str) -> Result<[f64; 3], &'static str> {
     let is_reflectance = |number: &f64| (0.0..=1.0).contains(number);
     let numbers = numbers(word).unwrap_or_default();
@@ -161,7 +161,7 @@ pub fn colour(word: &str) -> Result<[f64; 3], &'static str> {
     three.ok_or("it wants three reflectances from 0 to 1, linear: 0.9,0.6,0.3; a colour outside the space is clipped to them")
 }
 
-/// Numbers with commas between them, and blanks beside those.
+/// Numbers separated by commas and optional blanks.
 pub fn numbers(word: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| {
         let word = word.trim();

@@ -1,4 +1,4 @@
-//! Baking: materials become tables, tables become files and rows of a report. Pure; `app` lists the files and writes them.
+//! Baking: materials become tables, and tables become files and rows of a report. It writes no files: its callers do.
 
 mod picture;
 mod row;
@@ -17,38 +17,38 @@ pub use subject::{
     DEFAULT_AXIS, DEFAULT_FORMATS, TableMaterial, as_tables_are_seen, usual_request,
 };
 
-/// What is baked.
+/// The request for lookup tables.
 #[derive(Clone, Debug)]
 pub struct BakeRequest {
     /// The materials, sorted by name.
     pub subjects: Vec<TableMaterial>,
-    /// What a user types to get all of them again: names, or `all`.
+    /// The arguments that name all of them again: names, or `all`.
     pub typed: Vec<String>,
     /// The files wanted.
     pub formats: Vec<Format>,
-    /// How large.
+    /// The size of the tables.
     pub shape: TableSize,
-    /// All of them as the rows of one picture besides.
+    /// Whether to write a picture with one row per material, too.
     pub atlas: bool,
     /// The languages that get a function for each picture.
     pub targets: Vec<&'static Target>,
-    /// Goes before the names of these functions.
+    /// The prefix of these functions' names.
     pub prefix: String,
     /// The flags of the viewing conditions and the medium, each with a space before it.
     pub flags: String,
 }
 
-/// How large tables are.
+/// The size of tables.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableSize {
-    /// So many texels along this axis.
+    /// This many texels along this axis.
     Fixed {
         /// The axis.
         axis: TableAxis,
         /// The number of texels.
         texels: usize,
     },
-    /// As small as this error allows, along one of these axes.
+    /// The fewest bytes within this error, along one of these axes.
     Within {
         /// The largest error of the filtered lookup.
         budget: f64,
@@ -57,14 +57,14 @@ pub enum TableSize {
     },
 }
 
-/// A picture as files in memory, and what is known of them.
+/// A picture as files in memory, with their description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Baked {
     /// Its name, a material's or [`ATLAS`].
     pub name: String,
-    /// What the files are of: `table`, or the method of a split-sum table.
+    /// The method of the files: `table`, or the method of a split-sum table.
     pub method: &'static str,
-    /// The material, where it is one.
+    /// The material, if the picture holds only one.
     pub material: Option<String>,
     /// The command that writes the files again.
     pub command: String,
@@ -75,14 +75,14 @@ pub struct Baked {
 }
 
 impl Baked {
-    /// The materials of an atlas, in the order of its rows; of other pictures none.
+    /// The materials of an atlas, in the order of its rows; empty for other pictures.
     pub fn row_materials(&self) -> Vec<String> {
         let rows = self.rows.iter().filter(|_| self.name == ATLAS);
         let rows = rows.filter_map(|row| match row {
             BakeRow::Table(row) => Some(row),
             BakeRow::SplitSum(_) => None,
         });
-        // A row of the report for each format: those of the first file are all.
+        // The report has a row for each format: those of the first file hold all materials.
         let first = rows.clone().next().map(|row| &row.file);
         rows.filter(|row| Some(&row.file) == first)
             .map(|row| row.name.clone())
@@ -90,13 +90,13 @@ impl Baked {
     }
 }
 
-/// The name of the picture of all.
+/// The name of the picture with all materials.
 pub const ATLAS: &str = "atlas";
 
-/// Bakes. `progress` hears how many tables are done, of how many.
+/// Bakes the tables. `progress` receives how many are done, of how many.
 ///
 /// # Errors
-/// No table is good enough, a format or a language refuses.
+/// No table is within the error, or a format or language refuses.
 pub fn bake(
     request: &BakeRequest,
     progress: &mut dyn FnMut(u64, u64, &str),
@@ -111,7 +111,6 @@ pub fn bake(
 }
 
 impl BakeRequest {
-    /// The pictures, each with its rows.
     fn pictures(&self) -> Vec<(&str, &[TableMaterial])> {
         let subjects = self.subjects.iter();
         let alone = subjects.map(|one| (one.name.as_str(), std::slice::from_ref(one)));
@@ -150,7 +149,7 @@ fn bake_picture(
     })
 }
 
-/// Axis, size and formats: those asked for, or the smallest table within the error, in the formats of its depth.
+/// Axis, size and formats: those requested, or the smallest table within the error, in the formats of its depth.
 fn chosen(
     request: &BakeRequest,
     subjects: &[TableMaterial],
@@ -171,7 +170,7 @@ fn chosen(
     Ok((axis, texels, formats))
 }
 
-/// The kinds of number of these formats, the smallest first, each once.
+/// The depths of these formats, the smallest first, each once.
 fn depths(formats: &[Format]) -> Vec<Depth> {
     let wanted = |depth: &Depth| formats.iter().any(|format| format.depth() == *depth);
     Depth::ALL.into_iter().filter(wanted).collect()

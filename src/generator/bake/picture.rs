@@ -1,6 +1,5 @@
-//! One picture in all its formats: its tables in every depth, their errors, and what the heads of its files say.
-//!
-//! The functions that read a picture in a shader: one file for each language.
+//! One picture in all its formats: its tables in every depth, their errors, what the heads of its files say, and the shader
+//! functions that read it, one file per language.
 
 use super::row::{self, with_functions};
 use super::{ATLAS, BakeRequest, Error, TableMaterial, depths};
@@ -13,15 +12,15 @@ use crate::generator::lut::{
 use crate::language::ir::Weights;
 use crate::language::targets::Target;
 
-/// A picture while it is baked.
+/// A picture during baking.
 pub struct Baking<'a> {
-    /// The run that it belongs to.
+    /// The request that it belongs to.
     pub request: &'a BakeRequest,
     /// Its name, a material's or [`ATLAS`].
     pub name: &'a str,
-    /// Its rows.
+    /// The materials of its rows.
     pub subjects: &'a [TableMaterial],
-    /// How cosines are spread.
+    /// The axis of cosines.
     pub axis: TableAxis,
     /// Texels in a row.
     pub texels: usize,
@@ -30,11 +29,11 @@ pub struct Baking<'a> {
     rounded: Vec<Rounded>,
 }
 
-/// A kind of number with the tables in it, and how wrong each is.
+/// The tables in one depth, with their errors.
 pub struct Rounded {
     depth: Depth,
     tables: Vec<Stored>,
-    /// With weights in steps, and with exact ones.
+    /// The errors of each table, with filtering weights in steps and with exact ones.
     pub errors: Vec<[ModelError; 2]>,
 }
 
@@ -71,7 +70,7 @@ impl<'a> Baking<'a> {
         })
     }
 
-    /// The kinds of number, each with the names of its files.
+    /// The depths, each with the names of its files.
     pub fn by_depth(&self) -> impl Iterator<Item = (String, &Rounded)> {
         self.rounded.iter().map(|rounded| {
             let formats = self.formats.iter();
@@ -88,7 +87,7 @@ impl<'a> Baking<'a> {
         format!("{TABLES}/{}{}", self.name, format.ending())
     }
 
-    /// The tables of a format as a picture that says what it is.
+    /// The tables of a format as a picture that describes itself.
     pub fn picture(&self, format: Format, rounded: &Rounded) -> Picture {
         let names = self.subjects.iter().map(|subject| subject.name.as_str());
         let rows: Vec<(&str, &Stored)> = names.zip(&rounded.tables).collect();
@@ -102,7 +101,7 @@ impl<'a> Baking<'a> {
         picture
     }
 
-    /// What every file of the picture begins with: how to make it again, what it shows, how to look it up.
+    /// The first lines of every file of the picture: how to make it again, what it shows, how to look it up.
     pub fn about(
         &self,
         formats: &[Format],
@@ -119,7 +118,7 @@ impl<'a> Baking<'a> {
         lines
     }
 
-    /// The command that writes these files of the picture again. For a search, states the size and axis found.
+    /// The command that writes these files of the picture again. After a search, it states the size and axis found.
     pub fn command(&self, formats: &[Format], targets: &[&'static Target]) -> String {
         let typed = match self.subjects {
             [one] if self.name != ATLAS => vec![one.argument.clone()],
@@ -137,13 +136,13 @@ impl<'a> Baking<'a> {
 }
 
 impl Rounded {
-    /// value = texel × scale: one for all tables of a picture.
+    /// value = texel × scale, with one scale for all tables of a picture.
     pub fn scale(&self) -> f32 {
         self.tables.first().map_or(1.0, |table| table.scale)
     }
 }
 
-/// The tables in every depth that the formats have. Those of one picture share a scale.
+/// The tables in every depth of the formats. Those of one picture share a scale.
 fn rounded(
     subjects: &[TableMaterial],
     tables: &[Table],
@@ -172,7 +171,7 @@ fn rounded(
     depths(formats).into_iter().map(in_depth).collect()
 }
 
-/// Paths and bytes.
+/// Paths and bytes of the files with functions.
 pub fn files(baking: &Baking) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let targets = baking.request.targets.iter();
     targets.map(|target| file(baking, target)).collect()
@@ -196,14 +195,14 @@ fn file(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), E
     Ok((path, bytes))
 }
 
-/// The scale of all files, where they have one.
+/// The scale of all files, if they share one.
 fn shared_scale(baking: &Baking) -> Option<f32> {
     let mut scales = baking.by_depth().map(|(_, rounded)| rounded.scale());
     let first = scales.next().unwrap_or(1.0);
     scales.all(|scale| scale == first).then_some(first)
 }
 
-/// The head: what all files of the picture say, and what differs from file to file.
+/// The head: what all files of the picture say, and how they differ.
 fn about(baking: &Baking, target: &'static Target) -> Vec<String> {
     let Some((format, rounded)) = baking.each().next() else {
         return Vec::new();
@@ -224,7 +223,7 @@ fn about(baking: &Baking, target: &'static Target) -> Vec<String> {
     lines
 }
 
-/// Which scale belongs to which files.
+/// The scale of each depth's files.
 fn scales(baking: &Baking) -> String {
     let each = baking.by_depth();
     let scales: Vec<String> = each

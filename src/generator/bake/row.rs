@@ -1,8 +1,5 @@
-//! The rows of the report: what a file is, how to look it up, and the error of the lookup.
-//!
-//! A bake as a user types it.
-//!
-//! What cannot be baked.
+//! The rows of the report: what a file is, how to look it up, and the error of the lookup. Also the command of a bake, and its
+//! errors.
 
 use serde::Serialize;
 
@@ -18,7 +15,7 @@ use crate::language::targets::Target;
 use crate::physics::materials::ViewingConditions;
 use crate::physics::spectra::Gamut;
 
-/// How sampled values are mixed where errors are given.
+/// The filtering weights for which errors are given.
 pub const WEIGHTS: &str = "steps of 1/256, as GPUs filter";
 
 /// A row of the report.
@@ -40,7 +37,7 @@ pub struct TableRow {
     pub format: &'static str,
     /// Texels in a row.
     pub texels: usize,
-    /// How cosines are spread.
+    /// The axis of cosines.
     pub axis: &'static str,
     /// The file's path.
     pub file: String,
@@ -71,7 +68,7 @@ pub struct TableRow {
     reason: Option<&'static str>,
 }
 
-/// The errors where a sampler mixes exactly.
+/// The errors with exact filtering weights.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct ExactWeights {
     max_abs: f64,
@@ -106,24 +103,24 @@ pub struct SplitSumRow {
     pub name: String,
     pub(super) method: &'static str,
     pub(super) formula: &'static [&'static str],
-    /// Which channel holds what: `terms`, or an engine's name.
+    /// The meaning of the channels: `terms`, or an engine's name.
     pub(super) layout: &'static str,
     /// The format's name.
     pub format: &'static str,
-    /// Texels of a row.
+    /// Texels in a row.
     pub texels: usize,
     pub(super) rows: usize,
-    /// How cosines and roughness are spread: two names with a comma between.
+    /// The axes of cosines and roughness: two names with a comma between.
     pub axis: String,
     /// The file's path.
     pub file: String,
-    /// The file of the fourth term, where it has its own.
+    /// The file of the fourth term, if that has its own.
     pub(super) second_file: Option<String>,
     /// value = texel × scale.
     pub scale: f64,
     /// The largest error of a term's filtered lookup.
     pub max_abs: f64,
-    /// There is none: no mean is taken over angles.
+    /// Always none: no mean is taken over angles.
     pub mean_rel: Option<f64>,
     pub(super) term_max_abs: Vec<f64>,
     pub(super) weights: &'static str,
@@ -132,7 +129,7 @@ pub struct SplitSumRow {
     pub(super) depth: &'static str,
     pub(super) bytes: usize,
     pub(super) channels: &'static str,
-    /// The numbers that terms are multiplied by, as formulas of the method's inputs.
+    /// The factors of the terms, as formulas of the method's inputs.
     pub(super) numbers: Vec<&'static str>,
     pub(super) averages: Vec<f64>,
     pub(super) albedo: String,
@@ -141,7 +138,7 @@ pub struct SplitSumRow {
     pub(super) lookup: SplitSumLookup,
 }
 
-/// The errors of terms where a sampler mixes exactly.
+/// The errors of terms with exact filtering weights.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExactTermWeights {
     pub(super) max_abs: f64,
@@ -159,7 +156,7 @@ pub struct SplitSumLookup {
     pub(super) functions: Vec<String>,
 }
 
-/// A row for each material of a picture, which lies in this file, with the functions that read it.
+/// One row for each material of a picture in this file, with the functions that read it.
 pub fn table_rows<'a>(
     subjects: &'a [TableMaterial],
     rounded: &'a Rounded,
@@ -235,7 +232,7 @@ impl TableLookup {
     }
 }
 
-/// The errors of all rows in one line, for the file itself.
+/// The errors of all rows in one line, for the file's own description.
 pub fn error_line(errors: &[[ModelError; 2]]) -> String {
     let all = errors.iter().map(|[steps, _]| steps);
     let most = |value: fn(&ModelError) -> f64| all.clone().map(value).fold(0.0, f64::max);
@@ -246,7 +243,7 @@ pub fn error_line(errors: &[[ModelError; 2]]) -> String {
     )
 }
 
-/// The materials as a user types them.
+/// The arguments that name the materials on the command line.
 pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
     subjects.iter().map(|one| one.argument.clone()).collect()
 }
@@ -254,7 +251,7 @@ pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
 /// The flags of the medium and the viewing conditions, each with a space before it.
 pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
     let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
-    // Tables keep colours outside the space unless asked otherwise; for functions it is the other way round.
+    // Tables keep colours outside the space by default; functions clip them.
     let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
     CommandLine::new("")
         .list("medium", medium)
@@ -264,7 +261,7 @@ pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) ->
 }
 
 impl BakeRequest {
-    /// The command that reports this again, without the output's place.
+    /// The command that reports this again, without the output path.
     pub fn command_line(&self) -> CommandLine {
         let command = CommandLine::new("bake")
             .list("material", &self.typed)
@@ -287,7 +284,7 @@ impl BakeRequest {
     }
 }
 
-/// The same command, which writes functions beside the tables.
+/// The same command, with the functions beside the tables.
 pub fn with_functions(
     command: CommandLine,
     targets: &[&'static Target],
@@ -301,7 +298,7 @@ pub fn with_functions(
         .list("prefix", Naming::flag_of_prefix(prefix))
 }
 
-/// A fault of what is to be baked.
+/// An error of baking.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A table cannot be made.
@@ -310,7 +307,7 @@ pub enum Error {
     /// A language refuses the function that reads a table.
     #[error(transparent)]
     Function(#[from] emit::Error),
-    /// A split-sum table of a method that is not affine in numbers of a material.
+    /// A split-sum table of a method that is not affine in numbers of the material.
     #[error(
         "--dfg takes a method that is affine in numbers of a material ({}), and `{method}` is none",
         affine_methods()
@@ -319,7 +316,7 @@ pub enum Error {
         /// The method.
         method: &'static str,
     },
-    /// An engine's table of another method than its own.
+    /// An engine's table with a method that the engine does not use.
     #[error(
         "--layout {layout} holds the terms of schlick, and not of `{method}`: leave --method out"
     )]
@@ -329,7 +326,7 @@ pub enum Error {
         /// The method.
         method: &'static str,
     },
-    /// Terms below 0 or above 1 as integers.
+    /// Terms below 0 or above 1 in an integer format.
     #[error(
         "the terms of `{method}` lie beyond 0 to 1, which {format} does not hold: take exr-half, exr-float, ktx2, c, rust or js"
     )]

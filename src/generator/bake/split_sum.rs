@@ -1,8 +1,8 @@
 //! The split-sum table of a method: its files and their rows.
 //!
-//! A fourth term lies in alpha only where a file goes to a GPU as it is: KTX2 and arrays. Readers of PNG and EXR may multiply colours
-//! by alpha (`createImageBitmap` of browsers unless asked otherwise, Core Graphics always), or divide by it, since OpenEXR takes
-//! colours for multiplied ones; so there it gets a file of its own.
+//! A fourth term lies in alpha only where a file's texels reach a GPU unchanged: KTX2 and arrays. Readers of PNG and EXR may
+//! multiply colours by alpha (`createImageBitmap` of browsers by default, Core Graphics always), or divide by it, since OpenEXR
+//! treats colours as premultiplied. So in these formats it gets a file of its own.
 
 use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
 use super::subject::DEFAULT_FORMATS;
@@ -16,22 +16,22 @@ use crate::generator::lut::{
 use crate::language::ir::Weights;
 use crate::language::methods::{self, Basis, Method};
 
-/// What is baked.
+/// The request for a split-sum table.
 #[derive(Clone, Debug)]
 pub struct SplitSumRequest {
     /// The method whose numbers the table is for.
     pub method: &'static Method,
-    /// Which channel holds what: an engine's has the engine's size and axes.
+    /// The meaning of the channels. An engine's layout has the engine's size and axes.
     pub layout: SplitSumLayout,
-    /// Texels of a side.
+    /// Texels per side.
     pub size: usize,
     /// The axes of cosine and roughness.
     pub axes: [SplitSumAxis; 2],
-    /// The files wanted; the usual ones where none are named.
+    /// The files wanted. Empty: the default ones.
     pub formats: Vec<Format>,
 }
 
-/// The least that a term may be in an integer format, which gives 0 for it.
+/// The least term allowed in an integer format, which stores it as 0.
 const LEAST_OF_INTEGERS: f64 = -0.002;
 
 impl SplitSumRequest {
@@ -51,7 +51,7 @@ impl SplitSumRequest {
         line.list("format", formats.iter().map(|format| format.name()))
     }
 
-    /// Its files bear the method's name, unless they are an engine's; axes that are not the usual ones are told.
+    /// The name of its files: the method's, unless they are an engine's, with the axes if they are not the default ones.
     fn name(&self) -> String {
         match self.layout {
             SplitSumLayout::Terms if self.axes == SPLIT_SUM_AXES => {
@@ -65,7 +65,7 @@ impl SplitSumRequest {
         }
     }
 
-    /// The files wanted: of terms below 0 those that hold them, unless others are named.
+    /// The files wanted. By default, for terms below 0, those in formats that hold them.
     fn formats(&self) -> Vec<Format> {
         let usual = || {
             let formats = DEFAULT_FORMATS.into_iter();
@@ -78,7 +78,7 @@ impl SplitSumRequest {
         }
     }
 
-    /// Why a format does not hold the terms: integers end at 0 and 1.
+    /// Why a format cannot hold the terms: integers end at 0 and 1.
     fn refusal(&self, format: Format) -> Option<Error> {
         let [least, most] = term_range(&self.method.basis()?);
         let is_held = least >= LEAST_OF_INTEGERS && most <= 1.0;
@@ -97,17 +97,17 @@ impl SplitSumRequest {
     }
 }
 
-/// A table with what its files say of it.
+/// A table with the description for its files.
 struct Told<'a> {
     request: &'a SplitSumRequest,
     design: SplitSumDesign,
     name: String,
 }
 
-/// Bakes. `progress` gets the number of finished rows (of texels and of places between them), and of all rows.
+/// Bakes the table. `progress` receives the number of finished rows (of texels and of places between them), and of all rows.
 ///
 /// # Errors
-/// A method that is not affine, or of more numbers than a texture has channels; a size that no texture has; a format that does not
+/// The method is not affine, or has more numbers than a texture has channels; no texture can have this size; or a format cannot
 /// hold the terms.
 pub fn bake_split_sum(
     request: &SplitSumRequest,
@@ -167,10 +167,10 @@ pub fn bake_split_sum(
     })
 }
 
-/// The method whose terms engines bind.
+/// The method whose terms engines use.
 const ENGINES_METHOD: &str = "schlick";
 
-/// The method unless another is named.
+/// The default method of a layout.
 pub fn usual_method(layout: SplitSumLayout) -> &'static Method {
     let name = match layout {
         SplitSumLayout::Terms => "fitted",
@@ -179,13 +179,12 @@ pub fn usual_method(layout: SplitSumLayout) -> &'static Method {
     methods::find(name).expect("it is in the list of methods")
 }
 
-/// The largest of some errors.
 fn most(errors: &[f64]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
 }
 
 impl Told<'_> {
-    /// What each file of a format holds.
+    /// The terms in each file of a format.
     fn parts(&self, format: Format) -> &'static [TermChannels] {
         match (self.design.channels() == 4, format.keeps_alpha()) {
             (true, true) => &[TermChannels::All],
@@ -202,7 +201,7 @@ impl Told<'_> {
         format!("{TABLES}/{}{part}{}", self.name, format.ending())
     }
 
-    /// What the texels of a format's files hold.
+    /// The meaning of the channels in a format's files.
     fn channels(&self, format: Format) -> &'static str {
         match (self.request.layout, self.design.channels()) {
             (SplitSumLayout::Filament, _) => {
@@ -221,7 +220,7 @@ impl Told<'_> {
         }
     }
 
-    /// The albedo as a sum of what is looked up.
+    /// The albedo as a sum of the looked-up terms.
     fn albedo(&self) -> String {
         match self.request.layout {
             SplitSumLayout::Filament => "mix(red, green, f0)".to_owned(),
@@ -240,7 +239,7 @@ impl Told<'_> {
         }
     }
 
-    /// Where a number lies along a side.
+    /// The coordinate of a number along a side.
     fn place(&self, axis: SplitSumAxis, number: &str, texels: usize) -> String {
         match self.design.half_texel(texels) {
             (1.0, _) => axis.formula(number),

@@ -1,6 +1,4 @@
-//! A material in its medium, as a table holds it.
-//!
-//! What is baked unless asked otherwise.
+//! A material in its medium for a table, and the defaults of baking.
 
 use super::row::{material_words, viewing_flags};
 use super::{BakeRequest, TableSize};
@@ -11,26 +9,26 @@ use crate::language::methods::{Light, TEXELS};
 use crate::physics::materials::{Material, Surface, Unseen, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space};
 
-/// A material in its medium, as it is seen.
+/// A material in its medium under viewing conditions.
 #[derive(Clone, Debug)]
 pub struct TableMaterial {
-    /// The material's name, with `_in_` and the medium's where there is one.
+    /// The material's name, followed by `_in_` and the medium's name if there is one.
     pub name: String,
-    /// What a user types to get it again.
+    /// The argument that names it again on the command line.
     pub argument: String,
-    /// What a user types to get the medium again, where it is not air.
+    /// The argument that names the medium again; none for air.
     pub medium: Option<String>,
-    /// What is seen of it.
+    /// Its reference reflectance.
     pub reference: ReferenceCurve,
     /// The working space; none where a channel is one wavelength.
     pub space: Option<Space>,
 }
 
 impl TableMaterial {
-    /// A material and a medium, each with what a user types to get it again.
+    /// A material and a medium, each with the argument that names it again.
     ///
     /// # Errors
-    /// It is not known where it is looked at.
+    /// It is not known at the wavelengths needed.
     pub fn new(
         (argument, material): (&str, &Material),
         medium: Option<&Typed>,
@@ -50,28 +48,28 @@ impl TableMaterial {
         })
     }
 
-    /// What is seen, in words.
+    /// The viewing conditions, in words.
     pub fn seen(&self) -> &str {
         &self.reference.surface.seen
     }
 }
 
-/// The axis: the one with the smallest errors at equal size.
+/// The default axis: the one with the smallest errors at equal size.
 pub const DEFAULT_AXIS: TableAxis = TableAxis::Rational;
-/// The files: what most programs read, what engines without float textures read, and what GPUs take.
+/// The default formats: one that most programs read, one for engines without float textures, and one that GPUs take.
 pub const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
 
-/// The viewing conditions: a table keeps colours outside the working space, unless another policy was asked for.
+/// The viewing conditions of tables: colours outside the working space are kept, unless another policy was requested.
 pub fn as_tables_are_seen(viewing: &ViewingConditions, gamut_was_said: bool) -> ViewingConditions {
     let mut viewing = viewing.clone();
-    // Where a channel is one wavelength there is no space to be outside of.
+    // Where a channel is one wavelength, there is no colour space.
     if !gamut_was_said && viewing.wavelengths_nm.is_none() {
         viewing.gamut = Gamut::Keep;
     }
     viewing
 }
 
-/// The tables of these materials, and an atlas, as a run without flags writes them.
+/// The request for the tables of these materials and an atlas that a run without flags makes.
 pub fn usual_request(subjects: Vec<TableMaterial>, viewing: &ViewingConditions) -> BakeRequest {
     BakeRequest {
         typed: material_words(&subjects),

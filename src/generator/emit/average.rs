@@ -1,5 +1,5 @@
-//! Means over the hemisphere, `2 ∫ F c dc`: functions of a material's numbers beside those of a method, and the constants of a
-//! material, for what light does that is reflected more than once between microfacets.
+//! Means over the hemisphere, `2 ∫ F c dc`, for light that is reflected more than once between microfacets: functions of a
+//! material's numbers beside those of a method, and the constants of a material.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,8 +9,8 @@ use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{Basis, Method};
 use crate::physics::num::{Legendre, each_channel};
 
-/// What stands beside a method's functions and takes no cosine: the means, three channels and one, where the method has them; the
-/// coefficients that a method finds for a fitted one.
+/// The functions beside a method's own that take no cosine: the means in three channels and in one, where the method has them,
+/// and the coefficients that a method finds for a fitted one.
 ///
 /// # Errors
 /// A graph breaks a rule of the representation: a bug.
@@ -33,7 +33,7 @@ pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitte
     functions.chain(coefficients).collect()
 }
 
-/// What the head of a file says about coefficients; nothing of other functions.
+/// What the head of a file says about coefficients; none for other functions.
 pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
     emitted.form.coefficient()?;
     let method = emitted.method;
@@ -45,7 +45,7 @@ pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
     ))
 }
 
-/// What the head of a file says about a mean; nothing of other functions.
+/// What the head of a file says about a mean; none for other functions.
 pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
     let method = emitted.method;
     let what = match (method.basis(), method.average) {
@@ -78,22 +78,21 @@ fn sum(basis: &Basis) -> String {
     terms.join(" + ")
 }
 
-/// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for
-/// other functions.
+/// The mean over the hemisphere of a material's fitted function, after its clamp to [0, 1] and before. None for other functions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Average {
-    /// Of what the function gives.
+    /// The mean of the function's values.
     pub given: [f64; 3],
-    /// Of the form before its limit, in closed form.
+    /// The mean of the form before its clamp, in closed form.
     pub unlimited: [f64; 3],
 }
 
-/// Pieces of [0, 1], each with a rule of so many points: a corner where the limit sets in is integrated within 1e-7.
+/// Pieces of [0, 1], each with a quadrature rule of `POINTS` points: a corner where the clamp sets in is integrated within 1e-7.
 const PIECES: usize = 256;
 const POINTS: usize = 8;
 
 impl Average {
-    /// Of a specialised function.
+    /// The mean of a specialised function.
     pub fn of(emitted: &Emitted) -> Option<Average> {
         let shape = emitted.method.shape?;
         let own = |name: &str| emitted.constants.get(name);
@@ -112,13 +111,13 @@ impl Average {
         })
     }
 
-    /// The furthest that the limit brings them apart.
+    /// The largest difference that the clamp makes.
     fn difference(&self) -> f64 {
         let pairs = self.given.iter().zip(self.unlimited);
         pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
     }
 
-    /// What stands above a specialised function.
+    /// The line about the mean above a specialised function.
     pub(super) fn line(&self) -> String {
         let triple = |values: [f64; 3]| {
             let [red, green, blue] = values.map(|value| format!("{}", (value * 1e6).round() / 1e6));
@@ -136,7 +135,7 @@ impl Average {
     }
 }
 
-/// Differences that are told.
+/// The least difference that is reported.
 const TOLD: f64 = 1e-6;
 
 /// `2 ∫ F c dc` over c from 0 to 1 of a function of `cos_theta` alone.

@@ -1,11 +1,12 @@
-//! A program that calls functions at many points, whose arguments stand in a buffer: four numbers a place, each argument from a place
-//! of its own, a matrix in four, column by column. Such a program is a module of an effect, and runs effects when they are verified.
+//! A program that calls functions at many points, with arguments from a buffer. The buffer has slots of four numbers. Each
+//! argument begins in a slot of its own, and a matrix takes four, column by column. Such a program is a module of an effect, and
+//! runs effects when they are verified.
 
 use super::function::Emitted;
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Batch, Spelling, Target};
 
-/// How many places of four numbers an argument takes.
+/// How many slots of four numbers an argument takes.
 fn places_of(ty: Ty) -> usize {
     match ty {
         Ty::Texture | Ty::Cube => 0,
@@ -14,14 +15,14 @@ fn places_of(ty: Ty) -> usize {
     }
 }
 
-/// How many places of four numbers the arguments of a function take; one that nobody reads where there are none.
+/// How many slots of four numbers a function's arguments take; one unused slot where there are none.
 pub fn places(params: &[Param]) -> usize {
     let places: usize = params.iter().map(|param| places_of(param.ty)).sum();
     places.max(1)
 }
 
-/// The program around the text of a file, with an entry point a function; nothing for a language that nothing runs. In GLSL the
-/// entry point is `main`, so that there can be one function only.
+/// The program around the text of a file, with one entry point per function; none for a language that nothing here runs. In GLSL
+/// the entry point is `main`, so there can be only one function.
 pub fn batch_program(target: &Target, file: &str, functions: &[&Emitted]) -> Option<String> {
     let harness = target.stack.harness()?;
     let batch = harness.batch;

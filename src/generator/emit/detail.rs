@@ -1,5 +1,5 @@
-//! What the manifest says of a file: its command, its functions, and of a material how it is seen. Typed rows: the manifest alone
-//! is JSON.
+//! The manifest's details of a file: its command, its functions, and the viewing conditions of a material. The rows are typed;
+//! only the manifest is JSON.
 
 use std::collections::BTreeMap;
 
@@ -20,17 +20,17 @@ use crate::language::methods::Input;
 use crate::language::targets::{Finish, Target};
 use crate::physics::materials::Material;
 
-/// What the manifest says of a file.
+/// The manifest's details of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Detail {
-    /// Of a file of functions.
+    /// For a file of functions.
     Functions(Box<FunctionsDetail>),
-    /// Of a file of the catalogue.
+    /// For a file of the catalogue.
     Catalogue(CatalogueDetail),
-    /// Of a lookup table, or of its description.
+    /// For a lookup table, or its description.
     Table(TableDetail),
-    /// Of a file of a flavour.
+    /// For a file of a flavour.
     Adapter(AdapterDetail),
 }
 
@@ -43,7 +43,7 @@ impl Detail {
         }
     }
 
-    /// The materials of an atlas, in the order of its rows; of other files none.
+    /// The materials of an atlas, in the order of its rows; empty for other files.
     pub fn row_materials(&self) -> &[String] {
         match self {
             Detail::Table(file) => &file.row_materials,
@@ -51,7 +51,7 @@ impl Detail {
         }
     }
 
-    /// How the material of a file of functions is seen.
+    /// The viewing conditions of the material of a file of functions.
     pub fn seen(&self) -> Option<&SeenDetail> {
         match self {
             Detail::Functions(file) => file.seen.as_ref(),
@@ -60,25 +60,25 @@ impl Detail {
     }
 }
 
-/// What the manifest says of a file of functions.
+/// The manifest's details of a file of functions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FunctionsDetail {
     /// The command that writes it.
     pub command: String,
     /// Its functions in order.
     pub functions: Vec<FunctionDetail>,
-    /// What they compute in; nothing for single precision.
+    /// Their precision; none for single precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub precision: Option<&'static str>,
-    /// How the material is seen.
+    /// The viewing conditions of the material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seen: Option<SeenDetail>,
-    /// Where the material's indices come from.
+    /// The source of the material's indices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<DataDetail>,
 }
 
-/// What the manifest says of a file of the catalogue: an array of a language, `catalogue.json`, a buffer or a texture.
+/// The manifest's details of a file of the catalogue: an array of a language, `catalogue.json`, a buffer or a texture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueDetail {
     /// The command that writes it.
@@ -86,23 +86,23 @@ pub struct CatalogueDetail {
     /// The array's name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub array: Option<String>,
-    /// How many materials it has.
+    /// The number of materials.
     pub materials: usize,
-    /// How many rows the array or the buffer has, four a material.
+    /// The number of rows of the array or the buffer, four per material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows: Option<usize>,
-    /// How the materials are seen, in words.
+    /// The viewing conditions of the materials, in words.
     pub seen: String,
     /// The licence of the file.
     pub licence: &'static str,
 }
 
-/// What the manifest says of a lookup table.
+/// The manifest's details of a lookup table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TableDetail {
     /// The command that writes it.
     pub command: String,
-    /// Of an atlas the materials, one a row, the first at row 0.
+    /// The materials of an atlas, one per row, from row 0.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub row_materials: Vec<String>,
     /// The file that describes it.
@@ -111,40 +111,40 @@ pub struct TableDetail {
     pub licence: &'static str,
 }
 
-/// What the manifest says of a file of a flavour.
+/// The manifest's details of a file of a flavour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AdapterDetail {
     /// The command that writes it.
     pub command: String,
-    /// The host, with the version that the adapter was tried in.
+    /// The host, with the version in which the adapter was tested.
     pub host: &'static str,
-    /// How the materials are seen, in words.
+    /// The viewing conditions of the materials, in words.
     pub seen: String,
     /// The licence of the file.
     pub licence: &'static str,
 }
 
-/// How a material is seen: its modules have no head to say it in.
+/// The viewing conditions of a material: SPIR-V modules have no head to state them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SeenDetail {
     /// What the reference reflectance is, in words.
     pub truth: String,
-    /// Beyond which wavelengths its index was held, in words, where it was.
+    /// In words, beyond which wavelengths its index was held constant; none if nowhere.
     pub extrapolated: Option<String>,
     /// The effective n of each channel.
     pub n: [f64; 3],
     /// The effective k of each channel.
     pub k: [f64; 3],
-    /// How they were found.
+    /// How n and k were found.
     pub nk_by: [&'static str; 3],
 }
 
-/// Where a material's indices come from.
+/// The source of a material's indices.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DataDetail {
     /// The publication.
     pub reference: String,
-    /// Where it is found.
+    /// A link to it.
     pub link: String,
     /// The licence of the data.
     pub licence: String,
@@ -152,7 +152,7 @@ pub struct DataDetail {
     pub conditions: String,
 }
 
-/// What the manifest says of a function.
+/// The manifest's details of a function.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FunctionDetail {
     /// Its name.
@@ -160,7 +160,7 @@ pub struct FunctionDetail {
     #[serde(skip_serializing_if = "Option::is_none")]
     method: Option<&'static str>,
     form: FunctionForm,
-    /// Its head, as the file has it.
+    /// Its signature, as in the file.
     pub signature: String,
     parameters: Parameters,
     operations: usize,
@@ -175,7 +175,7 @@ pub struct FunctionDetail {
     average: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     average_unlimited: Option<[f64; 3]>,
-    /// Of a function of a module: its entry point.
+    /// The entry point, for a function of a module.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub entry_point: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -184,8 +184,8 @@ pub struct FunctionDetail {
     notes: Notes,
 }
 
-/// A library function's run-time arguments; or a specialised one's constants per channel, null where a channel has none (gold's
-/// green has no lambda).
+/// A library function's run-time arguments, or a specialised one's constants per channel. A constant is null where a channel has
+/// none (gold's green has no lambda).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 enum Parameters {
@@ -227,7 +227,7 @@ struct UniformDetail {
     offset: usize,
 }
 
-/// What the manifest says of a file of these functions.
+/// The manifest's details of a file of these functions.
 pub(super) fn functions_detail(
     target: &Target,
     functions: &[&Emitted],
@@ -248,7 +248,7 @@ pub(super) fn functions_detail(
 }
 
 impl FunctionsDetail {
-    /// The same of a material's file.
+    /// The same for a material's file.
     pub(super) fn of_material(self, subject: &MaterialInMedium) -> FunctionsDetail {
         FunctionsDetail {
             seen: Some(seen_detail(subject)),
@@ -355,7 +355,7 @@ fn parameters(emitted: &Emitted) -> Parameters {
     Parameters::Constants(emitted.method.inputs.iter().filter_map(row).collect())
 }
 
-/// The arguments of an effect's function, as many as are left at run time.
+/// The arguments of an effect's function that are left at run time.
 fn arguments_of_effect(part: EffectPart, emitted: &Emitted) -> Vec<ArgumentDetail> {
     let own = part.function.arguments.iter().map(|one| ArgumentDetail {
         name: one.name,

@@ -1,4 +1,4 @@
-//! The files of effects: the functions of one together, for any material, by another method, or for one material.
+//! The files of effects: the functions of one effect, for any material, with another method, or for one material.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ use crate::language::methods::{self, Contract, Method, Values};
 use crate::language::targets::{Finish, Target};
 use crate::physics::num::Precision;
 
-/// A function of an effect, as it was asked for.
+/// A requested function of an effect.
 #[derive(Clone, Copy, Debug)]
 pub struct EffectPart {
     /// The effect.
@@ -27,37 +27,38 @@ pub struct EffectPart {
     pub function: &'static EffectFunction,
 }
 
-/// Which functions of an effect are written: all of them, or those that differ for a method or a material.
+/// Which functions of an effect to write: all of them, or those that differ for a method or a material.
 #[derive(Clone, Copy, Debug)]
 pub struct EffectRequest<'a> {
     /// The effect.
     pub effect: &'static Effect,
-    /// What computes R.
+    /// The method that computes R.
     pub method: &'static Method,
     /// The material whose values are fixed.
     pub subject: Option<&'a MaterialInMedium>,
 }
 
 impl EffectRequest<'_> {
-    /// The method that is the usual one: for a material its exact law.
+    /// The default method: for a material, its exact law.
     fn usual_method(&self) -> &'static str {
         self.subject
             .map_or(USUAL_METHOD, MaterialInMedium::exact_method)
     }
 
-    /// The method's name where it must be said.
+    /// The method's name, unless it is the default.
     pub fn unusual_method(&self) -> Option<&'static str> {
         Some(self.method.name).filter(|name| *name != self.usual_method())
     }
 
-    /// What tells its file and its functions from the usual ones: `_gold`, `_schlick`, `_gold_schlick`, or nothing.
+    /// The suffix that distinguishes its file and its functions from the default ones: `_gold`, `_schlick`, `_gold_schlick`, or
+    /// nothing.
     fn suffix(&self) -> String {
         let material = self.subject.map(|subject| subject.name.as_str());
         let parts = material.into_iter().chain(self.unusual_method());
         parts.map(|part| format!("_{part}")).collect()
     }
 
-    /// The name of its file, without the ending.
+    /// The name of its file, without the extension.
     pub fn stem(&self) -> String {
         format!("{EFFECTS}/{}{}", self.effect.name, self.suffix())
     }
@@ -82,7 +83,7 @@ impl EffectRequest<'_> {
         Ok(functions)
     }
 
-    /// All functions of the effect: those that another method or a material changes, behind the others in their usual form.
+    /// All functions of the effect: first those in their default form, then those that another method or a material changes.
     ///
     /// # Errors
     /// As [`EffectRequest::functions`].
@@ -145,7 +146,7 @@ impl EffectRequest<'_> {
         Ok(Some(self.emitted(part, (naming, name), form, function)))
     }
 
-    /// The values of the method's inputs for a material; none where light leaves a body and the method takes more than its index.
+    /// The values of the method's inputs for a material. None where light leaves a body and the method takes more than its index.
     fn values_of_r(&self, asked: Reflectance, subject: &MaterialInMedium) -> Option<Values> {
         match asked {
             Reflectance::Unused => Some(Values::new()),
@@ -199,7 +200,7 @@ impl EffectRequest<'_> {
     }
 }
 
-/// What a function states of its error: its own, and that of R, of which a last place is 2^-24 at most.
+/// The code error that a function states: its own, and that of R, in which a unit in the last place is at most 2^-24.
 fn stated(function: &EffectFunction, method: &Method) -> Measured<CodeBound> {
     let of_r = match (function.reflectance, method.contract) {
         (Reflectance::Unused, _) => 0.0,
@@ -215,7 +216,7 @@ fn stated(function: &EffectFunction, method: &Method) -> Measured<CodeBound> {
 /// The folder of effects in a target's folder.
 pub const EFFECTS: &str = "effects";
 
-/// The indices of a material for arguments that are no inputs of a method.
+/// The indices of a material, for arguments that are not inputs of a method.
 fn index_values(subject: &MaterialInMedium) -> BTreeMap<String, [f64; 3]> {
     let channels = &subject.effective.channels;
     let absorbs = channels.k.iter().any(|k| *k > 0.0);
@@ -224,7 +225,7 @@ fn index_values(subject: &MaterialInMedium) -> BTreeMap<String, [f64; 3]> {
     etas.into_iter().chain(complex).collect()
 }
 
-/// The file of an effect in a language; `command` writes it again.
+/// The file of an effect in a language. `command` generates it again.
 ///
 /// # Errors
 /// naga refuses the text: a bug.
@@ -252,7 +253,7 @@ pub fn effect_file(
     })
 }
 
-/// The text of an effect's functions, to be pasted; of a module its bytes.
+/// The text of an effect's functions for pasting; for a module, its bytes.
 ///
 /// # Errors
 /// naga refuses the text: a bug.
@@ -265,7 +266,7 @@ pub fn effect_text(
     page(target, request, functions, "", command)
 }
 
-/// The text of one function of an effect with the comments above it, as the files of effects hold it.
+/// The text of one function of an effect with the comments above it, as in the files of effects.
 ///
 /// # Errors
 /// naga refuses the text: a bug.
@@ -362,7 +363,7 @@ fn header(request: &EffectRequest, command: &str) -> Vec<String> {
     lines
 }
 
-/// What a function gives, what each argument means, and how exact it is.
+/// What a function returns, what each argument means, and how accurate the function is.
 fn documentation(emitted: &Emitted) -> Vec<String> {
     let part = emitted.effect.expect("a function of an effect");
     let meaning = |param: &Param| -> &str {

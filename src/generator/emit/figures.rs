@@ -1,10 +1,11 @@
-//! Errors and costs as headers word them: what methods promise, and what is known of one function.
+//! Errors and costs in the words of headers: what methods promise, and what is known of one function.
 //!
-//! The code bounds of specialised functions: recorded in `data/code-bounds.csv`, for half precision in
-//! `data/code-bounds-f16.csv`, keyed by what the function computes, and measured again by a test. A function that is not
-//! in the record says so.
+//! The code bounds of specialised functions are recorded in `data/code-bounds.csv`, and for half precision in
+//! `data/code-bounds-f16.csv`. They are keyed by what the function computes, and a test measures them again. A function without a
+//! record says so.
 //!
-//! A fit that misses what its method promises of the material's class, and the method that keeps within it.
+//! A fit can exceed the error that its method promises for the material's class ([`Missed`]). The header then names a method that
+//! keeps within it.
 
 use std::collections::BTreeMap;
 
@@ -19,15 +20,15 @@ use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
 use crate::physics::records;
 
-/// The code error of what reads a texture: a sampler may round its weights to the nearest of 256, or down.
+/// The code error of functions that read a texture: a sampler may round its weights to multiples of 1/256, or truncate them.
 pub const FILTERED: &str = "at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps";
 
-/// What a method promises, a line each.
+/// What a method promises, one line each.
 pub fn promises(method: &Method) -> Vec<String> {
     promises_in(Precision::F32, method)
 }
 
-/// What a method promises in half precision, or why it is not written so.
+/// What a method promises in half precision, or why it is not available there.
 pub fn half_promise(method: &Method) -> String {
     match (method.half.claim(), method.half.refusal()) {
         (Some(claim), _) => {
@@ -73,7 +74,7 @@ pub(super) fn promises_in(precision: Precision, method: &Method) -> Vec<String> 
         .collect()
 }
 
-/// What a method promises of its model error, a line for each set of media.
+/// What a method promises of its model error, one line for each set of media.
 pub(super) fn model_promises(method: &Method) -> impl Iterator<Item = String> {
     method.claims.model.iter().map(|claim| {
         let error = match claim.max_abs {
@@ -84,7 +85,7 @@ pub(super) fn model_promises(method: &Method) -> impl Iterator<Item = String> {
     })
 }
 
-/// What a method promises to artists, where colours beyond may be far off.
+/// What a method promises to artists, if colours outside its range may be far off.
 pub(super) fn beyond_colours(method: &Method) -> Option<String> {
     let colours = method
         .claims
@@ -108,7 +109,7 @@ fn colours_line(method: &Method, colours: Colours) -> String {
     )
 }
 
-/// The largest error as "at most" has it: rounded up.
+/// The largest error after the words "at most": rounded up.
 pub(super) fn at_most(error: &ModelError) -> String {
     format!("at most {}", rounded_up(error.max_abs))
 }
@@ -124,7 +125,7 @@ pub(super) fn model_line(error: &ModelError) -> String {
     let most = at_most(error);
     let degrees = libm::acos(error.worst_cos).to_degrees();
     let mean = match error.mean_rel {
-        // Of a reflectance next to 0 any error is large.
+        // For a reflectance next to 0, any relative error is large.
         Some(mean) if mean > 100.0 => "above 10000 % in the mean over angles".to_owned(),
         Some(mean) => format!("{:.2} % in the mean over angles", 100.0 * mean),
         None => "no relative mean, as a channel reflects nothing".to_owned(),
@@ -132,7 +133,7 @@ pub(super) fn model_line(error: &ModelError) -> String {
     format!("Model error: {most} (at {degrees:.2} degrees), {mean}{undefined}.")
 }
 
-/// That a fit misses its class, and what serves.
+/// A line that says that a fit misses its class, and which method serves.
 pub(super) fn missed_line(emitted: &Emitted) -> Option<String> {
     let missed = emitted.missed.as_ref()?;
     Some(format!("Misses its class: {}.", missed.words()))
@@ -149,7 +150,7 @@ pub(super) fn code_line(emitted: &Emitted) -> String {
     }
 }
 
-/// A bound in ulp, beside the absolute one that holds near zeros.
+/// A bound in ulp, with the absolute one that holds near zeros.
 fn bound(ulp: f64) -> String {
     let ulp = if ulp > 0.0 {
         format!("{ulp} ulp or ")
@@ -210,14 +211,14 @@ static HALF_RECORD: &str = include_str!("../../../data/code-bounds-f16.csv");
 /// What a function promises of its code error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CodeBound {
-    /// In single precision: units in the last place, beside 2⁻²².
+    /// In single precision: units in the last place, or 2⁻²² absolute.
     Ulp(f64),
-    /// In half precision, and of coefficients: the absolute difference.
+    /// In half precision, and for coefficients: the absolute difference.
     Absolute(f64),
 }
 
 impl CodeBound {
-    /// The number.
+    /// The number, in the bound's own unit.
     pub fn value(self) -> f64 {
         match self {
             CodeBound::Ulp(value) | CodeBound::Absolute(value) => value,
@@ -225,10 +226,10 @@ impl CodeBound {
     }
 }
 
-/// The most that a plain form may be off to be written in place of the stable one.
+/// The largest error in ulp with which a plain form is written in place of the stable one.
 pub const PLAIN_ULP: f64 = 10.0;
 
-/// The record, by fingerprint.
+/// The recorded bounds, by fingerprint.
 #[derive(Clone, Debug, Default)]
 pub struct Bounds {
     ulp: BTreeMap<String, f64>,
@@ -236,7 +237,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The record that is part of the program.
+    /// The bounds recorded in the program.
     pub fn recorded() -> Bounds {
         let single: Vec<SingleBound> = records::rows(RECORD);
         let half = half_bounds().into_iter();
@@ -264,13 +265,13 @@ impl Bounds {
 /// The bound of a specialised function in half precision.
 #[derive(Clone, Debug, Deserialize)]
 pub struct HalfBound {
-    /// What the function computes.
+    /// The fingerprint of what the function computes.
     pub fingerprint: String,
     /// Its material.
     pub material: String,
     /// Its method.
     pub method: String,
-    /// The largest difference from its meaning.
+    /// The largest difference from the function's meaning.
     pub max_abs: f64,
 }
 
@@ -281,12 +282,12 @@ struct SingleBound {
     max_ulp: f64,
 }
 
-/// The record of half precision.
+/// The recorded bounds of half precision.
 pub fn half_bounds() -> Vec<HalfBound> {
     records::rows(HALF_RECORD)
 }
 
-/// What a function computes, in 16 hexadecimal digits: names of steps and reasons do not count.
+/// The fingerprint of what a function computes, in 16 hexadecimal digits: names of steps and reasons do not count.
 pub fn fingerprint(function: &Checked) -> String {
     let mut bare: Function = (**function).clone();
     bare.name = "f".to_owned();
@@ -294,22 +295,23 @@ pub fn fingerprint(function: &Checked) -> String {
     sha256(print(&bare).as_bytes())[..16].to_owned()
 }
 
-/// What is missed, and what serves.
+/// A fit that misses its class, and the method that serves instead.
 #[derive(Clone, Debug)]
 pub struct Missed {
     /// The method that misses.
     pub method: &'static Method,
     /// The material's class.
     pub class: &'static str,
-    /// What nine of ten of the class err at most.
+    /// The 90th percentile of the error over the class.
     pub limit: f64,
-    /// The method that errs no more: a fitted one where there is one, else the exact law. Where none does, the one that errs least.
+    /// The method with no larger error: a fitted one if there is one, else the exact law. If none keeps the limit, the one with
+    /// the least error.
     pub serves: &'static Method,
-    /// What that errs.
+    /// The largest error of that method.
     pub error: f64,
 }
 
-/// The same as reports have it: what the class keeps, the method that serves and its error.
+/// The same for reports: the class's limit, the method that serves and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MissedDetail {
     limit: f64,
@@ -333,7 +335,7 @@ impl Missed {
         )
     }
 
-    /// For reports.
+    /// The detail for reports.
     pub fn detail(&self) -> MissedDetail {
         MissedDetail {
             limit: self.limit,
@@ -380,7 +382,7 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
     })
 }
 
-/// What a method errs for a material, with the coefficients of its specialised function.
+/// The model error of a method for a material, with the coefficients of its specialised function.
 pub fn fitted_error(subject: &MaterialInMedium, method: &'static Method) -> Option<ModelError> {
     let made = specialised_graph(method, subject, Precision::F32, &Bounds::default()).ok()?;
     Some(model_error(&made.function, &subject.truth_for(method)))

@@ -1,6 +1,4 @@
-//! Files: which functions stand together, under which name, with which details for the manifest.
-//!
-//! What can go wrong in emission.
+//! Files: which functions stand together, under which name, with which details for the manifest. Also the errors of emission.
 
 use super::comment;
 use super::detail::{Detail, FunctionsDetail, functions_detail};
@@ -19,15 +17,15 @@ use crate::physics::num::Precision;
 /// A file of one target, in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct File {
-    /// Below the target's folder, with `/`.
+    /// The path below the target's folder, with `/`.
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
-    /// What the manifest says of it.
+    /// The manifest's details of it.
     pub detail: Detail,
 }
 
-/// The library files of a method: one, or one for each page of a target that writes modules.
+/// The library files of a method: one, or one per page for a target that writes modules.
 ///
 /// # Errors
 /// A function's name is a reserved word of a target, or naga refuses the text.
@@ -58,7 +56,7 @@ pub fn library(
         .collect()
 }
 
-/// The functions of a method that a target writes: a module returns a colour, so that it has no scalar form.
+/// The functions of a method that a target writes. A module returns a colour, so it has no scalar form.
 pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<Item = Emitted> {
     let modules = target.finish == Finish::Spirv;
     functions
@@ -66,7 +64,7 @@ pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<It
         .filter(move |function| !modules || function.function.ty() != Ty::Scalar)
 }
 
-/// The files of a material: its functions together.
+/// The files of a material, with all its functions.
 ///
 /// # Errors
 /// A function's name is a reserved word of a target, or naga refuses the text.
@@ -102,7 +100,7 @@ pub fn material(
         .collect()
 }
 
-/// Where a function stands in a text of several. Directives such as `enable f16;` stand in the first only: no code may be before them.
+/// The place of a function in a text of several. Only the first holds directives such as `enable f16;`: no code may precede them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceInFile {
     /// At its beginning.
@@ -112,7 +110,7 @@ pub enum PlaceInFile {
 }
 
 impl PlaceInFile {
-    /// The place behind these pages.
+    /// The place after these pages.
     pub fn behind(pages: &[Vec<u8>]) -> PlaceInFile {
         match pages {
             [] => PlaceInFile::First,
@@ -121,7 +119,7 @@ impl PlaceInFile {
     }
 }
 
-/// One function, to be pasted: no guard, no includes.
+/// One function for pasting: no guard, no includes.
 ///
 /// # Errors
 /// The function's name is a reserved word of a target, or naga refuses the text.
@@ -150,7 +148,7 @@ pub fn single(
     })
 }
 
-/// A page without the line of its directive: it was validated with it.
+/// A page without the line of its directive. The page was validated with it.
 fn without(bytes: Vec<u8>, directive: &str) -> Vec<u8> {
     if directive.is_empty() {
         return bytes;
@@ -160,7 +158,7 @@ fn without(bytes: Vec<u8>, directive: &str) -> Vec<u8> {
         .into_bytes()
 }
 
-/// The file of a function that reads a baked table, below a head made of what the table says of itself.
+/// The file of a function that reads a baked table, with a head made of the table's own description.
 ///
 /// # Errors
 /// The function's name is a reserved word of a target, or naga refuses the text.
@@ -200,7 +198,6 @@ pub fn lookup(
     })
 }
 
-/// The name and the bytes of a file.
 fn rendered(
     target: &'static Target,
     page: &'static Page,
@@ -222,7 +219,7 @@ fn rendered(
     Ok((name, bytes))
 }
 
-/// What the manifest says of these functions.
+/// The manifest's details of these functions.
 fn listed(
     target: &Target,
     functions: &[(Vec<String>, Emitted)],
@@ -232,7 +229,7 @@ fn listed(
     functions_detail(target, &functions, heading.command)
 }
 
-/// Where the numbers that a function takes after `cos_theta` lie in its uniform block, in bytes: WGSL's layout, which is
+/// The byte offsets, in the uniform block, of the numbers that a function takes after `cos_theta`. The layout is WGSL's, which is
 /// std140's for these types.
 pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
     let mut end = 0usize;
@@ -250,12 +247,13 @@ pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
     numbers.map(place).collect()
 }
 
-/// Whether it stands in the uniform block of a module: it is neither the cosine nor a texture.
+/// Whether a parameter lies in a module's uniform block: it is neither the cosine nor a texture.
 pub(super) fn is_number(param: &Param) -> bool {
     param.ty != Ty::Texture && !param.is_cosine()
 }
 
-/// A name is whole here, with its prefix, and must be free in every language: the same function has one name in all.
+/// Checks that names are free in every language, since a function has the same name in all. Here names are complete, with their
+/// prefix.
 pub(super) fn check_names(functions: &[Emitted]) -> Result<(), Error> {
     for emitted in functions {
         let fault = crate::physics::names::identifier_fault(&emitted.name)
@@ -268,10 +266,10 @@ pub(super) fn check_names(functions: &[Emitted]) -> Result<(), Error> {
     Ok(())
 }
 
-/// An error of this room.
+/// An error of emission.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A name cannot be used in a language: the prefix is at fault.
+    /// A name cannot be used in a language, because of the prefix.
     #[error("{}; choose another --prefix", one_line(what))]
     Name {
         /// The name and why.
@@ -292,7 +290,7 @@ pub enum Error {
         /// Why not.
         what: String,
     },
-    /// A bug: what was generated is not what its language allows.
+    /// A bug: the generated text is not valid in its language.
     #[error("this is a bug in fresnel-gen: {}: {}", Foreign(file), one_line(what))]
     Generated {
         /// The file.

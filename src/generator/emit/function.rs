@@ -1,6 +1,4 @@
-//! A function ready to be printed: its name, its graph, and what is known of its errors.
-//!
-//! The forms in which a method's functions are written.
+//! A function ready to be printed: its name, its form, its graph, and what is known of its errors.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,12 +11,12 @@ use crate::language::ir::{BrokenRule, Checked};
 use crate::language::methods::{Method, Values};
 use crate::physics::num::Precision;
 
-/// How functions are named, by what they compute in: half precision is told by the name.
+/// How functions are named. The name shows half precision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Naming {
-    /// Goes before every function's name.
+    /// The prefix of every function's name.
     pub prefix: String,
-    /// What they compute in.
+    /// The functions' precision.
     pub precision: Precision,
 }
 
@@ -32,12 +30,12 @@ impl Default for Naming {
 }
 
 impl Naming {
-    /// The value of `--prefix` in a command that says a run again: none where it is the usual one.
+    /// The value of `--prefix` in a command that repeats a run; none where it is the default.
     pub(crate) fn flag_of_prefix(prefix: &str) -> Option<&str> {
         Some(prefix).filter(|prefix| *prefix != Naming::default().prefix)
     }
 
-    /// The name of a method's function for a material: the exact law bears the material's name alone.
+    /// The name of a method's function for a material. The exact law's function has the material's name alone.
     pub fn specialised(&self, method: &Method, subject: &MaterialInMedium) -> String {
         if method.name == subject.exact_method() {
             self.name(&subject.name, "")
@@ -51,24 +49,24 @@ impl Naming {
         format!("{}{}", subject.name, self.precision.suffix())
     }
 
-    /// The name of a function, of a method or a material and a variant of it.
+    /// The name of a function, from a method or a material and a variant of it.
     fn name(&self, of: &str, variant: &str) -> String {
         format!("{}{of}{variant}{}", self.prefix, self.precision.suffix())
     }
 }
 
-/// A function with all that its page says about it.
+/// A function with everything that its page says about it.
 #[derive(Clone, Debug)]
 pub struct Emitted {
     /// Its name in the language.
     pub name: String,
-    /// Its method; of an effect's function the method that computes R.
+    /// Its method. For an effect's function, the method that computes R.
     pub method: &'static Method,
-    /// Of an effect's function: which one.
+    /// For an effect's function: which one.
     pub effect: Option<EffectPart>,
-    /// What it takes and gives.
+    /// Its arguments and result.
     pub form: FunctionForm,
-    /// What it computes in.
+    /// Its precision.
     pub precision: Precision,
     /// The graph.
     pub function: Checked,
@@ -76,19 +74,19 @@ pub struct Emitted {
     pub constants: Values,
     /// Method against exact law, for a specialised function.
     pub model_error: Option<ModelError>,
-    /// What it computes in against f64.
+    /// The error of its own precision against f64.
     pub code: Measured<CodeBound>,
-    /// The method whose formula it has, where that is another one's.
+    /// The method whose formula it has, if that is another one's.
     pub written_as: Option<&'static Method>,
-    /// Of a plain form: the operations of the stable one.
+    /// For a plain form: the operations of the stable one.
     pub plain_for: Option<usize>,
-    /// Of a fit: whether it misses what its method promises of the material's class.
+    /// For a fit: whether it misses what its method promises for the material's class.
     pub missed: Option<Missed>,
 }
 
 impl Emitted {
-    /// What the function means: in single precision its own graph; in half precision that of single precision, so
-    /// that half-precision's own guards and rounded constants count as code error.
+    /// The meaning of the function. In single precision it is its own graph. In half precision it is the graph of single
+    /// precision, so that half precision's own guards and rounded constants count as code error.
     ///
     /// # Errors
     /// The graph breaks a rule of the representation: a bug.
@@ -164,7 +162,7 @@ pub(super) fn library_function(
     })
 }
 
-/// What a library function promises.
+/// The code error that a library function promises.
 fn promised(method: &Method, form: FunctionForm, precision: Precision) -> Measured<CodeBound> {
     let refused = method.half.library_refusal();
     let finds = method.coefficients.filter(|_| form.coefficient().is_some());
@@ -179,18 +177,18 @@ fn promised(method: &Method, form: FunctionForm, precision: Precision) -> Measur
     }
 }
 
-/// A method's formula with a material's constants in it, in the form that is written.
+/// A method's formula with a material's constants folded in, in the form that is written.
 #[derive(Clone, Debug)]
 pub struct Specialised {
     /// The graph.
     pub function: Checked,
     /// The values that were folded in.
     pub constants: Values,
-    /// Of a plain form: the operations of the stable one.
+    /// For a plain form: the operations of the stable one.
     pub plain_for: Option<usize>,
 }
 
-/// A method's formula specialised to a material, without what is known of its errors.
+/// A method's formula specialised to a material, without its errors.
 ///
 /// # Errors
 /// The method does not describe this, or the graph with these constants breaks a rule of
@@ -282,7 +280,7 @@ pub fn specialised_function(
     })
 }
 
-/// The plain form, where it is cheaper and recorded as one that keeps its digits.
+/// The plain form, where it is cheaper and recorded as accurate.
 fn plain(
     method: &Method,
     constants: &Values,
@@ -295,15 +293,15 @@ fn plain(
     (keeps && plain.work() < stable.work()).then_some(plain)
 }
 
-/// What a function of a method takes and gives.
+/// The arguments and result of a method's function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FunctionForm {
-    /// It takes its arguments at run time, and gives three channels.
+    /// Takes its arguments at run time, and returns three channels.
     Library,
     /// The same for one channel.
     Scalar,
-    /// A material's constants are folded in.
+    /// Has a material's constants folded in.
     Specialised,
     /// The mean over the hemisphere, three channels.
     Average,
@@ -320,7 +318,7 @@ pub enum FunctionForm {
 }
 
 impl FunctionForm {
-    /// As reports and the manifest spell it.
+    /// The name in reports and in the manifest.
     pub fn name(self) -> &'static str {
         match self {
             FunctionForm::Library => "library",
@@ -335,7 +333,7 @@ impl FunctionForm {
         }
     }
 
-    /// What stands behind the method's name in the name of a library function.
+    /// The suffix after the method's name in the name of a library function.
     pub(super) fn suffix(self) -> String {
         match self {
             FunctionForm::Library | FunctionForm::Specialised => String::new(),
@@ -351,14 +349,14 @@ impl FunctionForm {
         FunctionForm::C3,
     ];
 
-    /// Which coefficient it gives.
+    /// The index of the coefficient that it gives, if it gives one.
     pub fn coefficient(self) -> Option<usize> {
         FunctionForm::COEFFICIENTS
             .iter()
             .position(|form| *form == self)
     }
 
-    /// Whether it is of one channel.
+    /// Whether it returns one channel.
     pub fn is_scalar(self) -> bool {
         matches!(self, FunctionForm::Scalar | FunctionForm::AverageScalar)
     }

@@ -1,7 +1,7 @@
-//! Emission: method × target × material → the bytes of files. Pure: nothing here touches the disk.
+//! Emission: method × target × material → the bytes of files. Nothing here touches the disk.
 //!
-//! The graph is printed by one printer ([`print`]) from the target's table, a Tera template puts the page around it,
-//! and SPIR-V is lowered from WGSL by naga. Library files hold functions only.
+//! One printer ([`print`]) prints the graph with the spelling of the target, a Tera template puts the page around it, and naga
+//! generates SPIR-V from WGSL. Library files hold functions only.
 
 mod average;
 mod batch;
@@ -52,5 +52,5 @@ pub use page::{
 pub use print::bare;
 pub use xml::{XmlDocument, xml_comment, xml_text};
 
-/// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.
+/// The version of naga that generates SPIR-V, pinned in Cargo.toml: another version gives other bytes.
 pub const NAGA_VERSION: &str = "30.0.1";

@@ -1,6 +1,6 @@
 //! The page around functions: a template of the target, rendered. Numbers reach it as text.
 //!
-//! naga at work: WGSL parsed and validated in process, and lowered to SPIR-V.
+//! naga parses and validates WGSL in process, and generates SPIR-V from it.
 
 use std::collections::BTreeSet;
 
@@ -17,14 +17,14 @@ use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Finish, Page, Target};
 use crate::physics::num::Precision;
 
-/// What a template sees.
+/// The data of a template.
 #[derive(Serialize)]
 pub(super) struct PageView<'a> {
     /// Lines of the head.
     pub(super) header: &'a [String],
-    /// The include guard's name, or nothing.
+    /// The include guard's name; empty if there is none.
     pub(super) guard: &'a str,
-    /// What must stand before all code.
+    /// The directive that must precede all code.
     pub(super) directive: &'a str,
     /// The functions in their order.
     pub(super) functions: Vec<FunctionView>,
@@ -38,13 +38,13 @@ pub(super) struct PageView<'a> {
 pub(super) struct FunctionView {
     /// Comments above it.
     pub(super) doc: Vec<String>,
-    /// Its head, without a brace.
+    /// Its signature, without a brace.
     pub(super) head: String,
     /// The lines of its body.
     pub(super) body: Vec<String>,
     /// The entry point of a module that calls it.
     pub(super) entry: String,
-    /// How a module calls it: `cos_theta` and what its block holds are f32, and so is the result.
+    /// How a module calls it. `cos_theta`, the numbers of the module's block and the result are f32.
     pub(super) call: String,
 }
 
@@ -58,11 +58,11 @@ pub(super) struct ParameterView {
 pub struct PageRequest<'a> {
     /// The language.
     pub target: &'static Target,
-    /// Which of its pages.
+    /// The page of that target.
     pub page: &'static Page,
     /// Lines of the head.
     pub header: &'a [String],
-    /// The include guard's name, or nothing.
+    /// The include guard's name; empty if there is none.
     pub guard: &'a str,
     /// The functions, each with the comments above it.
     pub functions: &'a [(Vec<String>, Emitted)],
@@ -81,7 +81,7 @@ pub fn render(request: &PageRequest) -> Result<Vec<u8>, Error> {
     )
 }
 
-/// The text of a template with what it sees; the file's name is for messages.
+/// The text of a template with its data. The file's name is for messages.
 ///
 /// # Errors
 /// The template is wrong: a bug.
@@ -113,7 +113,7 @@ pub fn bare_text(target: &'static Target, functions: &[Emitted]) -> Result<Strin
     Ok(String::from_utf8_lossy(&bytes).trim_start().to_owned())
 }
 
-/// A template with what it sees, and what becomes of the text; the file's name is for messages.
+/// The bytes of a template with its data. The file's name is for messages.
 pub fn finished(
     template: &str,
     view: &impl Serialize,
@@ -167,7 +167,6 @@ fn is_texture(param: &Param) -> bool {
     param.ty == Ty::Texture
 }
 
-/// The names of the textures of a file, each once.
 fn textures(request: &PageRequest) -> Vec<String> {
     let functions = request.functions.iter();
     let params = functions.flat_map(|(_, emitted)| &emitted.function.params);
@@ -176,7 +175,7 @@ fn textures(request: &PageRequest) -> Vec<String> {
     sorted.into_iter().collect()
 }
 
-/// How a module's entry point calls a function: numbers stand in its block, textures and samplers beside it.
+/// How a module's entry point calls a function: numbers lie in its block, textures and samplers beside it.
 fn call(target: &Target, emitted: &Emitted) -> String {
     let narrow = |ty: Ty, value: String| match emitted.precision {
         Precision::F32 => value,
@@ -208,7 +207,7 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
 }
 
 /// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, `c0` and so on for
-/// coefficients, the method's name for others; an effect's are named after its functions.
+/// coefficients, and the method's name for others. An effect's are named after its functions.
 pub fn entry_point(index: usize, emitted: &Emitted) -> String {
     match emitted.form {
         _ if emitted.effect.is_some() => batch_entry(&emitted.name),
@@ -232,7 +231,7 @@ pub fn comments(target: &Target, lines: &[String]) -> Vec<String> {
         .collect()
 }
 
-/// The include guard of a file, where the language has a preprocessor.
+/// The include guard of a file; empty unless the language has a preprocessor.
 pub fn guard(target: &Target, stem: &str) -> String {
     if !target.spelling.guard {
         return String::new();
@@ -240,13 +239,13 @@ pub fn guard(target: &Target, stem: &str) -> String {
     format!("{stem}_{}", target.name).to_uppercase()
 }
 
-/// Parses and validates a module; on failure says what naga said, with the line.
+/// Parses and validates a module. On failure, the error is naga's message, with the line.
 ///
 /// # Errors
 /// The text is not valid WGSL.
 pub fn validate(text: &str) -> Result<(naga::Module, ModuleInfo), String> {
     let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
-    // f16 is there for files that say `enable f16;`, and for no others.
+    // f16 is allowed only in files that say `enable f16;`.
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16);
     let info = validator
         .validate(&module)
@@ -254,12 +253,12 @@ pub fn validate(text: &str) -> Result<(naga::Module, ModuleInfo), String> {
     Ok((module, info))
 }
 
-/// Lowers a module to SPIR-V 1.3, with names for people who read it, as little-endian bytes.
+/// Translates a module to SPIR-V 1.3, with names for human readers, as little-endian bytes.
 pub fn spirv(text: &str) -> Result<Vec<u8>, String> {
     Ok(bytes(&without_storage(&words(text)?)))
 }
 
-/// The same for a module that keeps 16-bit numbers in buffers.
+/// The same for a module that stores 16-bit numbers in buffers.
 ///
 /// # Errors
 /// The text is not valid WGSL, or naga cannot write SPIR-V of it.
@@ -282,8 +281,8 @@ fn words(text: &str) -> Result<Vec<u32>, String> {
     spv::write_vec(&module, &info, &options, None).map_err(|error| error.to_string())
 }
 
-/// Without the capabilities to hold 16-bit numbers in buffers, which naga adds as soon as anything computes with them: our
-/// modules hold them in registers only, and a device that lacks it can run them all the same.
+/// Removes the capabilities to store 16-bit numbers in buffers, which naga adds whenever something computes with them. Our
+/// modules hold them only in registers, so a device without these capabilities can run them.
 fn without_storage(words: &[u32]) -> Vec<u32> {
     const HEAD: usize = 5;
     const EXTENSION: u32 = 10;

@@ -1,13 +1,13 @@
 //! The printer: a checked graph as the body of a function, in the spelling of a target.
 //!
-//! Labelled steps become variables with their reason beside them; everything else is written in place, with no
-//! parenthesis that precedence makes needless. Equal precedence on the right keeps its parenthesis, because
-//! floating-point sums and products do not associate.
+//! Labelled steps become variables with their reason beside them. Everything else is written in place, without parentheses that
+//! precedence makes needless. Equal precedence on the right keeps its parentheses, because floating-point sums and products do
+//! not associate.
 
 use crate::language::ir::{Checked, Node, NodeId, Op, Payload, Ty};
 use crate::language::targets::{Form, Spelling, precedence};
 
-/// Lines longer than this are broken, and comments then stand above.
+/// Longer lines are broken, and their comments then stand above.
 const WIDTH: usize = 110;
 
 /// The lines of a function's body, without indentation.
@@ -39,7 +39,7 @@ pub fn body(function: &Checked, spelling: &Spelling) -> Vec<String> {
     lines
 }
 
-/// The head of a function: name, arguments, result.
+/// The signature of a function: name, arguments, result.
 pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
     let params: Vec<String> = function
         .params
@@ -62,7 +62,7 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
     filled.replace("{params}", &params.join(", "))
 }
 
-/// A function alone, without comments: what of its text a compiler reads.
+/// A function alone, without comments: the part of its text that a compiler reads.
 pub fn bare(function: &Checked, name: &str, spelling: &Spelling) -> String {
     let lines = body(function, spelling);
     let code = lines.iter().map(|line| {
@@ -73,7 +73,7 @@ pub fn bare(function: &Checked, name: &str, spelling: &Spelling) -> String {
     format!("{} {{\n{body}}}\n", head(function, name, spelling))
 }
 
-/// The head as a page shows it: each argument on a line of its own where one line is too short for all.
+/// The signature as a page shows it: each argument on its own line where one line is too short for all.
 pub fn shown_head(function: &Checked, name: &str, spelling: &Spelling) -> String {
     let whole = head(function, name, spelling);
     if whole.len() <= WIDTH {
@@ -115,7 +115,7 @@ impl Text {
         }
     }
 
-    /// In parentheses, unless it binds at least so tightly.
+    /// The text, in parentheses unless it binds at least this tightly.
     fn at(self, tightness: u8) -> String {
         if self.tightness >= tightness {
             self.text
@@ -131,7 +131,7 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    /// A statement around the expression of a node; where it is too long, broken at its outermost operation.
+    /// A statement around the expression of a node. If it is too long, it is broken at its outermost operation.
     fn statement(&self, id: NodeId, around: impl Fn(&str) -> String) -> Vec<String> {
         let node = &self.function.nodes[id];
         let whole = around(&self.operation(node).text);
@@ -149,7 +149,7 @@ impl Printer<'_> {
         around(&broken).lines().map(str::to_owned).collect()
     }
 
-    /// A call with each argument on a line of its own.
+    /// A call with each argument on its own line.
     fn broken_call(&self, name: &str, node: &Node) -> String {
         let lines: Vec<String> = node
             .args
@@ -256,8 +256,7 @@ impl Printer<'_> {
         }
     }
 
-    /// The parts of `a + b`; a negative constant on the right of a sum changes the sign instead, which is the same
-    /// number.
+    /// The parts of `a + b`. A negative constant on the right of a sum changes the sign instead, which gives the same number.
     fn sides<'s>(&self, node: &Node, sign: &'s str, tightness: u8) -> (String, &'s str, String) {
         let left = self.expression(node.args[0]).at(tightness);
         let negative = match self.function.nodes[node.args[1]].payload {
@@ -271,7 +270,7 @@ impl Printer<'_> {
         }
     }
 
-    /// The arguments of a call. Where the language spreads a scalar by itself, `max(colour, scalar)` is written.
+    /// The arguments of a call. Where the language broadcasts a scalar by itself, `max(colour, scalar)` is written.
     fn arguments(&self, node: &Node) -> String {
         let scalar_second = self.spelling.mixed_min_max && matches!(node.op, Op::Min | Op::Max);
         let text = |(i, arg): (usize, &NodeId)| {
@@ -288,7 +287,7 @@ impl Printer<'_> {
             .join(", ")
     }
 
-    /// What stands before a swizzle: a number needs a parenthesis there.
+    /// The expression before a swizzle: a number needs parentheses there.
     fn before_dot(&self, id: NodeId) -> String {
         let is_number = self.function.nodes[id].op == Op::Number;
         let text = self.expression(id);

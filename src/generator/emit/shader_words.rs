@@ -1,9 +1,9 @@
-//! Shader text as words with their places: comments are passed over, and lines of the preprocessor.
+//! Shader text as tokens with their positions. Comments and preprocessor lines are skipped.
 
-/// A word or a sign, with its place from 1.
+/// A word or a symbol, with its position counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token<'a> {
-    /// Itself.
+    /// Its text.
     pub text: &'a str,
     /// Its line.
     pub line: usize,
@@ -12,7 +12,7 @@ pub struct Token<'a> {
 }
 
 impl Token<'_> {
-    /// Whether it is a name or a word of the language.
+    /// Whether it is a name or a keyword of the language.
     pub fn is_word(&self) -> bool {
         let starts = |c: char| c.is_alphabetic() || c == '_';
         self.text.starts_with(starts)
@@ -22,13 +22,13 @@ impl Token<'_> {
 /// What counts as no code.
 #[derive(Clone, Copy, Debug)]
 pub struct Hidden {
-    /// Whether lines that begin with `#` are passed over.
+    /// Whether lines that begin with `#` are skipped.
     pub directives: bool,
-    /// Whether a comment may stand in a comment.
+    /// Whether comments nest.
     pub nests: bool,
 }
 
-/// The text with spaces in place of what counts as no code: comments, and directives where those are to be passed over.
+/// The text with spaces in place of what is not code: comments, and directives if those are skipped.
 pub fn code_alone(text: &str, hides: Hidden) -> String {
     let mut out = String::with_capacity(text.len());
     let (mut rest, mut begins_line) = (text, true);
@@ -47,7 +47,7 @@ pub fn code_alone(text: &str, hides: Hidden) -> String {
     out
 }
 
-/// How many bytes of a comment or a directive begin here.
+/// The length in bytes of the comment or directive that begins here; 0 if none does.
 fn hidden(rest: &str, begins_line: bool, hides: Hidden) -> usize {
     if hides.directives && begins_line && rest.starts_with('#') {
         return directive(rest);
@@ -61,7 +61,7 @@ fn hidden(rest: &str, begins_line: bool, hides: Hidden) -> usize {
     0
 }
 
-/// A directive goes on behind a line that ends in `\`.
+/// The length of a directive. A line that ends in `\` continues it.
 fn directive(rest: &str) -> usize {
     let mut end = 0;
     for line in rest.split_inclusive('\n') {
@@ -74,7 +74,7 @@ fn directive(rest: &str) -> usize {
     end
 }
 
-/// How many bytes of a comment begin here; one without an end takes the rest. `nests`: whether a comment may stand in a comment.
+/// The length in bytes of the comment that begins here. One without an end takes the rest. `nests`: whether comments nest.
 pub fn block_comment(rest: &str, nests: bool) -> usize {
     let (mut at, mut depth) = (2, 1);
     while depth > 0 {
@@ -93,12 +93,12 @@ pub fn block_comment(rest: &str, nests: bool) -> usize {
     at
 }
 
-/// Whether a letter may stand in a name.
+/// Whether a character may stand in a name.
 pub fn is_name_part(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The words and signs of a text.
+/// The words and symbols of a text.
 pub fn tokens(bare: &str) -> Vec<Token<'_>> {
     let mut found = Vec::new();
     for (number, line) in bare.lines().enumerate() {

@@ -1,5 +1,5 @@
-//! The short form of a header: one banner for a file, and above a function what it is, its largest error, its cost and its
-//! source. Warnings stay. The rest stands in the manifest, and in the full form.
+//! The short form of a header: one banner for a file, and above each function what it is, its largest error, its cost and its
+//! source. Warnings stay. The rest is in the manifest and in the full form.
 
 use super::average::coefficients_line;
 use super::comment;
@@ -53,14 +53,14 @@ pub fn material(
     comment::lines(lines)
 }
 
-/// Where light comes from, if not from air.
+/// The medium that light comes from, unless it is air.
 fn medium_line(subject: &MaterialInMedium) -> Option<String> {
     let (_, medium) = subject.medium.as_ref()?;
     let name = &medium.name;
     Some(format!("Medium: {name}; the index is relative to {name}"))
 }
 
-/// What stands above one specialised function in a material's file.
+/// The comment above one specialised function in a material's file.
 pub fn specialised(emitted: &Emitted) -> Vec<String> {
     let mut lines = vec![format!("{}: {}", emitted.name, emitted.method.summary)];
     lines.extend(exemption(emitted.method));
@@ -68,7 +68,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     comment::lines(lines)
 }
 
-/// The head of a function that is pasted.
+/// The head of a function for pasting.
 pub fn pasted(
     target: &Target,
     emitted: &Emitted,
@@ -98,7 +98,7 @@ pub fn pasted(
     comment::lines(lines)
 }
 
-/// What all files begin with.
+/// The first lines of every file.
 fn banner(command: &str) -> Vec<String> {
     vec![
         MARK.to_owned(),
@@ -110,7 +110,7 @@ fn banner(command: &str) -> Vec<String> {
     ]
 }
 
-/// Of a specialised function its largest error with its warnings, its cost and its source.
+/// The figures of a specialised function: its largest error with its warnings, its cost and its source.
 fn known_of(emitted: &Emitted) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     if table_line(emitted).is_some() {
@@ -130,7 +130,7 @@ fn known_of(emitted: &Emitted) -> Vec<String> {
     lines
 }
 
-/// What a library function takes and promises.
+/// The arguments and promises of a library function.
 fn promised(target: &Target, method: &Method, precision: Precision) -> Vec<String> {
     let mut lines = vec![arguments(method, precision)];
     lines.push(format!("Domain: {}", method.domain));
@@ -145,7 +145,7 @@ fn promised(target: &Target, method: &Method, precision: Precision) -> Vec<Strin
     lines
 }
 
-/// What a library function takes, in one paragraph; coefficients of a fit are told together.
+/// The arguments of a library function, in one paragraph. Coefficients of a fit are described together.
 fn arguments(method: &Method, precision: Precision) -> String {
     let mut told = vec![
         "cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet".to_owned(),
@@ -163,7 +163,6 @@ fn arguments(method: &Method, precision: Precision) -> String {
     format!("Arguments: {}", told.join("; "))
 }
 
-/// The operations of each function of a file.
 fn costs(functions: &[Emitted]) -> String {
     let (first, others) = (&functions[0], &functions[1..]);
     let others = others
@@ -173,7 +172,7 @@ fn costs(functions: &[Emitted]) -> String {
     format!("Cost: {}{others}", operations(first))
 }
 
-/// What a mean over the hemisphere is, where there is one among the functions.
+/// What a mean over the hemisphere is, if one is among the functions.
 fn mean_line(functions: &[Emitted]) -> Option<String> {
     let mean = functions.iter().find(|emitted| emitted.form.is_mean())?;
     let error = mean.method.average.map_or(String::new(), |average| {
@@ -185,7 +184,7 @@ fn mean_line(functions: &[Emitted]) -> Option<String> {
     ))
 }
 
-/// Where a method comes from, in one line.
+/// The source of a method, in one line.
 fn source(method: &Method) -> String {
     format!("Source: {}", method.source_in_short())
 }

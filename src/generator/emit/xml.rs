@@ -1,12 +1,12 @@
-//! XML that is well-formed whatever stands in it: documents of MaterialX, text of SVG, comments in templates.
+//! XML that is well-formed whatever text it holds: documents of MaterialX, text of SVG, comments in templates.
 //!
-//! Source: Extensible Markup Language (XML) 1.0, fifth edition, <https://www.w3.org/TR/xml/>: a document holds no controls but tabs
-//! and line breaks (2.2), a comment no two hyphens and none at its end (2.5), an attribute no `<` (3.1). Names are those of elements and
-//! attributes here; what cannot stand in one becomes `_`.
+//! Source: Extensible Markup Language (XML) 1.0, fifth edition, <https://www.w3.org/TR/xml/>: a document holds no control
+//! characters except tabs and line breaks (2.2), a comment no two hyphens in a row and none at its end (2.5), an attribute no `<`
+//! (3.1). In names of elements and attributes, characters that are not allowed become `_`.
 
 use crate::physics::materials::is_hidden;
 
-/// A document that is being written. Each element is a line.
+/// An XML document under construction, one element per line.
 #[derive(Clone, Debug)]
 pub struct XmlDocument {
     text: String,
@@ -33,18 +33,18 @@ impl XmlDocument {
         self.text += &format!("<!--\n{}-->\n", lines.collect::<String>());
     }
 
-    /// An element that holds others, until it is closed.
+    /// Opens an element that holds others.
     pub fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {
         self.tag(name, attributes, ">");
         self.open.push(xml_name(name));
     }
 
-    /// An element that holds nothing.
+    /// An element without content.
     pub fn empty(&mut self, name: &str, attributes: &[(&str, &str)]) {
         self.tag(name, attributes, " />");
     }
 
-    /// The end of the element that was opened last.
+    /// Closes the element that was opened last.
     pub fn close(&mut self) {
         if let Some(name) = self.open.pop() {
             self.text += &format!("{}</{name}>\n", self.indent());
@@ -87,7 +87,7 @@ pub fn xml_text(text: &str) -> String {
     safe
 }
 
-/// Text that is safe inside a comment which goes on with a blank or a line break: no two hyphens, and none at the end.
+/// Text that is safe inside a comment which goes on with a blank or a line break: no two hyphens in a row, and none at the end.
 pub fn xml_comment(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars().map(legal) {
@@ -99,7 +99,8 @@ pub fn xml_comment(text: &str) -> String {
     safe
 }
 
-/// XML 1.0 cannot carry controls and U+FFFE, not even as references; what turns the direction of text deceives whoever reads it.
+/// XML 1.0 cannot carry control characters and U+FFFE, not even as references. Characters that change the direction of text can
+/// deceive a reader.
 fn legal(letter: char) -> char {
     match letter {
         '\u{FFFE}' | '\u{FFFF}' => '\u{FFFD}',
@@ -108,7 +109,6 @@ fn legal(letter: char) -> char {
     }
 }
 
-/// A name of an element or an attribute.
 fn xml_name(name: &str) -> String {
     let is_kept = |c: char| c.is_ascii_alphanumeric() || "_.-".contains(c);
     let kept: String = name
@@ -128,7 +128,7 @@ mod tests {
 
     use super::*;
 
-    /// What has left a text of XML, or could.
+    /// Texts that have broken out of XML, or could.
     const HOSTILE: [&str; 14] = [
         "--->",
         "---",

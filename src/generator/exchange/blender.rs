@@ -2,9 +2,9 @@
 //!
 //! Source: Blender Manual, "Principled BSDF" and "Metallic BSDF", version 4.4,
 //! <https://docs.blender.org/manual/en/4.4/render/shader_nodes/shader/principled.html>. Principled (4.0 and later): a metal is
-//! F82-tint with Base Color as F0 and Specular Tint as the tint, a dielectric the exact law of IOR. Metallic BSDF (4.3 and
-//! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE reads both from tables of
-//! sums, so that its F is Cycles's only about: of dielectrics it is Schlick's. Roughness is .5 unless it is set.
+//! F82-tint with Base Color as F0 and Specular Tint as the tint, a dielectric is the exact law of IOR. Metallic BSDF (4.3 and
+//! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE uses lookup tables for
+//! both, so its F only approximates that of Cycles: for dielectrics it is Schlick's. Roughness is .5 by default.
 
 use super::format::{Format, Notes};
 use super::model::Model;
@@ -35,7 +35,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
                 Field::number("IOR", ior),
             ];
             if is_clear {
-                // Base Color tints what is transmitted; it is grey by default.
+                // Base Color tints transmitted light, and is grey by default.
                 fields.push(Field::colour("Base Color", [1.0; 3]));
                 fields.push(Field::number("Transmission Weight", 1.0));
             }

@@ -1,9 +1,9 @@
 //! Filament: lines of a material's fragment function.
 //!
 //! Source: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>,
-//! section 4.8.3.2: a metal's F0 is `baseColor`. Schlick's approximation with min(16.5 (R + G + B) of F0, 1) at 90 degrees, or 1 on
-//! phones and in images. A dielectric's F0 is .16 reflectance², which is .16 at most; where a lit material sets `ior` and no
-//! `reflectance`, it is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
+//! section 4.8.3.2. A metal's F0 is `baseColor`. F is Schlick's approximation with min(16.5 (R + G + B) of F0, 1) at 90 degrees,
+//! or 1 on phones and in images. A dielectric's F0 is .16 reflectance², at most .16. Where a lit material sets `ior` and no
+//! `reflectance`, F0 is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
 
 use super::format::{Format, Notes};
 use super::model::Model;
@@ -11,7 +11,7 @@ use super::sheet::{self, Field, FieldValue, Node, Sheet};
 use super::subject::{Body, EngineMaterial, f0_of};
 use crate::physics::spectra::Space;
 
-/// F90 over the sum of F0's channels, up to 1: 50 * .33 in Filament's code.
+/// The ratio of F90 to the sum of F0's channels, for F90 up to 1: 50 * .33 in Filament's code.
 const F90_SHARE: f64 = 16.5;
 
 /// The record of this format.

@@ -1,6 +1,4 @@
-//! What a format is: a plain record in a static table.
-//!
-//! Why a material has no place in a format.
+//! The record of an exchange format, and the errors of exporting a material to one.
 
 use thiserror::Error;
 
@@ -13,41 +11,41 @@ use crate::physics::spectra::Space;
 /// A format that engines or tools read.
 #[derive(Debug)]
 pub struct Format {
-    /// Its one name: file, `--as`, row of the table in `docs/materials.md`.
+    /// Its name, used for its file, for `--as`, and in the table of `docs/materials.md`.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// A description in one line.
     pub summary: &'static str,
-    /// The spaces that its colours may be in.
+    /// The working spaces that its colours may be in.
     pub spaces: &'static [Space],
-    /// The format's nodes with their numbers, and what was limited.
+    /// The format's nodes with their numbers, and what was clamped.
     pub sheet: fn(&EngineMaterial) -> Sheet,
     /// The text of the file.
     pub text: fn(&EngineMaterial, &Sheet, &Notes) -> String,
 }
 
-/// What the text says beside the numbers.
+/// What the text says besides the numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notes {
     /// The command that writes the file again.
     pub command: String,
     /// The error of each node.
     pub errors: Vec<NodeError>,
-    /// What was limited or left out.
+    /// What was clamped or left out.
     pub remarks: Vec<String>,
 }
 
-/// A material in a format.
+/// A material exported to a format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exported {
     /// The text of the file.
     pub text: String,
     /// The error of each node, in the order of the file.
     pub errors: Vec<NodeError>,
-    /// What was limited or left out; it stands in the text too.
+    /// What was clamped or left out. The text says it too.
     pub remarks: Vec<String>,
 }
 
-/// Formats have a roughness of their own where none is written: glTF and Filament 1, USD, Blender and Unreal .5, OpenPBR .3.
+/// Where no roughness is written, formats use their default: glTF and Filament 1, USD, Blender and Unreal .5, OpenPBR .3.
 const SMOOTH: &str = "roughness is 0, a smooth surface; set your own";
 
 impl Format {
@@ -88,10 +86,10 @@ impl Format {
     }
 }
 
-/// Why a material has no place in a format.
+/// Why a material cannot be exported to a format.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ExchangeFault {
-    /// A dielectric that is rarer than its medium.
+    /// A dielectric with an index below that of its medium.
     #[error(
         "`{}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \
          is optically rarer",
@@ -103,14 +101,14 @@ pub enum ExchangeFault {
         /// Its relative index.
         index: String,
     },
-    /// A space that the format does not know.
+    /// A working space that the format does not support.
     #[error("--as {format} takes colours in {allowed}, and not in {space}; change --space")]
     Space {
         /// The format.
         format: &'static str,
-        /// What was asked for.
+        /// The space requested.
         space: &'static str,
-        /// What the format takes.
+        /// The spaces that the format supports.
         allowed: String,
     },
 }

@@ -5,9 +5,9 @@
 //! KHR_materials_specular, KHR_materials_transmission, KHR_materials_volume and KHR_materials_dispersion of the Khronos Group,
 //! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos>.
 //!
-//! A metal's F0 is `baseColorFactor`. A dielectric's is that of `ior`, times `specularColorFactor`, 1 at most. All is
-//! Schlick's approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number; it wants a volume. `metallicFactor` and
-//! `roughnessFactor` are 1 where they are left out.
+//! A metal's F0 is `baseColorFactor`. A dielectric's is that of `ior`, times `specularColorFactor`, at most 1. Both use Schlick's
+//! approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number, and needs a volume. `metallicFactor` and
+//! `roughnessFactor` are 1 by default.
 
 use serde::Serialize;
 
@@ -84,7 +84,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     }
 }
 
-/// The extensions that hold a field; all others belong to `pbrMetallicRoughness`.
+/// The extensions that hold a field. All other fields belong to `pbrMetallicRoughness`.
 const EXTENSIONS: [(&str, &str); 5] = [
     ("ior", "KHR_materials_ior"),
     ("specularColorFactor", "KHR_materials_specular"),
@@ -111,7 +111,7 @@ struct AssetHead<'a> {
     extras: Extras<'a>,
 }
 
-/// What other formats say in comments. The key `tool` is the mark of our JSON.
+/// What other formats say in comments. The key `tool` is the mark of this program's JSON.
 #[derive(Serialize)]
 struct Extras<'a> {
     tool: &'static str,
@@ -162,10 +162,9 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     escaped(&json) + "\n"
 }
 
-/// The name of the program.
 const TOOL: &str = "fresnel-gen";
 
-/// A field's value; the base colour has an alpha.
+/// A field's value. The base colour has an alpha.
 fn value(field: &Field) -> serde_json::Value {
     match field.value {
         FieldValue::Number(value) => value.into(),

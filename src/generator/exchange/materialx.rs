@@ -1,11 +1,11 @@
-//! MaterialX 1.39: `open_pbr_surface`, and for metals two nodes that hold more: `generalized_schlick_bsdf`, whose tint may lie
-//! above 1, and `conductor_bsdf`, which takes n and k.
+//! MaterialX 1.39: `open_pbr_surface`, and for metals two nodes with a wider range: `generalized_schlick_bsdf`, whose tint may
+//! exceed 1, and `conductor_bsdf`, which takes n and k.
 //!
 //! Source: MaterialX, "Physically Based Shading Nodes, version 1.39", 2024,
-//! <https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.PBRSpec.md>.
-//! `color0` is F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees. `ior` and `extinction` have the type of colours
-//! and are none: the space `none` keeps them as they are. Yet F of them is a colour of the document's space. Roughness is .05 unless it is
-//! set, .3 in OpenPBR.
+//! <https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.PBRSpec.md>. `color0` is
+//! F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees. `ior` and `extinction` have a colour type but are
+//! not colours: the space `none` keeps them unchanged. Yet the F computed from them is a colour of the document's space.
+//! Roughness is .05 by default, .3 in OpenPBR.
 
 use super::format::{Format, Notes};
 use super::model::Model;
@@ -19,7 +19,7 @@ use crate::physics::spectra::Space;
 pub static FORMAT: Format = Format {
     name: "materialx",
     summary: "a document of MaterialX 1.39, .mtlx",
-    spaces: &[Space::Srgb, Space::P3, Space::AcesCg],
+    spaces: &[Space::Srgb, Space::DisplayP3, Space::AcesCg],
     sheet,
     text,
 };
@@ -30,7 +30,7 @@ const OPEN_PBR: &str = "open_pbr_surface";
 fn space(space: Space) -> &'static str {
     match space {
         Space::Srgb => "lin_rec709",
-        Space::P3 => "lin_displayp3",
+        Space::DisplayP3 => "lin_displayp3",
         Space::AcesCg => "acescg",
         Space::Rec2020 => "lin_rec2020",
     }
@@ -66,7 +66,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     Sheet { nodes, remarks }
 }
 
-/// What is to be said of n and k: no host moves them to another space.
+/// A remark on n and k: no host converts them to another space.
 fn of_conductor(material: &EngineMaterial) -> Option<String> {
     let space = space(material.space?);
     Some(format!(
@@ -77,7 +77,7 @@ fn of_conductor(material: &EngineMaterial) -> Option<String> {
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let mut document = XmlDocument::new(sheet::mark());
     document.comment(&comment_lines(sheet::about(&FORMAT, material, notes)));
-    // A comment holds no two hyphens, and a command does.
+    // A comment may not hold two hyphens in a row, but a command does.
     let doc = sheet::regenerate(notes);
     let mut attributes = vec![("version", "1.39")];
     attributes.extend(material.space.map(|own| ("colorspace", space(own))));
@@ -89,7 +89,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     document.finished()
 }
 
-/// A node with the surface around it, and the material that names it.
+/// A node with the surface around it, and a material that refers to it.
 fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
     let (kind, name) = (node.name, format!("{material}_{}", node.name));
     let is_surface = kind == OPEN_PBR;
@@ -113,7 +113,7 @@ fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
     document.close();
 }
 
-/// The surface that shows a BSDF, by its name.
+/// The surface that shows a BSDF, by the BSDF's name.
 fn surface_of(document: &mut XmlDocument, bsdf: &str) -> String {
     let surface = format!("{bsdf}_surface");
     document.open("surface", &[("name", &surface), ("type", "surfaceshader")]);
@@ -137,7 +137,7 @@ fn input(document: &mut XmlDocument, field: &Field) {
     let numbers = field.value.numbers();
     let mut attributes = vec![("name", field.name), ("type", ty), ("value", &numbers)];
     if let FieldValue::Channels(_) = field.value {
-        // Else a host moves them into its working space with the colours.
+        // Otherwise a host converts them to its working space with the colours.
         attributes.push(("colorspace", "none"));
     }
     document.empty("input", &attributes);

@@ -1,7 +1,7 @@
-//! A material's numbers in the formats that engines and tools read, one file a format.
+//! A material's numbers in the formats that engines and tools read, one file per format.
 //!
-//! Each format computes reflectance by a model of its own: Schlick's approximation, F82-tint, or the law itself. Numbers are
-//! limited as the format wants it. The error that is left is measured with the numbers as they are written.
+//! Each format computes reflectance by its own model: Schlick's approximation, F82-tint, or the exact law. Numbers are clamped to
+//! the format's limits. The remaining error is measured with the numbers as written.
 //!
 //! To add a format, write its file with a `pub static FORMAT: Format`, and run `tests/lists`.
 
@@ -35,4 +35,17 @@ pub static ALL: &[&Format] = &[
     &unreal::FORMAT,
     &usd::FORMAT,
 ];
+
+/// Each by its name.
+#[rustfmt::skip]
+#[allow(missing_docs)]
+impl Format {
+    pub const BLENDER: &'static Format = &blender::FORMAT;
+    pub const FILAMENT: &'static Format = &filament::FORMAT;
+    pub const GLTF: &'static Format = &gltf::FORMAT;
+    pub const MATERIALX: &'static Format = &materialx::FORMAT;
+    pub const OPENPBR: &'static Format = &openpbr::FORMAT;
+    pub const UNREAL: &'static Format = &unreal::FORMAT;
+    pub const USD: &'static Format = &usd::FORMAT;
+}
 // END list

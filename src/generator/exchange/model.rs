@@ -8,14 +8,14 @@ use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::Checked;
 use crate::language::methods::{self, Method, Values};
 
-/// One of our methods with the numbers that a format gives it.
+/// One of our methods with the numbers that a format gives to it.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// What the format computes, in words.
     pub words: &'static str,
     /// The method that is the same formula.
     pub method: &'static Method,
-    /// The values of its inputs; a scalar input uses the first number.
+    /// The values of its inputs. A scalar input uses the first number.
     pub values: Values,
 }
 
@@ -28,20 +28,20 @@ pub struct NodeError {
     pub model: &'static str,
     /// The largest error of reflectance, over angles and channels.
     pub max_abs: f64,
-    /// The angle there, in degrees.
+    /// The angle of the largest error, in degrees.
     pub worst_degrees: f64,
-    /// The same where the medium is a coat, which bends all light towards the normal.
+    /// The same where the medium is a coat, which refracts all light towards the normal.
     pub below_coat: Option<CoatedError>,
 }
 
-/// The error of a node below a coat, over the angles that light has in it.
+/// The error of a node below a coat, over the angles that occur in the coat.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CoatedError {
-    /// The largest angle from the normal that light has in the coat, in degrees.
+    /// The largest angle from the normal that occurs in the coat, in degrees.
     pub steepest_degrees: f64,
     /// The largest error of reflectance.
     pub max_abs: f64,
-    /// The angle there, in degrees.
+    /// The angle of the largest error, in degrees.
     pub worst_degrees: f64,
 }
 
@@ -76,7 +76,7 @@ impl Model {
         Model::new(words, "dielectric_exact", &[("eta", [ior; 3])])
     }
 
-    /// The exact law for a complex index a channel.
+    /// The exact law for one complex index per channel.
     pub fn conductor(n: [f64; 3], k: [f64; 3]) -> Model {
         let words = "Fresnel's equations with n and k of each channel";
         Model::new(words, "conductor_exact", &[("n", n), ("k", k)])
@@ -138,7 +138,7 @@ impl NodeError {
         }
     }
 
-    /// In a line.
+    /// The error in one line of text.
     pub fn line(&self) -> String {
         let NodeError {
             node,

@@ -1,12 +1,11 @@
-//! OpenPBR 1.1.1: a metal is F82-tint with `base_color` as F0 and `specular_color` as the tint, a dielectric the exact law of
+//! OpenPBR 1.1.1: a metal is F82-tint with `base_color` as F0 and `specular_color` as the tint, a dielectric is the exact law of
 //! `specular_ior`.
 //!
 //! Source: Andersson and others, "OpenPBR Surface specification, version 1.1.1", 2026,
-//! <https://academysoftwarefoundation.github.io/OpenPBR/>, sections on the metallic and the dielectric base.
-//! Parameters have no space beside them: a host takes their colours in its working space, for which OpenPBR recommends ACEScg. The file is
-//! in the space of the run, and says so where that is another.
-//! `base_color` and `specular_color` lie in [0, 1]; dispersion is Abbe's number with a scale, which is 0 by default.
-//! `specular_roughness` is .3 unless it is set.
+//! <https://academysoftwarefoundation.github.io/OpenPBR/>, sections on the metallic and the dielectric base. Parameters do not
+//! state their space: a host takes their colours in its working space, for which OpenPBR recommends ACEScg. The file is in the
+//! space of the run, and says so where that is another. `base_color` and `specular_color` lie in [0, 1]. Dispersion is Abbe's
+//! number with a scale, which is 0 by default. `specular_roughness` is .3 by default.
 
 use super::format::{Format, Notes};
 use super::model::Model;
@@ -31,7 +30,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     }
 }
 
-/// What is to be said of the space of colours, where it is not the one that OpenPBR takes.
+/// A remark on the space of colours, if it is not the one that OpenPBR takes.
 fn of_space(material: &EngineMaterial) -> Option<String> {
     let has_colours = material.body == Body::Conductor;
     let space = material
@@ -43,7 +42,7 @@ fn of_space(material: &EngineMaterial) -> Option<String> {
     ))
 }
 
-/// The parameters, and what was limited.
+/// The parameters, and a remark if any was clamped.
 pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<String>) {
     let (fields, model, remark) = match material.body {
         Body::Conductor => {

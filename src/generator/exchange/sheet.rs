@@ -1,6 +1,5 @@
-//! What a format holds of a material: nodes with named numbers.
-//!
-//! The lines above the numbers: mark, command, what the material is, errors, remarks.
+//! The contents of a format's file: nodes with named numbers, and the lines above them (mark, command, what the material is,
+//! errors, remarks).
 
 use super::format::{Format, Notes};
 use super::model::Model;
@@ -8,12 +7,12 @@ use super::subject::{EngineMaterial, rounded};
 use crate::generator::emit::{MARK, OUTPUT_LICENCE, comment_lines};
 use crate::generator::fit::rounded_up;
 
-/// All that a format holds of a material.
+/// A material in a format.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// The nodes: shaders or materials, each whole by itself.
+    /// The nodes: shaders or materials, each complete in itself.
     pub nodes: Vec<Node>,
-    /// What was limited or left out.
+    /// What was clamped or left out.
     pub remarks: Vec<String>,
 }
 
@@ -24,7 +23,7 @@ pub struct Node {
     pub name: &'static str,
     /// Its numbers, by their names in the format.
     pub fields: Vec<Field>,
-    /// What it computes with them.
+    /// The model that it computes with them.
     pub model: Model,
 }
 
@@ -42,18 +41,18 @@ pub struct Field {
 pub enum FieldValue {
     /// One number.
     Number(f64),
-    /// A whole number that switches something.
+    /// An integer that switches something.
     Whole(i32),
     /// Three channels of a colour.
     Colour([f64; 3]),
-    /// Three channels that are no colour, and stay as they are in every working space.
+    /// Three channels that are not a colour, and stay the same in every working space.
     Channels([f64; 3]),
     /// The same number along both axes of a surface.
     Both(f64),
 }
 
 impl Field {
-    /// A number, as it is written.
+    /// A number, rounded as it is written.
     pub fn number(name: &'static str, value: f64) -> Field {
         Field {
             name,
@@ -61,7 +60,7 @@ impl Field {
         }
     }
 
-    /// A whole number.
+    /// An integer.
     pub fn whole(name: &'static str, value: i32) -> Field {
         Field {
             name,
@@ -69,7 +68,7 @@ impl Field {
         }
     }
 
-    /// A colour, as it is written.
+    /// A colour, rounded as it is written.
     pub fn colour(name: &'static str, value: [f64; 3]) -> Field {
         Field {
             name,
@@ -77,7 +76,7 @@ impl Field {
         }
     }
 
-    /// Three channels that are no colour, as they are written.
+    /// Three channels that are not a colour, rounded as they are written.
     pub fn channels(name: &'static str, value: [f64; 3]) -> Field {
         Field {
             name,
@@ -95,7 +94,7 @@ impl Field {
 }
 
 impl FieldValue {
-    /// The numbers with a point, separated by commas.
+    /// The numbers with decimal points, separated by commas.
     pub fn numbers(&self) -> String {
         match self {
             FieldValue::Number(value) => format!("{value:?}"),
@@ -108,7 +107,7 @@ impl FieldValue {
     }
 }
 
-/// The tint of F82-tint where a format takes none above 1, and what that costs.
+/// The tint of F82-tint where a format limits it to 1, and the error that this causes.
 pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<String>) {
     let (f0, whole) = (material.f0, material.tint);
     let capped = whole.map(|tint| tint.min(1.0));
@@ -129,7 +128,7 @@ pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<
     (capped, Some(remark))
 }
 
-/// The mark, which the first line that the format leaves free bears.
+/// The mark, which stands in the first line that the format leaves free.
 pub fn mark() -> &'static str {
     MARK
 }
@@ -171,7 +170,7 @@ pub fn about(format: &Format, material: &EngineMaterial, notes: &Notes) -> Vec<S
     lines
 }
 
-/// The whole head as comments that begin like this.
+/// The whole head as comments with this start.
 pub fn comments(start: &str, format: &Format, material: &EngineMaterial, notes: &Notes) -> String {
     let mut lines = vec![mark().to_owned(), regenerate(notes)];
     lines.extend(about(format, material, notes));

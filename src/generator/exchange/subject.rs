@@ -1,4 +1,4 @@
-//! What formats take of a material: colours in [0, 1], the tint, the index at the d line, Abbe's number.
+//! A material's numbers for exchange formats: colours in [0, 1], the tint, the index at the d line, Abbe's number.
 
 use super::format::ExchangeFault;
 use crate::generator::fit::{abbe_in, ior_in};
@@ -7,20 +7,20 @@ use crate::language::methods::{Input, KnownSurface};
 use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
 
-/// A material as formats take it.
+/// A material with the numbers that formats take.
 #[derive(Clone, Debug)]
 pub struct EngineMaterial<'a> {
-    /// The material in its medium; its reference is clipped to [0, 1].
+    /// The material in its medium. Its reference is clipped to [0, 1].
     pub subject: &'a MaterialInMedium,
     /// The working space; none where each channel is one wavelength.
     pub space: Option<Space>,
-    /// Reflectance at 0 degrees, limited to [0, 1], as it is written.
+    /// Reflectance at 0 degrees, clamped to [0, 1] and rounded as it is written.
     pub f0: [f64; 3],
-    /// F82 over Schlick's value there, as it is written; it may lie above 1.
+    /// F82 over Schlick's value there, rounded as it is written. It may exceed 1.
     pub tint: [f64; 3],
     /// What lies below the surface.
     pub body: Body,
-    /// The index of the medium, where it is above that of air: then it may be a coat.
+    /// The index of the medium, if it is above that of air: then the medium may be a coat.
     pub coat: Option<f64>,
     remarks: Vec<String>,
 }
@@ -28,36 +28,37 @@ pub struct EngineMaterial<'a> {
 /// What lies below the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
-    /// A metal or a semiconductor: nothing comes out again.
+    /// A metal or a semiconductor: no light comes out again.
     Conductor,
     /// A dielectric.
     Dielectric {
-        /// The index at the d line, as it is written.
+        /// The index at the d line, rounded as it is written.
         ior: f64,
-        /// Abbe's number, where it is known.
+        /// Abbe's number, if known.
         abbe: Option<f64>,
         /// Whether light passes.
         is_clear: bool,
     },
 }
 
-/// A number as it is written: five digits behind the point.
+/// A number rounded to five decimals, as it is written.
 pub fn rounded(value: f64) -> f64 {
     // Adding 0 makes 0 of -0.
     libm::round(value * 1e5) / 1e5 + 0.0
 }
 
-/// Reflectance at 0 degrees of one index.
+/// Reflectance at 0 degrees of a real index.
 pub fn f0_of(ior: f64) -> f64 {
     let root = (ior - 1.0) / (ior + 1.0);
     root * root
 }
 
 impl EngineMaterial<'_> {
-    /// A material in its medium as formats take it. The viewing conditions are those that it was made with, and clip.
+    /// A material in its medium with the numbers that formats take. The viewing conditions are those it was made with, and they
+    /// clip.
     ///
     /// # Errors
-    /// It is a dielectric that is rarer than its medium.
+    /// It is a dielectric with an index below that of its medium.
     pub fn new<'a>(
         subject: &'a MaterialInMedium,
         viewing: &ViewingConditions,
@@ -79,20 +80,20 @@ impl EngineMaterial<'_> {
         })
     }
 
-    /// F0 as sRGB encodes it, where the space is sRGB.
+    /// F0 encoded as sRGB, if the space is sRGB.
     pub fn hex(&self) -> Option<String> {
         let [red, green, blue] = self.f0.map(srgb_byte);
         let hex = format!("#{red:02x}{green:02x}{blue:02x}");
         (self.space == Some(Space::Srgb)).then_some(hex)
     }
 
-    /// What is to be said in every format.
+    /// The remarks that every format makes.
     pub fn remarks(&self) -> impl Iterator<Item = String> {
         self.remarks.clone().into_iter()
     }
 }
 
-/// What is known of the surface as it is seen, clipped.
+/// The surface's channels under viewing conditions, clipped.
 fn known(subject: &MaterialInMedium) -> KnownSurface {
     let channels = subject.effective.channels;
     let seen = |cos_theta| subject.reference.at(cos_theta);
@@ -104,7 +105,7 @@ fn known(subject: &MaterialInMedium) -> KnownSurface {
     )
 }
 
-/// The medium's index at the d line, or where the eye sees best.
+/// The medium's index at the d line, or at 555 nm, where the eye is most sensitive.
 fn coat(subject: &MaterialInMedium) -> Option<f64> {
     const GREEN_NM: f64 = 555.0;
     let (_, medium) = subject.medium.as_ref()?;

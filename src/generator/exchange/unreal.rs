@@ -2,9 +2,9 @@
 //!
 //! Source: Epic Games, "Physically Based Materials in Unreal Engine",
 //! <https://dev.epicgames.com/documentation/en-us/unreal-engine/physically-based-materials-in-unreal-engine>, and the engine's
-//! BRDF.ush. Default Lit: F0 = lerp(.08 Specular, Base Color, Metallic), so that a dielectric reflects one grey of .08 at most;
-//! Schlick's approximation with min(50 F0, 1) of the green channel at 90 degrees. A slab takes F0 and F90 as colours, and multiplies F90
-//! by the same of the largest channel. Roughness is .5 unless it is set.
+//! BRDF.ush. Default Lit: F0 = lerp(.08 Specular, Base Color, Metallic), so a dielectric has one grey F0 of at most .08. F is
+//! Schlick's approximation with min(50 F0, 1) of the green channel at 90 degrees. A slab takes F0 and F90 as colours, and
+//! multiplies F90 by the same minimum for the largest channel. Roughness is .5 by default.
 
 use super::format::{Format, Notes};
 use super::model::Model;
@@ -12,9 +12,9 @@ use super::sheet::{self, Field, Node, Sheet};
 use super::subject::{Body, EngineMaterial, f0_of, rounded};
 use crate::physics::spectra::Space;
 
-/// F0 of Specular 1.
+/// F0 where Specular is 1.
 const SPECULAR_F0: f64 = 0.08;
-/// F90 over a channel of F0, up to 1.
+/// The ratio of F90 to a channel of F0, for F90 up to 1.
 const F90_SHARE: f64 = 50.0;
 
 /// The record of this format.
@@ -38,7 +38,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     }
 }
 
-/// A slab fades F90 out as Default Lit does, by the largest channel. Its diffuse albedo is .18 unless it is set.
+/// A slab fades F90 out as Default Lit does, by the largest channel. Its diffuse albedo is .18 by default.
 fn slab(material: &EngineMaterial) -> Node {
     let mut fields = vec![
         Field::colour("F0", material.f0),

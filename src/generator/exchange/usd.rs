@@ -1,9 +1,9 @@
 //! USD: a UsdPreviewSurface as a text layer.
 //!
-//! Source: Pixar, "UsdPreviewSurface Specification", version 2.6, <https://openusd.org/release/spec_usdpreviewsurface.html>.
-//! All take the specular workflow: F0 is `specularColor`, by Schlick's approximation, white at 90 degrees. With `metallic` 1 both
-//! ends would be `diffuseColor`, so that gold would be gold at 90 degrees too. A metal's `diffuseColor` is black, which is grey unless it
-//! is set. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 unless it is set.
+//! Source: Pixar, "UsdPreviewSurface Specification", version 2.6, <https://openusd.org/release/spec_usdpreviewsurface.html>. All
+//! materials use the specular workflow: F0 is `specularColor`, by Schlick's approximation, white at 90 degrees. With `metallic` 1
+//! both ends would be `diffuseColor`, so that gold would be gold at 90 degrees too. A metal's `diffuseColor` is set to black; it
+//! is grey by default. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 by default.
 
 use super::format::{Format, Notes};
 use super::model::Model;

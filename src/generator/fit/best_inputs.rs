@@ -1,41 +1,40 @@
-//! A method at its best: the inputs with which its largest error is least, whatever they were meant to be. A rival is charted
-//! so too, beside its intended inputs, or a comparison would only show that its inputs were not chosen for it.
+//! The inputs that minimise a method's largest error, whatever the inputs were meant to be. A rival method is charted with these
+//! too, beside its intended inputs. Otherwise a comparison would only show that its inputs were not chosen for it.
 //!
-//! Each round puts a straight form in place of the method, by its derivatives, takes the exchange's step ([`minimax`]), and
-//! halves it until the largest error falls. Where a method is linear in its inputs the first step ends it at the optimum.
+//! Each round linearises the method by its derivatives, takes the step of the exchange algorithm ([`minimax`]), and halves it
+//! until the largest error falls. Where a method is linear in its inputs, the first step reaches the optimum. Elsewhere the
+//! result is a local optimum.
 //!
-//! Source: Osborne, Watson, "An algorithm for minimax approximation in the nonlinear case", The Computer Journal 12(1),
-//! 1969, 63-68, <https://doi.org/10.1093/comjnl/12.1.63>. Where a method is not linear, a local optimum is what it finds.
+//! Source: Osborne, Watson, "An algorithm for minimax approximation in the nonlinear case", The Computer Journal 12(1), 1969,
+//! 63-68, <https://doi.org/10.1093/comjnl/12.1.63>.
 
 use super::minimax::{Points, minimax};
 use super::problem::FitCurve;
 use crate::language::ir::{Checked, Ty, Value, evaluate};
 use crate::language::methods::{Input, Method, Values};
 
-/// Rounds after which an input moves by nothing that shows.
+/// The most rounds. After these, inputs no longer move visibly.
 const ROUNDS: usize = 40;
-/// How often a step is halved.
 const HALVINGS: usize = 16;
-/// The step of a derivative, by the size of the input.
+/// The step of a numerical derivative, relative to the input.
 const STEP: f64 = 1e-5;
-/// What a round must gain, as a share of the error.
+/// The least gain of a round, as a share of the error.
 const GAIN: f64 = 1e-6;
 
-/// A method whose inputs are sought, for a curve.
 struct InputSearch<'a> {
     function: Checked,
     inputs: &'static [Input],
     curve: &'a FitCurve,
 }
 
-/// One number that may move: a channel of an input, or all its channels together.
+/// One number that may move: one channel of an input, or all its channels together.
 #[derive(Clone, Copy)]
 struct Free {
     name: &'static str,
     channel: Option<usize>,
 }
 
-/// The inputs, near the intended ones, with which the largest error is least. None for a method that reads a texture.
+/// The inputs near the intended ones that minimise the largest error. None for a method that reads a texture.
 pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Option<Values> {
     if method.is_textured() {
         return None;
@@ -49,7 +48,7 @@ pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Opti
     Some(rival.by_channel(rival.together(apart)))
 }
 
-/// What a function of `cos_theta` and these inputs gives at some cosines.
+/// The values of a function of `cos_theta` and these inputs at some cosines.
 pub fn values_at(
     function: &Checked,
     inputs: &[Input],
@@ -65,16 +64,17 @@ pub fn values_at(
     evaluate(function, &arguments)
 }
 
-/// Inputs, and by how much a curve is missed with them at each point.
+/// Inputs, and the error against the curve at each point.
 type TriedInputs = (Values, Vec<f64>);
 
 impl InputSearch<'_> {
-    /// Better inputs of each channel for itself.
+    /// Improves the inputs of each channel separately.
     fn by_channel(&self, start: Values) -> Values {
         (0..3).fold(start, |best, channel| self.of_channel(best, channel))
     }
 
-    /// Better inputs of one channel. Where they do not tell angles apart together, one moves after the other.
+    /// Improves the inputs of one channel. Where they are not linearly independent over the angles, they move one after the
+    /// other.
     fn of_channel(&self, start: Values, channel: usize) -> Values {
         let free = self.free(Some(channel));
         let as_they_are = |values: Values| {
@@ -86,7 +86,7 @@ impl InputSearch<'_> {
         free.iter().fold(together, alone)
     }
 
-    /// Better numbers for what channels share, each channel at its best with them.
+    /// Improves the numbers that channels share, with each channel at its best for them.
     fn shared(&self, start: Values) -> Values {
         let free = self.free(None);
         if free.is_empty() {
@@ -100,8 +100,8 @@ impl InputSearch<'_> {
         improved(start, &free, &at_their_best)
     }
 
-    /// Better numbers for what channels share and for each channel, all at once: where channels share a number, one step after the other
-    /// may end where no step of either kind alone gains.
+    /// Improves the shared numbers and those of each channel all at once. Where channels share a number, alternating steps may
+    /// stop where no step of either kind alone gains.
     fn together(&self, start: Values) -> Values {
         let shared = self.free(None);
         if shared.is_empty() {
@@ -116,7 +116,7 @@ impl InputSearch<'_> {
         improved(start, &free, &as_they_are)
     }
 
-    /// By how much the curve is missed, channel after channel: along each of them the points run.
+    /// The error against the curve, channel after channel, with the points of each channel in order.
     fn missed_by_channel(&self, values: &Values) -> Vec<f64> {
         let each = (0..3).flat_map(|channel| self.missed(values, Some(channel)));
         each.collect()
@@ -139,7 +139,7 @@ impl InputSearch<'_> {
         self.inputs.iter().filter_map(name).collect()
     }
 
-    /// By how much the curve is missed at each point: of one channel, or of all, point by point.
+    /// The error against the curve at each point: of one channel, or of all, point by point.
     fn missed(&self, values: &Values, channel: Option<usize>) -> Vec<f64> {
         let given = values_at(&self.function, self.inputs, values, &self.curve.cosines);
         let channels = channel.map_or(0..3, |channel| channel..channel + 1);
@@ -152,7 +152,7 @@ impl InputSearch<'_> {
     }
 }
 
-/// Better values of some numbers: rounds of the exchange on what derivatives tell, until none gains.
+/// Improves some numbers: rounds of the exchange on the derivatives, until none gains.
 fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs) -> Values {
     let (mut best, mut missed) = trial(start);
     let ones = vec![1.0; missed.len()];
@@ -178,7 +178,7 @@ fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs)
     best
 }
 
-/// What each number that may move does to each point, by central differences.
+/// The derivative of each point's value by each free number, by central differences.
 fn slopes(values: &Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs) -> Vec<Vec<f64>> {
     let column = |one: &Free| -> Vec<f64> {
         let step = STEP * (1.0 + values[one.name][one.channel.unwrap_or(0)].abs());
@@ -193,7 +193,7 @@ fn slopes(values: &Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs)
     (0..points).map(row).collect()
 }
 
-/// The values with a share of this step taken.
+/// The values after a share of this step.
 fn moved(values: &Values, free: &[Free], step: &[f64], share: f64) -> Values {
     let mut moved = values.clone();
     for (one, step) in free.iter().zip(step) {
@@ -207,7 +207,7 @@ fn moved(values: &Values, free: &[Free], step: &[f64], share: f64) -> Values {
     moved
 }
 
-/// The largest, NaN counted as larger than any.
+/// The largest error. NaN counts as larger than any number.
 fn most(missed: &[f64]) -> f64 {
     let larger = |most: f64, next: &f64| {
         if next.is_nan() {
@@ -274,7 +274,7 @@ mod tests {
         }
     }
 
-    /// What can do all that another can is no worse.
+    /// A method that includes another one is no worse.
     #[test]
     fn more_numbers_do_no_harm() {
         let best = |name: &str| {
@@ -288,7 +288,8 @@ mod tests {
         assert!((best("schlick_rescaled") / best("schlick") - 1.0).abs() < 1e-3);
     }
 
-    /// Of every method no input near those found is better, the others at their best with it: by any step from a thousandth to a tenth.
+    /// For every method, no input near those found is better, by any step from a thousandth to a tenth, with the other inputs at
+    /// their best.
     #[test]
     fn no_inputs_near_the_best_are_better() {
         for method in ALL
@@ -321,7 +322,7 @@ mod tests {
         }
     }
 
-    /// What a search over F90 finds, F0 at its best with each: of Schlick's form with F90 for platinum.
+    /// Schlick's form with F90 for platinum: compares with a search over F90, with F0 at its best for each.
     #[test]
     fn the_best_f90_is_that_of_a_search_over_all() {
         let method = methods::find("schlick_f90").expect("it is there");

@@ -1,5 +1,7 @@
-//! The shapes among which one is chosen: nests of cheap factors with their constants in steps, in families, and the shapes of
-//! the methods that there are.
+//! Candidate shapes: which there are, what errors they leave on each curve, and which one to choose.
+//!
+//! The candidates are nests of cheap factors with constants in steps, grouped into families, and the shapes of the existing
+//! methods.
 //!
 //! | family | factors | constants |
 //! |---|---|---|
@@ -9,13 +11,9 @@
 //! | bent | `(1 - c)²/(1 + a c)` first, then the same or `c` | a from 0 to 10 |
 //! | peaks | `1/(c² + e) - 1/√(c + p)` first, then `1/(c + p)` or its root | e .06 to .2, p .08 to .28 |
 //!
-//! A family is a choice of ours, and the best of them all is the best of these.
+//! The families are our choice, so the best candidate is only the best among these.
 //!
-//! A figure, or the reason why there is none.
-//!
-//! Every candidate fitted to every curve: what each would err by.
-//!
-//! What shapes are worth over many materials, and what a choice made without a substance is worth for that substance.
+//! A choice is judged over many materials, and for each substance by a choice made without that substance.
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
@@ -33,13 +31,13 @@ use crate::physics::num::{Precision, in_parallel};
 pub struct Candidate {
     /// The shape.
     pub shape: Shape,
-    /// Which family it is of; `shipped` for a method's that is of none.
+    /// Its family; `shipped` for a method's shape that belongs to none.
     pub family: &'static str,
-    /// The method that has it.
+    /// The method that has this shape.
     pub method: Option<&'static Method>,
 }
 
-/// All candidates with so many coefficients, 4 or 5, in a fixed order. None with others.
+/// All candidates with `terms` coefficients, in a fixed order. The families have shapes with 4 or 5 only.
 pub fn candidates(terms: usize) -> Vec<Candidate> {
     let own = match terms {
         4 => families(3, &[1..=5, 1..=6, 2..=10]),
@@ -62,7 +60,7 @@ pub fn candidates(terms: usize) -> Vec<Candidate> {
 }
 
 impl Candidate {
-    /// The scalar operations of an evaluation, three channels, with the coefficients as arguments, before any compiler.
+    /// The scalar operations of one evaluation in three channels, with the coefficients as arguments, before any compiler.
     pub fn operations(&self) -> usize {
         let builder = Builder::new();
         let coefficients = &Input::COEFFICIENTS[..self.shape.terms()];
@@ -72,7 +70,7 @@ impl Candidate {
     }
 }
 
-/// Nests of so many factors in all families; powers within these limits.
+/// Nests of `length` factors in all families, with powers within these limits.
 fn families(length: usize, powers: &[RangeInclusive<u32>]) -> Vec<Candidate> {
     let of = |family: &'static str, nests: Vec<Vec<Factor>>| {
         let one = move |factors: Vec<Factor>| Candidate {
@@ -104,7 +102,7 @@ fn powers(limits: &[RangeInclusive<u32>]) -> Vec<Vec<Factor>> {
     })
 }
 
-/// All nests of so many factors that begin with one and go on with any of these.
+/// All nests of `length` factors that begin with `first` and go on with any of `others`.
 fn words(first: Factor, others: &[Factor], length: usize) -> Vec<Vec<Factor>> {
     (1..length).fold(vec![vec![first]], |nests, _| {
         let longer = |nest: &Vec<Factor>| {
@@ -133,7 +131,7 @@ fn exponentials(length: usize) -> Vec<Vec<Factor>> {
     plain.chain(squared).collect()
 }
 
-/// Steps of a quarter; two digits are enough.
+/// Reciprocals, with constants that grow by a quarter per step: two digits are enough.
 fn reciprocals(length: usize) -> Vec<Vec<Factor>> {
     const PLACES: [f64; 13] = [
         0.05, 0.062, 0.078, 0.098, 0.12, 0.15, 0.19, 0.24, 0.3, 0.37, 0.46, 0.58, 0.7,
@@ -170,7 +168,7 @@ fn peaks(length: usize) -> Vec<Vec<Factor>> {
     nests.collect()
 }
 
-/// "Not measured" is a value with a reason, never an empty cell and never a zero.
+/// A measured value, or the reason why there is none: never an empty cell and never a zero.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum Measured<T> {
     /// The figure.
@@ -189,7 +187,7 @@ impl<T> Measured<T> {
     }
 }
 
-/// A candidate, and its largest error for each of the curves, in the measure of their aim.
+/// A candidate, and its largest error for each curve, in the measure of that curve's objective.
 #[derive(Clone, Debug)]
 pub struct Tried {
     /// The candidate.
@@ -198,8 +196,8 @@ pub struct Tried {
     pub errors: Vec<f64>,
 }
 
-/// Tries candidates. One that tells the angles of some curve apart too poorly to be fitted is left out. `progress` hears how
-/// many are done, of how many; what comes of it does not depend on how many processors there are.
+/// Fits every candidate to every curve. A candidate is left out if its terms are too nearly dependent on some curve. `progress`
+/// receives how many are done, of how many. The result does not depend on the number of processors.
 pub fn search(
     candidates: &[Candidate],
     tasks: &[FitProblem],
@@ -219,46 +217,45 @@ fn tried(candidate: &Candidate, tasks: &[FitProblem]) -> Option<Tried> {
     })
 }
 
-/// The errors of shapes over measurements, each of a substance.
+/// The errors of shapes over measurements of substances.
 #[derive(Clone, Debug)]
 pub struct TriedShapes {
-    /// What was measured, for each of the errors of a shape.
+    /// The substance of each measurement, in the order of a shape's errors.
     pub substances: Vec<String>,
     /// The shapes with their errors.
     pub tried: Vec<Tried>,
 }
 
-/// Errors of a shape over all that it was tried on, once with each measurement counted and once with each substance counted. A
-/// substance counts by the median of its measurements.
+/// Quantiles of a shape's errors, over measurements and over substances. A substance counts by the median of its measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorQuantiles {
     /// The median over measurements.
     pub median: f64,
-    /// What nine of ten measurements keep within.
+    /// The 90th percentile over measurements.
     pub p90: f64,
     /// The worst.
     pub worst: f64,
     /// The median over substances.
     pub median_by_substance: f64,
-    /// What nine of ten substances keep within.
+    /// The 90th percentile over substances.
     pub p90_by_substance: f64,
 }
 
-/// What a choice is worth for a substance that had no part in it.
+/// How good a choice is for a substance that had no part in it.
 #[derive(Clone, Debug)]
 pub struct LeaveOneOut {
-    /// The shape that all measurements choose.
+    /// The shape chosen from all measurements.
     pub choice: Candidate,
-    /// Its errors, of the measurements that chose it.
+    /// Its errors on the measurements that chose it.
     pub seen: ErrorQuantiles,
-    /// The errors of each substance under the shape that all others choose.
+    /// The errors on each substance of the shape that all others choose.
     pub unseen: ErrorQuantiles,
-    /// How many substances have which shape so, the most first.
+    /// How often each shape was chosen so, the most frequent first.
     pub chosen: Vec<(Candidate, usize)>,
 }
 
 impl ErrorQuantiles {
-    /// Of errors and what each is of. Both of the same length, and not empty.
+    /// Quantiles of `errors`, with the substance of each. Both have the same length and are not empty.
     pub fn new(errors: &[f64], substances: &[String]) -> ErrorQuantiles {
         let votes = medians(errors, substances.iter().map(String::as_str));
         ErrorQuantiles {
@@ -277,8 +274,8 @@ impl TriedShapes {
         self.substances.iter().collect::<BTreeSet<_>>().len()
     }
 
-    /// Leaves out one substance after the other and chooses among the shapes with so many coefficients: the one with the least
-    /// 90th percentile over the measurements of all others. None where fewer than two substances or no such shape are there.
+    /// Leaves out one substance after the other, and chooses among the shapes with `terms` coefficients the one with the least
+    /// 90th percentile over the measurements of all others. None for fewer than two substances, or if there is no such shape.
     pub fn leave_one_out(&self, terms: usize) -> Option<LeaveOneOut> {
         let all: BTreeSet<&str> = self.substances.iter().map(String::as_str).collect();
         let own = |tried: &&Tried| tried.candidate.shape.terms() == terms;
@@ -310,7 +307,8 @@ impl TriedShapes {
         })
     }
 
-    /// The place of the shape with the least 90th percentile over all measurements but those of a substance; of equals the first.
+    /// The index of the shape with the least 90th percentile over all measurements except those of `without`; of equals, the
+    /// first.
     fn best_shape(&self, tried: &[&Tried], without: Option<&str>) -> Option<usize> {
         let counts = |(_, substance): &(&f64, &String)| Some(substance.as_str()) != without;
         let limit = |tried: &&Tried| {
@@ -345,7 +343,7 @@ mod tests {
         }
     }
 
-    /// The count of a method's library function.
+    /// The count agrees with that of a method's library function.
     #[test]
     fn operations_are_those_of_the_library() {
         for terms in [4, 5] {
@@ -384,7 +382,7 @@ mod shape_choice_tests {
         assert_eq!(found.p90_by_substance, 28.0);
     }
 
-    /// The first shape suits gold alone, the second all others: whoever left gold out would take the second.
+    /// The first shape suits only gold, the second all others: without gold, the second is chosen.
     #[test]
     fn a_substance_has_no_part_in_the_choice_that_it_is_judged_by() {
         let own = errors(

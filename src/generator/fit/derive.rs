@@ -1,4 +1,5 @@
-//! What a method's inputs are for a material: those of fitted methods by a fit, all others as each input says.
+//! The values of a method's inputs for a material: those of fitted methods come from a fit, all others from each input's own
+//! rule.
 
 use super::problem::{FitCurve, FitObjective, FitProblem, basis};
 use crate::generator::reference::{Derivation, MaterialInMedium};
@@ -8,12 +9,12 @@ use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics;
 use crate::physics::spectra::Gamut;
 
-/// What is known of a surface by its channels alone.
+/// What the channels alone say about a surface.
 pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
     KnownSurface::of_index(channels.n, channels.k, derivation.matching_cos)
 }
 
-/// The values of all inputs of a method for a surface known by its channels alone.
+/// The values of all of a method's inputs, for a surface known only by its channels.
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
     if method.is_fitted() {
         let Channels { n, k } = *channels;
@@ -23,12 +24,12 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
     values_of(method, &known(channels, derivation))
 }
 
-/// What a method's inputs are for a material as it is seen.
+/// The values of a method's inputs for a material under viewing conditions.
 pub fn values_for_material(subject: &MaterialInMedium, method: &Method) -> Values {
     values_for_material_in(Precision::F32, subject, method)
 }
 
-/// The same, with coefficients that are fitted as this precision holds them.
+/// The same, with fitted coefficients rounded to this precision.
 pub fn values_for_material_in(
     precision: Precision,
     subject: &MaterialInMedium,
@@ -43,7 +44,7 @@ pub fn values_for_material_in(
     values_of(method, &known)
 }
 
-/// The coefficients of a fitted method for a curve, as a precision holds them, for a function that ends with a limit.
+/// The coefficients of a fitted method for a curve, in this precision, for a function that ends with a clamp.
 pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
     let aim = FitObjective {
         precision,
@@ -55,8 +56,8 @@ pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCur
     fitted.0
 }
 
-/// The coefficients of a fitted method for a curve with an aim, and the largest error in its measure on paper. None where the
-/// method is not fitted, or its terms do not tell angles apart under such weights.
+/// The coefficients of a fitted method for a curve and an objective, and the largest error on paper, in the objective's measure.
+/// None where the method is not fitted, or where its terms are linearly dependent under these weights.
 pub fn coefficients_and_error(
     method: &Method,
     curve: &FitCurve,
@@ -67,8 +68,8 @@ pub fn coefficients_and_error(
     Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
 }
 
-/// The values of all inputs of a method but a texture. A method that solves its colours for an index gets colours that an index
-/// has.
+/// The values of all inputs of a method except a texture. A method that solves its colours for an index gets colours that some
+/// index has.
 pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
     let solvable;

@@ -1,18 +1,18 @@
-//! Coefficients of forms that are exact at an end, 0 or 90 degrees. Each end removes one coefficient from the fit.
+//! Fits that are exact at an end, 0 or 90 degrees. Each end removes one coefficient from the fit.
 //!
-//! At an end e, `Σ cᵢ bᵢ(e) = F(e)` gives `cⱼ = (F(e) - Σ cᵢ bᵢ(e)) / bⱼ(e)`, with the sum over all other i. We choose the j
-//! with the largest `|bⱼ(e)|` and substitute its `cⱼ`. The exchange then fits the other coefficients to the rest of F. The
-//! result is the best of all forms that are exact at the end.
+//! At an end e, `Σ cᵢ bᵢ(e) = F(e)` gives `cⱼ = (F(e) - Σ cᵢ bᵢ(e)) / bⱼ(e)`, with the sum over all other i. We choose the j with
+//! the largest `|bⱼ(e)|` and substitute its `cⱼ`. The exchange then fits the other coefficients to the rest of F. The result is
+//! the best of all forms that are exact at the end.
 //!
-//! The thesis's measure in 32-bit floats, which its program computes in throughout (section 4): angles, both functions,
-//! their difference and the sums. Over 10⁶ angles a sum has then lost its last digits, and the mean moves by some 10⁻⁴
-//! of its value: enough to turn a digit.
+//! This file also computes the thesis's measure in 32-bit floats, as the thesis's program does throughout (section 4): angles,
+//! both functions, their difference and the sums. Over 10⁶ angles, a sum loses its last digits, and the mean moves by about 10⁻⁴
+//! of its value. That can change a printed digit.
 
 use super::minimax::{Limit, Points, minimax};
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::physics::num::Precision;
 
-/// At which ends, 0 and 90 degrees, a form equals the reference exactly.
+/// The ends, 0 and 90 degrees, at which a form equals the reference exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exact {
     /// At normal incidence, 0 degrees.
@@ -21,13 +21,13 @@ pub struct Exact {
     pub grazing: bool,
 }
 
-/// The search for f32 coefficients that are exact at the ends moves a coefficient by up to so many units of its last place.
+/// The search for f32 coefficients that are exact at the ends moves a coefficient by at most this many units in the last place.
 const STEPS: i32 = 24;
-/// The search stops at this error at the ends: half a unit of the last place of f32 below 1.
+/// The search stops at this error at the ends: half a unit in the last place of f32 below 1.
 const CLOSE: f64 = 3e-8;
 
 impl Exact {
-    /// Whether there is an end to meet.
+    /// Whether any end is to be exact.
     pub fn is_any(self) -> bool {
         self.normal || self.grazing
     }
@@ -38,7 +38,7 @@ impl Exact {
         normal.chain(self.grazing.then_some(90)).collect()
     }
 
-    /// The places of the ends among points that run from 90 degrees to 0, the last first.
+    /// The indices of the ends among points that run from 90 degrees to 0, the last first.
     pub(super) fn ends(self, points: usize) -> Vec<usize> {
         let normal = self.normal.then(|| points - 1);
         normal
@@ -55,7 +55,7 @@ pub(super) fn fit_meeting(points: Points, ends: &[usize]) -> Option<Vec<f64>> {
     };
     let (at, value) = (&points.rows[*end], points.wanted[*end]);
     let largest = (0..at.len()).max_by(|a, b| at[*a].abs().total_cmp(&at[*b].abs()))?;
-    // What is left of a sum of coefficients, and what the end gives of it.
+    // A row without the eliminated coefficient, and the share of the end's value in it.
     let reduced = |row: &Vec<f64>| -> (Vec<f64>, f64) {
         let share = row[largest] / at[largest];
         let others = (0..row.len()).filter(|i| *i != largest);
@@ -92,8 +92,8 @@ pub(super) fn fit_meeting(points: Points, ends: &[usize]) -> Option<Vec<f64>> {
     Some(found)
 }
 
-/// The coefficients rounded to a precision. Those of f32 are moved by some units of the last place, if that makes the form
-/// exact at the ends again. Each end is a row of the basis and the value that the form should have there.
+/// The coefficients rounded to a precision. In f32 they are moved by some units in the last place if that makes the form exact at
+/// the ends again. Each end is a row of the basis and the value that the form should have there.
 pub(super) fn rounded_coefficients(
     coefficients: &[f64],
     ends: &[(&[f64], f64)],
@@ -143,7 +143,7 @@ fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
     row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
 }
 
-/// The f32 that lies `steps` further from 0; nearer if negative.
+/// The f32 that is `steps` units in the last place further from 0, or nearer if negative.
 fn stepped(value: f64, steps: i32) -> f64 {
     let bits = (value as f32).to_bits().saturating_add_signed(steps);
     let moved = f64::from(f32::from_bits(bits));
@@ -154,7 +154,7 @@ fn stepped(value: f64, steps: i32) -> f64 {
     }
 }
 
-/// Mean relative difference of a function of the cosine from another, over angles and channels, all in f32.
+/// Mean relative difference between two functions of the cosine, over angles and channels, all in f32.
 pub fn thesis_error_in_floats(got: &Checked, want: &Checked, angles: usize) -> f32 {
     const CHUNK: usize = 4096;
     let mut sums = [0.0f32; 3];
@@ -187,8 +187,8 @@ fn cosine(step: usize, steps: usize) -> f32 {
 mod tests {
     use super::*;
 
-    /// x² by a line that meets it at 1: 1 + s (x - 1) misses it most at 0, by s - 1, and at s / 2, by (1 - s / 2)² on the other
-    /// side; both are 3 - 2 √2 for s = 4 - 2 √2.
+    /// x² by a line through (1, 1): 1 + s (x - 1) has the error s - 1 at 0, and (1 - s / 2)² of the other sign at s / 2. Both are
+    /// 3 - 2 √2 for s = 4 - 2 √2.
     #[test]
     fn a_line_through_an_end_is_the_best_of_those() {
         let at: Vec<f64> = (0..=2000).map(|i| f64::from(i) / 2000.0).collect();

@@ -1,14 +1,13 @@
-//! The one tint of F82-tint that serves all three channels of a material best. Textures of metallic-roughness materials have
-//! one channel for the specular strength of dielectrics, which metals leave unused: this number fits there.
+//! The best single F82 tint for all three channels of a material, and reflectance from two colours.
 //!
-//! At each angle F82-tint rises with the tint, so that the distance to the reference falls and then rises; so does the largest of
-//! all distances, and a golden section finds where it is least. The tint lies in [0, 1], as a texture's channel does. 1 is
-//! Schlick's approximation, so that no material is worse for it.
+//! Textures of metallic-roughness materials have one channel for the specular strength of dielectrics, which metals leave unused:
+//! a single tint fits there. At each angle, F82-tint rises with the tint, so the distance to the reference falls and then rises.
+//! So does the largest distance, and a golden-section search finds its minimum. The tint lies in [0, 1], as a texture's channel
+//! does. 1 is Schlick's approximation, so no material is worse for it.
 //!
-//! Reflectance at every angle from two colours alone, as artists give them: at 0 degrees and at 81.79.
-//!
-//! Where an index has both ([`index_from_f0_f82`]) it is that index's, by the exact law. Where none has them, or F0 is so large that
-//! F82 decides between indices far from any metal, it is that of the method `f82_tint`, which meets any two.
+//! [`Follows`] gives reflectance at every angle from two colours alone, as artists give them: at 0 and at 81.79 degrees. Where an
+//! index has both ([`index_from_f0_f82`]), the result is that index's, by the exact law. Where none has them, or where F0 is so
+//! large that F82 decides between indices far from any metal, the result is that of the method `f82_tint`, which matches any two.
 
 use std::sync::LazyLock;
 
@@ -21,20 +20,20 @@ use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{self, Input, Method, Values, schlick_82};
 use crate::physics::optics::{self, EffectiveIndex, index_from_f0_f82};
 
-/// A tint for all channels, and its error.
+/// The tint for all channels, and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GreyTint {
     /// The tint, in [0, 1].
     pub tint: f64,
-    /// The largest error of F82-tint with it, over angles and channels.
+    /// Its largest error, over angles and channels.
     pub max_abs: f64,
-    /// The cosine there.
+    /// The cosine of the largest error.
     pub worst_cos: f64,
     /// The largest error of Schlick's approximation, which is F82-tint with a tint of 1.
     pub schlick_max_abs: f64,
 }
 
-/// How often the interval is shortened, by this ratio, (√5 - 1)/2: to 1e-7.
+/// The steps of the golden-section search, each by the ratio (√5 - 1)/2: to 1e-7.
 const SECTIONS: usize = 34;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -47,7 +46,7 @@ struct Tinted<'a> {
     seen: Vec<[f64; 3]>,
 }
 
-/// The best grey tint of a material as it is seen.
+/// The best grey tint of a material under viewing conditions.
 pub fn grey_tint(reference: &ReferenceCurve) -> GreyTint {
     let method = methods::find("f82_tint").expect("it is a method");
     let tinted = Tinted {
@@ -61,7 +60,7 @@ pub fn grey_tint(reference: &ReferenceCurve) -> GreyTint {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..SECTIONS {
         let [left, right] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-        // Where the tint is so small that all is 0, both are equal, and the least lies above.
+        // Where the tint is so small that every value is 0, both are equal and the minimum lies above.
         if tinted.largest(left) < tinted.largest(right) {
             high = right;
         } else {
@@ -108,25 +107,25 @@ impl Tinted<'_> {
     }
 }
 
-/// The largest F0 that is taken for an index's. From here on a hundredth of F82 moves n by more than its half.
+/// The largest F0 for which an index is solved. Above it, a hundredth of F82 moves n by more than its half.
 pub const LARGEST_SOLVED_F0: f64 = 0.985;
 
-/// What a channel follows between its two colours.
+/// The reflectance curve of a channel with two given colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Follows {
     /// The exact law of this index.
     Law(EffectiveIndex),
     /// The method `f82_tint`: no index has these colours.
     Tint {
-        /// At 0 degrees.
+        /// Reflectance at 0 degrees.
         f0: f64,
-        /// At 81.79 degrees, over Schlick's value there.
+        /// Reflectance at 81.79 degrees, divided by Schlick's value there.
         tint: f64,
     },
 }
 
 impl Follows {
-    /// What a channel of these two reflectances follows.
+    /// The curve through two reflectances, at 0 and at 81.79 degrees.
     pub fn of(f0: f64, f82: f64) -> Follows {
         let index = index_from_f0_f82(f0, f82);
         if index.exact && f0 < LARGEST_SOLVED_F0 {
@@ -166,7 +165,7 @@ mod tests {
             (0.04, 0.46, true),
             (0.9, 0.9, true),
             (0.95, 0.97, true),
-            // Darker than any index of this F0 is at 82 degrees; and too bright at 0.
+            // Darker at 82 degrees than any index with this F0, and too bright at 0.
             (0.9, 0.2, false),
             (0.99, 0.99, false),
         ] {

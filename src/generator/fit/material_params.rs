@@ -1,9 +1,7 @@
-//! The parameters of a material for engines, and how well each is known: by the colour error, and by other measurements.
+//! The parameters of a material for engines: colours, index per channel and averages, with colour errors and other measurements
+//! to show how well each is known. Also two colours of a surface in air, converted to those under a coat.
 //!
-//! What an engine wants to know of a material: colours, index per channel, averages, and how well each is known.
 //! Colours are unclipped: saturated gold has F0 above 1 in linear sRGB.
-//!
-//! Two colours of a surface in air, moved under a coat.
 
 use serde::Serialize;
 
@@ -27,7 +25,7 @@ pub struct MaterialParams {
     pub class: &'static str,
     /// The medium's name.
     pub medium: String,
-    /// The working space; none, as of the next four, where each channel is one wavelength.
+    /// The working space. This and the next four are none where each channel is one wavelength.
     pub space: Option<&'static str>,
     /// The light.
     pub illuminant: Option<String>,
@@ -35,32 +33,32 @@ pub struct MaterialParams {
     pub observer: Option<&'static str>,
     /// The chromatic adaptation.
     pub adaptation: Option<&'static str>,
-    /// The step of the sum over wavelengths.
+    /// The step of the sum over wavelengths, in nanometres.
     pub step_nm: Option<u16>,
-    /// What becomes of colours outside the working space.
+    /// How colours outside the working space are treated.
     pub gamut: &'static str,
     /// What the reference reflectance is, in words.
     pub truth: String,
-    /// Beyond which wavelengths its index was held, in words, where it was.
+    /// In words, beyond which wavelengths its index was held constant; none if nowhere.
     pub extrapolated: Option<String>,
-    /// What is to be said of the adaptation, for people.
+    /// A remark about the adaptation, for the user.
     #[serde(skip)]
     pub remark: Option<&'static str>,
-    /// What engines take.
+    /// The parameters that engines take.
     #[serde(flatten)]
     pub params: Params,
-    /// Its own index at the d line, where it is known.
+    /// Its own index at the d line, if known.
     pub ior_d: Option<f64>,
-    /// Abbe's number, of what is clear enough to have one.
+    /// Abbe's number, for materials clear enough to have one.
     pub abbe: Option<f64>,
-    /// Why there are no viewing conditions, where there are none.
+    /// Why there are no viewing conditions, if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<&'static str>,
-    /// The error of three channels in place of a spectrum; none where three wavelengths are not a spectrum.
+    /// The error of using three channels in place of a spectrum; none for materials known at only three wavelengths.
     pub colour_error: Option<ColourErrors>,
-    /// How far the measurements of the substance lie apart.
+    /// How far the measurements of the substance differ.
     pub spread: MeasuredSpread,
-    /// The one tint of F82-tint for all channels that serves best.
+    /// The best single tint of F82-tint for all channels.
     pub grey_f82_tint: GreyTint,
 }
 
@@ -69,7 +67,7 @@ pub struct MaterialParams {
 pub struct ColourErrors {
     /// The numbers of bounces.
     pub bounces: [u32; 3],
-    /// A row for each other light.
+    /// One row for each other light.
     pub rows: Vec<ColourErrorRow>,
 }
 
@@ -78,16 +76,16 @@ pub struct ColourErrors {
 pub struct ColourErrorRow {
     /// The light.
     pub illuminant: String,
-    /// For each number of bounces.
+    /// The error for each number of bounces.
     pub delta_e2000: [f64; 3],
 }
 
-/// How far the F0 of all measurements of a substance lie apart.
+/// The range of F0 over all measurements of a substance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasuredSpread {
-    /// The least of all, this one among them.
+    /// The minimum, including this measurement.
     pub f0_min: [f64; 3],
-    /// The most of all.
+    /// The maximum, including this measurement.
     pub f0_max: [f64; 3],
     /// The other measurements, over the whole spectrum.
     pub others: Vec<OtherMeasurement>,
@@ -102,18 +100,18 @@ pub struct OtherMeasurement {
     pub f0: [f64; 3],
 }
 
-/// The parameters of a material, held against the other measurements of its substance in the catalogue. The gamut should keep
-/// colours as they are.
+/// The parameters of a material, compared with the other measurements of its substance in the catalogue. The gamut should keep
+/// colours unclipped.
 ///
 /// # Errors
-/// The material or the medium is not known where it is looked at.
+/// The material or the medium is not known at the wavelengths needed.
 pub fn material_params(
     material: &Material,
     medium: Option<&Material>,
     viewing: &ViewingConditions,
     catalogue: &[Material],
 ) -> Result<MaterialParams, Unseen> {
-    // What is known at three wavelengths is compared with others at the same.
+    // A material known at three wavelengths is compared with others at the same three.
     let own = material.rgb_nm.or(medium.and_then(|medium| medium.rgb_nm));
     let viewing = ViewingConditions {
         wavelengths_nm: viewing.wavelengths_nm.or(own),
@@ -159,7 +157,7 @@ pub fn material_params(
     })
 }
 
-/// The reference that errors of methods are told against: a spectrum is clipped.
+/// The reference for the errors of methods: a spectrum is clipped.
 fn clipped(surface: Surface) -> ReferenceCurve {
     let gamut = match surface.channels() {
         Some(_) => Gamut::Keep,
@@ -201,7 +199,7 @@ impl MeasuredSpread {
     }
 }
 
-/// The parameters of a material in a medium, three channels each, as seen.
+/// The parameters of a material in a medium, three channels each, under viewing conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Params {
     /// Reflectance at 0 degrees.
@@ -212,21 +210,21 @@ pub struct Params {
     pub f82_tint: [f64; 3],
     /// Reflectance at 90 degrees.
     pub f90: [f64; 3],
-    /// Gulbrandsen's reflectivity r of that index: F0 where the index has it, and never above 1.
+    /// Gulbrandsen's reflectivity r of the index: F0 where the index has it, and never above 1.
     pub reflectivity: [f64; 3],
-    /// Gulbrandsen's edge tint g of that index.
+    /// Gulbrandsen's edge tint g of the index.
     pub edge_tint: [f64; 3],
     /// The effective n of each channel.
     pub n: [f64; 3],
     /// The effective k of each channel.
     pub k: [f64; 3],
-    /// How they were found.
+    /// How n and k were found.
     pub nk_by: [&'static str; 3],
     /// Hemispherical reflectance: 2 ∫ R cos θ d(cos θ).
     pub average: [f64; 3],
 }
 
-/// The parameters of a surface. Its gamut should keep colours as they are.
+/// The parameters of a surface. Its gamut should keep colours unclipped.
 pub(super) fn params(surface: Surface, kind: MaterialKind) -> Params {
     let reference = ReferenceCurve::new(surface, Light::Unpolarised);
     let effective = effective(&reference, kind);
@@ -248,8 +246,8 @@ pub(super) fn params(surface: Surface, kind: MaterialKind) -> Params {
     }
 }
 
-/// The colour error of a surface at normal incidence under all named lights but the one that it is integrated under,
-/// after one, two and three bounces, in ΔE 2000; none where three wavelengths are no spectrum.
+/// The colour error in ΔE 2000 of a surface at normal incidence, after one, two and three bounces, under all named lights except
+/// the one that it is integrated under. None for surfaces known at only three wavelengths.
 pub fn colour_errors(
     surface: &Surface,
     integration: &Integration,
@@ -268,7 +266,7 @@ pub fn colour_errors(
     Some(others.map(|light| (light.clone(), error(&light))).collect())
 }
 
-/// Reflections one after the other, for which the colour error is told.
+/// The numbers of successive reflections for which the colour error is given.
 pub(super) const BOUNCES: [u32; 3] = [1, 2, 3];
 
 /// Helium's d line and hydrogen's F and C in nanometres, as glass catalogues have them (ISO 7944).
@@ -281,7 +279,7 @@ pub fn ior_in(material: &Material, medium: Option<&Material>) -> Option<f64> {
     relative_n(material, medium, D_NM)
 }
 
-/// Abbe's number (n_d - 1)/(n_F - n_C) of the relative index, where all three are known and differ.
+/// Abbe's number (n_d - 1)/(n_F - n_C) of the relative index. None where one of the three is unknown, or where n_F = n_C.
 pub fn abbe_in(material: &Material, medium: Option<&Material>) -> Option<f64> {
     let at = |nm: f64| relative_n(material, medium, nm);
     let number = (at(D_NM)? - 1.0) / (at(F_NM)? - at(C_NM)?);
@@ -314,13 +312,13 @@ pub struct CoatedRow {
     pub f82: [f64; 3],
     /// F0 relative to the coat.
     pub f0_in_coat: [f64; 3],
-    /// Reflectance at 81.79 degrees within the coat: what methods take that want it.
+    /// Reflectance at 81.79 degrees within the coat, for methods that take it.
     pub f82_in_coat: [f64; 3],
     /// n in air of each channel.
     pub n: [f64; 3],
     /// k in air of each channel.
     pub k: [f64; 3],
-    /// Of each channel whether an index gives both colours; else n and k are those of the nearest.
+    /// For each channel, whether an index gives both colours. Otherwise n and k are those of the nearest.
     pub exact: [bool; 3],
 }
 

@@ -1,4 +1,4 @@
-//! The errors of a method for a material, by every measure that is charted.
+//! The errors of a method for a material, in every measure that is charted.
 
 use super::best_inputs::{best_inputs, values_at};
 use super::derive::values_for_material;
@@ -10,25 +10,25 @@ use crate::language::ir::{Checked, Value};
 use crate::language::methods::{Method, Values};
 use crate::physics::spectra::Space;
 
-/// Errors over all angles; each is none where it is not known.
+/// Errors over all angles. Each is none where it is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MethodErrors {
-    /// The largest of reflectance.
+    /// The largest absolute error of reflectance.
     pub max_abs: Option<f64>,
-    /// The mean relative one.
+    /// The mean relative error of reflectance.
     pub mean_rel: Option<f64>,
-    /// The largest of luminance.
+    /// The largest error of luminance.
     pub luminance: Option<f64>,
-    /// The largest difference of colour, by CIEDE2000.
+    /// The largest colour difference, by CIEDE2000.
     pub de2000: Option<f64>,
 }
 
-/// With which inputs a method is measured.
+/// The inputs with which a method is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputChoice {
-    /// Those that its authors meant.
+    /// Those that the method's authors intended.
     Intended,
-    /// Those whose largest error is least.
+    /// Those that minimise the largest error.
     Best,
 }
 
@@ -65,7 +65,7 @@ impl MethodErrors {
         }
     }
 
-    /// What is seen of a function that reads a texture is not measured.
+    /// For a function that reads a texture, the perceived errors are not measured.
     fn of_texture(method: &Method, values: &Values, subject: &MaterialInMedium) -> MethodErrors {
         let function = method.specialise(values).expect(BUILT);
         let error = model_error(&function, &subject.truth_for(method));
@@ -76,7 +76,8 @@ impl MethodErrors {
         }
     }
 
-    /// The errors of many materials taken together, each measure by the same statistic; none where one of them is not known.
+    /// The errors of many materials combined, each measure by the same statistic. A measure is none where it is unknown for one
+    /// of them.
     pub fn together(all: &[MethodErrors], statistic: &dyn Fn(&[f64]) -> f64) -> MethodErrors {
         let take = |measure: fn(&MethodErrors) -> Option<f64>| {
             let known: Option<Vec<f64>> = all.iter().map(measure).collect();

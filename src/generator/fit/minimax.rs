@@ -1,12 +1,13 @@
-//! The linear form whose largest error is least, by exchange: among `terms + 1` points the best form has errors of
-//! one size with signs that are known; a point where more is missed takes the place of one of them, until there is none.
+//! Linear minimax fits by the exchange algorithm: the linear form with the least largest error. At `terms + 1` reference points,
+//! the best form has errors of equal size with known signs. A point with a larger error replaces one of them, until there is
+//! none.
 //!
 //! Source: Stiefel, "Über diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1959,
-//! <https://doi.org/10.1007/BF01386369>. It is the simplex method on the dual of the linear program, and its end is the
-//! optimum over the points given, not a guess. A range that a sum of coefficients must keep is one more row of that program,
-//! with no share in the error.
+//! <https://doi.org/10.1007/BF01386369>. It is the simplex method on the dual of the linear program, so it ends at the optimum
+//! over the given points. A range that a sum of coefficients must keep is one more row of that program, with no share in the
+//! error.
 
-/// Coefficients, and the largest error that they leave at the points, weighted.
+/// Coefficients, and the largest weighted error that they leave at the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Minimax {
     /// One for each function of the basis.
@@ -15,41 +16,41 @@ pub struct Minimax {
     pub error: f64,
 }
 
-/// Exchanges after which it is given up: some dozen are usual.
+/// The most exchanges. A few dozen are usual.
 const MOST: usize = 400;
-/// By how much a point must be missed more than those of the reference, as a share, to enter it.
+/// By what share an error must exceed those of the reference for its point to enter.
 const MORE: f64 = 1e-9;
-/// An error that is rounding.
+/// Errors up to this one are rounding.
 const ROUNDING: f64 = 1e-14;
 /// By how much a form may leave a range that it must keep.
 const BEYOND: f64 = 1e-11;
 
-/// Points with what is wanted there, and limits.
+/// Points, the values wanted there, and limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<'a> {
-    /// The values of the basis' functions at each point, in an order along which the points run.
+    /// The values of the basis functions at each point, with the points in order.
     pub rows: &'a [Vec<f64>],
-    /// What the form should be.
+    /// The wanted value at each point.
     pub wanted: &'a [f64],
-    /// How much an error counts.
+    /// The weight of the error at each point.
     pub weights: &'a [f64],
-    /// What the form must keep.
+    /// The ranges that the form must keep.
     pub limits: &'a [Limit],
 }
 
 /// A sum of coefficients that must stay in a range.
 #[derive(Clone, Debug)]
 pub struct Limit {
-    /// What each coefficient is multiplied by.
+    /// The factor of each coefficient in the sum.
     pub row: Vec<f64>,
     /// The least value of the sum.
     pub least: f64,
-    /// The largest.
+    /// The largest value of the sum.
     pub most: f64,
 }
 
-/// An equation of the reference: on which side of the form what it is compared with lies, and whether it is missed by the
-/// common error, at a point, or held at the end of a range, of a limit.
+/// An equation of the reference: on which side of the form its value lies, and whether it is missed by the common error (at a
+/// point) or held at the end of a range (of a limit).
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     place: usize,
@@ -59,8 +60,9 @@ struct Entry {
 
 struct Reference(Vec<Entry>);
 
-/// Fits what is wanted at some points by a basis: at many more points than terms, since it begins at places spread over them. None
-/// where the functions do not tell those apart, where no form keeps the ranges, and where the exchange comes to no end.
+/// Fits the wanted values by a basis. There must be many more points than terms, since the reference begins with points spread
+/// over them. None where the basis functions are linearly dependent there, where no form keeps the ranges, and where the exchange
+/// does not end.
 pub fn minimax(points: Points) -> Option<Minimax> {
     let terms = points.rows.first()?.len();
     if points.rows.len() <= terms {
@@ -96,7 +98,7 @@ pub fn minimax(points: Points) -> Option<Minimax> {
     None
 }
 
-/// The place where most is missed, and how much.
+/// The index with the largest error, and that error.
 fn furthest(places: usize, missed: impl Fn(usize) -> f64) -> (usize, f64) {
     let all = (0..places).map(|place| (place, missed(place)));
     all.fold((0, 0.0), |most: (usize, f64), next| {
@@ -113,7 +115,7 @@ fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
 }
 
 impl Limit {
-    /// How far the range lies above the sum: below 0 where the sum is too large.
+    /// How far the range lies above the sum; negative where the sum is too large.
     fn beyond(&self, coefficients: &[f64]) -> f64 {
         let sum = sum(&self.row, coefficients);
         sum.clamp(self.least, self.most) - sum
@@ -121,7 +123,7 @@ impl Limit {
 }
 
 impl Points<'_> {
-    /// How far what is wanted lies above the form, weighted.
+    /// The weighted difference of the wanted value and the form.
     fn missed(&self, point: usize, coefficients: &[f64]) -> f64 {
         (self.wanted[point] - sum(&self.rows[point], coefficients)) * self.weights[point]
     }
@@ -144,7 +146,7 @@ impl Points<'_> {
 }
 
 impl Reference {
-    /// Points spread as Chebyshev's are, with the signs of the combination of their rows that is nothing.
+    /// Points spread like Chebyshev's, with the signs of the vanishing combination of their rows.
     fn first(points: Points, terms: usize) -> Option<Reference> {
         let entry = |i: usize| {
             let share = (1.0 - libm::cos(std::f64::consts::PI * i as f64 / terms as f64)) / 2.0;
@@ -166,8 +168,8 @@ impl Reference {
         Some(Reference(entries))
     }
 
-    /// The form that misses all points of the reference by the same, each on its side, or holds them at the ends of their
-    /// ranges. The level is made positive at the beginning; later it is, since it grows with every exchange.
+    /// The form whose errors at all points of the reference have the same size and their known signs, with its limits held at the
+    /// ends of their ranges. The level is made positive at the beginning. It stays positive, since it grows with every exchange.
     fn level(&mut self, points: Points) -> Option<(Vec<f64>, f64)> {
         let with_error = |entry: &Entry| {
             let (mut row, value) = points.equation(*entry);
@@ -183,7 +185,7 @@ impl Reference {
         Some((solved, level.abs()))
     }
 
-    /// Takes an entry in, and that one out without which the rest is still a reference.
+    /// Takes an entry in, and removes the one without which the rest is still a reference.
     fn exchange(&mut self, enters: Entry, points: Points) -> Option<()> {
         let signed = |entry: &Entry| {
             let (row, _) = points.equation(*entry);
@@ -213,7 +215,7 @@ fn transposed(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The solution of a few linear equations by elimination with the largest pivots; none where they have no single one.
+/// Solves a few linear equations by elimination with the largest pivots. None where there is no unique solution.
 fn solve(mut rows: Vec<Vec<f64>>, mut values: Vec<f64>) -> Option<Vec<f64>> {
     let count = values.len();
     for step in 0..count {
@@ -312,7 +314,7 @@ mod tests {
         let weights: Vec<f64> = at.iter().map(|x| 1.0 + 9.0 * x).collect();
         let found = fit_free(&rows, &wanted, &weights).expect("lines tell points apart");
         let missed = |x: f64| x * x - found.coefficients[0] - found.coefficients[1] * x;
-        // The end that counts most is missed by no more than the rest, weighted.
+        // The error at the end with the largest weight is no larger than the others, weighted.
         assert!(
             (missed(1.0) * 10.0 - found.error).abs() < 1e-12,
             "{found:?}"
@@ -322,8 +324,8 @@ mod tests {
         assert!((largest - found.error).abs() < 1e-12, "{found:?}");
     }
 
-    /// x² on [0, 1] by a line that stays above 0: x - 1/8 is lifted to go through a point, and 2 (√2 - 1) x is missed by as much
-    /// at 1 as in the middle.
+    /// x² on [0, 1] by a line that stays above 0: x - 1/8 is lifted to go through a point, and 2 (√2 - 1) x has equal errors at 1
+    /// and in the middle.
     #[test]
     fn a_range_is_kept_at_the_least_cost() {
         let at = points(10_000);
@@ -336,7 +338,7 @@ mod tests {
         assert!((found.error - (1.0 - slope)).abs() < 1e-8, "{found:?}");
         let wide = fit_within(&rows, &wanted, (-1.0, 2.0)).expect("a line");
         assert!((wide.error - 0.125).abs() < 1e-8, "{wide:?}");
-        // A multiple of x is 0 at 0.
+        // A multiple of x is always 0 at 0.
         let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![*x]).collect();
         assert_eq!(fit_within(&rows, &wanted, (0.5, 1.0)), None);
     }

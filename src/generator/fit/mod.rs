@@ -1,8 +1,8 @@
-//! Fits: what a method needs to know of a material, and how wrong it then is.
+//! Fits: the values of a method's inputs for a material, and the method's error with them.
 //!
-//! Derived inputs (F0, F82, the artist's pair, λ of the corrected method), and the model error of a method against the
-//! exact law. Minimax fits: the coefficients of fitted methods, for a measure of error, and exact where that is asked for;
-//! the shapes among which one is chosen.
+//! Inputs are derived (F0, F82, the artist's pair, λ of the corrected method) or fitted. Minimax fits give the coefficients of
+//! fitted methods, in a chosen measure of error, and exact at the ends if asked for. The model error compares a method with the
+//! exact law. Candidate shapes are tried, and one is chosen.
 
 mod best_inputs;
 mod candidates;

@@ -1,4 +1,4 @@
-//! Model error: a method against the exact law, over all angles. Never to be added to code error.
+//! Model error: a method against the exact law, over all angles. It is never to be added to code error.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,33 +11,33 @@ use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::each_channel;
 
-/// How wrong a method is for a material, whatever computes it.
+/// The error of a method for a material, independent of the code that computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelError {
     /// Largest absolute difference, over angles and channels.
     pub max_abs: f64,
-    /// Mean absolute difference, even in angle, mean of the channels.
+    /// Mean absolute difference, uniform in angle, averaged over the channels.
     pub mean_abs: f64,
-    /// Mean relative difference, even in angle, mean of the channels, as the thesis measures; none where a channel
+    /// Mean relative difference, uniform in angle, averaged over the channels: the thesis's measure. None where a channel
     /// reflects nothing and the method says otherwise.
     pub mean_rel: Option<f64>,
-    /// The cosine at which the largest difference stands.
+    /// The cosine of the largest difference.
     pub worst_cos: f64,
-    /// At how many of the angles the method gave no number; they are left out of the figures above.
+    /// The number of angles at which the method gave no number. They are left out of the figures above.
     pub undefined: usize,
 }
 
-/// An error with five digits behind the point that it does not exceed.
+/// An error rounded up to five decimals.
 pub fn rounded_up(error: f64) -> String {
     format!("{:.5}", (error * 1e5).ceil() / 1e5)
 }
 
-/// How often the neighbourhood of the worst angle is searched again, and in how many steps: a maximum is found to 1e-9
-/// of its place, cusps at the critical angle included.
+/// How often the neighbourhood of the worst angle is searched again, and in how many steps. A maximum is located to 1e-9, cusps
+/// at the critical angle included.
 const REFINEMENTS: usize = 6;
 const STEPS: usize = 32;
 
-/// The model error of a function of `cos_theta` alone, or with the table that it reads.
+/// The model error of a function of `cos_theta` alone, or of `cos_theta` and the table that it reads.
 pub fn model_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {
     let table = table_of(function, |cos_theta| reference.at(cos_theta));
     error_of(reference, &|cosines| {
@@ -45,7 +45,7 @@ pub fn model_error(function: &Checked, reference: &ReferenceCurve) -> ModelError
     })
 }
 
-/// The same of the function as f32 computes it, each operation rounded.
+/// The same, computed in f32 with each operation rounded.
 pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {
     let table = table_of(function, |cos_theta| reference.at(cos_theta));
     error_of(reference, &|cosines| {
@@ -59,7 +59,7 @@ pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelErro
     })
 }
 
-/// The error of whatever gives three channels at each of some cosines.
+/// The model error of three channels that `values` gives at some cosines.
 pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
     let (at, want) = (cosines(ANGLES), reference.table());
     let given = values(&at);
@@ -75,15 +75,15 @@ pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64
     error
 }
 
-/// Whether something reflects all before 90 degrees: past a critical angle, which each channel has at its own place, with a cusp of its
-/// error there that may stand between the angles.
+/// Whether there is total reflection before 90 degrees. Each channel then has its own critical angle, and the error has a cusp
+/// there that may fall between the angles.
 fn is_totally_reflecting(at: &[f64], want: &[[f64; 3]]) -> bool {
     let whole = |reflectance: &f64| *reflectance > 1.0 - 1e-9;
     let mut points = at.iter().zip(want);
     points.any(|(cos_theta, want)| *cos_theta > 0.01 && want.iter().any(whole))
 }
 
-/// The largest error of each channel at the angles, and where it stands.
+/// The largest error of each channel at the angles, and its cosine.
 fn worst_of_channels(given: &Value<f64>, want: &[[f64; 3]], at: &[f64]) -> [(f64, f64); 3] {
     each_channel(|channel| {
         let off = |point: usize| (given.at(point)[channel] - want[point][channel]).abs();
@@ -93,11 +93,11 @@ fn worst_of_channels(given: &Value<f64>, want: &[[f64; 3]], at: &[f64]) -> [(f64
     })
 }
 
-/// Between two angles, in radians.
+/// The step between two angles, in radians.
 const BETWEEN: f64 = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
 
-/// The largest error in the neighbourhood of a cosine, and where it stands, searched nearer and nearer from an error that is known there
-/// and so far on both sides in radians.
+/// The largest error near a cosine, and its cosine. The search begins with a known error there, within `reach` radians on both
+/// sides, and narrows.
 fn refined(
     (mut most, mut worst_cos): (f64, f64),
     mut reach: f64,
@@ -123,7 +123,7 @@ fn refined(
     (most, worst_cos)
 }
 
-/// The error of the same against whatever else is to be met, at the angles alone.
+/// The error of the same against any other curve, at the angles alone.
 pub fn error_from(
     seen: impl Fn(f64) -> [f64; 3],
     values: &dyn Fn(&[f64]) -> Value<f64>,
@@ -133,7 +133,8 @@ pub fn error_from(
     difference(&values(&at), &want, &at)
 }
 
-/// Values at these cosines against the exact law; means are over the first [`ANGLES`], or all where there are fewer.
+/// The error of values at these cosines against the exact law. Means are over the first [`ANGLES`], or over all where there are
+/// fewer.
 pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
@@ -159,7 +160,7 @@ pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]
         }
     }
     if error.undefined == cosines.len() {
-        // No number came, so that no difference is known.
+        // No number came, so the difference is unknown.
         error.max_abs = f64::INFINITY;
         error.mean_abs = f64::INFINITY;
         error.mean_rel = None;
@@ -190,9 +191,9 @@ impl ModelError {
     }
 }
 
-/// The thesis's measure: mean relative difference per channel at `angles` angles, uniform from 0 to 90 degrees
-/// (middles of equal steps), of several functions of `cos_theta` alone for one material: the exact law, which costs the
-/// most, is computed once. `progress` hears how many angles are done.
+/// The thesis's measure of several functions of `cos_theta` alone for one material: mean relative difference per channel at
+/// `angles` angles, uniform from 0 to 90 degrees (midpoints of equal steps). The exact law, which costs the most, is computed
+/// once. `progress` receives how many angles are done.
 pub fn thesis_errors(
     functions: &[&Checked],
     channels: &Channels,

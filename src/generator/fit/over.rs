@@ -1,4 +1,4 @@
-//! Model error of library functions over stated sets of media: what methods' claims are held against.
+//! Model error of library functions over given sets of media. The claims of methods are checked against it.
 
 use super::derive::values;
 use super::model_error::{ModelError, difference};
@@ -9,7 +9,7 @@ use crate::language::methods::{Method, Over};
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::each_channel;
 
-/// Steps of eta, of n and of k, where model errors are taken over a set.
+/// Steps of eta, of n and of k when model errors are taken over a set.
 const STEPS: usize = 24;
 
 /// The media of a set, three to a `Channels`.
@@ -26,7 +26,7 @@ fn media(over: Over) -> Vec<Channels> {
     points.chunks(3).map(channels).collect()
 }
 
-/// Three media, the last one again where there are fewer.
+/// Three media, with the last one repeated where there are fewer.
 fn channels(three: &[(f64, f64)]) -> Channels {
     let point = |i: usize| three[i.min(three.len() - 1)];
     Channels {

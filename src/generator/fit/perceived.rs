@@ -1,4 +1,4 @@
-//! Error as it is seen: of luminance, and of colour by CIEDE2000 beside a perfect mirror under the white of the space.
+//! Perceived error: of luminance, and of colour by CIEDE2000 beside a perfect mirror under the white of the space.
 
 use glam::DVec3;
 
@@ -6,19 +6,20 @@ use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 use crate::language::ir::Value;
 use crate::physics::spectra::{Lab, Space, ciede2000};
 
-/// Every how manieth of the angles is looked at: means and maxima are smooth.
+/// The stride over the angles: errors are smooth, so not every angle is needed.
 const EVERY: usize = 8;
 
-/// The largest errors over the angles, as they are seen.
+/// The largest perceived errors over the angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Perceived {
-    /// The difference of the space's luminance: what one channel has too much makes up for what another lacks.
+    /// The difference in the space's luminance. An excess in one channel makes up for a lack in another.
     pub luminance: f64,
-    /// ΔE₀₀; about 1 is the least that is seen.
+    /// ΔE₀₀; about 1 is just noticeable.
     pub de2000: f64,
 }
 
-/// How far whatever gives three channels at some cosines looks from the reference. What is no number is left out.
+/// The perceived errors of three channels that are given at some cosines, against the reference. Values that are not numbers are
+/// left out.
 pub fn perceived(
     reference: &ReferenceCurve,
     space: Space,
@@ -63,8 +64,8 @@ mod tests {
     use crate::language::methods::Light;
     use crate::physics::materials::{Channels, Surface};
 
-    /// A grey mirror that reflects .50 where .52 is true: .02 of luminance, and ΔE₀₀ from L* 76.07 to 77.28 by hand:
-    /// 1.21 / (1 + .015 · 26.68² / √(20 + 26.68²)) = .864.
+    /// A grey mirror that reflects .50 instead of .52: .02 of luminance, and ΔE₀₀ from L* 76.07 to 77.28 by hand: 1.21 / (1 +
+    /// .015 · 26.68² / √(20 + 26.68²)) = .864.
     #[test]
     fn a_grey_that_is_too_dark_by_a_little() {
         let n = (1.0 + 0.52_f64.sqrt()) / (1.0 - 0.52_f64.sqrt());
@@ -90,7 +91,7 @@ mod tests {
         );
     }
 
-    /// Red too bright and green too dark by as much luminance: none is lost. By channels taken apart .0426 would be.
+    /// Red too bright and green too dark by the same luminance: no error is left. Channels taken separately would give .0426.
     #[test]
     fn what_one_channel_has_too_much_makes_up_for_another() {
         let shares = Space::Srgb.rgb_to_xyz().row(1);

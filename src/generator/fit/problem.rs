@@ -1,14 +1,12 @@
-//! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles. Which
-//! error, what is met exactly, and whether the form itself keeps to [0, 1] is a [`FitObjective`].
+//! Fits the coefficients of a fitted method to a material's reflectance curve: those with the least largest error over all
+//! angles. A [`FitObjective`] says which measure of error is minimised, where the form is exact, and whether the form itself
+//! keeps to [0, 1].
 //!
-//! A function ends with a limit to [0, 1]. What is linear in the coefficients has none: the integrals of image light, the mean over
-//! the hemisphere. Coefficients that serve both are those of a form that keeps the range by itself. A function of one material is
-//! fitted without: it limits, and is more accurate so.
+//! A function ends with a clamp to [0, 1]. What is linear in the coefficients has none: the integrals of image-based light, and
+//! the mean over the hemisphere. Coefficients that serve both are those of a form that keeps the range by itself. A function of
+//! one material is fitted without that condition: it clamps, and is more accurate so.
 //!
-//! Coefficients of a fitted method for a curve, and what they are worth in the measure that they minimise.
-//!
-//! The measure of error that a fit minimises: the absolute error, the relative error, the error of luminance, or the visible
-//! difference of colour.
+//! A measure of error is a [`Weight`]: absolute, relative, luminance, or visible colour difference.
 
 use glam::DVec3;
 
@@ -23,45 +21,46 @@ use crate::physics::materials::Surface;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::{Gamut, Space, ciede2000};
 
-/// Cosines that a curve is fitted at: from 0 to 1, dense towards grazing as `--axis steep` is. Twice as many change no
-/// error by a hundredth of it.
+/// The number of cosines at which a curve is fitted, from 0 to 1, dense towards grazing as in `--axis steep`. Twice as many
+/// change no error by a hundredth of it.
 const POINTS: usize = 257;
 const DENSE: f64 = 8.0;
 
-/// What is seen of a material, at the cosines at which forms are fitted.
+/// The reflectance of a material under viewing conditions, at the cosines at which forms are fitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitCurve {
     /// The cosines, 0 first.
     pub cosines: Vec<f64>,
-    /// What is seen there.
+    /// The reflectance at each cosine.
     pub seen: Vec<[f64; 3]>,
 }
 
 /// A form fitted to a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// Each coefficient for three channels, as the aim's precision holds it.
+    /// Each coefficient for three channels, in the objective's precision.
     pub coefficients: Vec<[f64; 3]>,
-    /// The largest error that these leave at the curve's cosines, on paper, in the measure that was minimised.
+    /// The largest error at the curve's cosines, on paper, in the measure that was minimised.
     pub error: f64,
 }
 
-/// What coefficients are to be: the best in which measure, exact where.
+/// The objective of a fit: in which measure the coefficients are best, and where they are exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FitObjective {
-    /// The measure that is minimised, at its largest over all angles.
+    /// The measure whose largest value over all angles is minimised.
     pub weight: Weight,
-    /// Where what is seen is met exactly: within 1e-7, of the coefficients as f32 holds them. In half precision nothing is.
+    /// The ends at which the form is exact, within 1e-7, with coefficients in f32. In half precision it is exact at none.
     pub exact: Exact,
-    /// What holds the coefficients. Those of half precision are rounded in the optimisation.
+    /// The precision of the coefficients. In half precision they are rounded within the optimisation.
     pub precision: Precision,
-    /// The space of the three channels, for measures of colours.
+    /// The colour space of the three channels, for measures of colour.
     pub space: Space,
-    /// Whether the form keeps to [0, 1] before the limit at its end: [`Gamut::Keep`] leaves it free.
+    /// Whether the form keeps to [0, 1] before its final clamp. [`Gamut::Keep`] leaves it free.
     pub gamut: Gamut,
 }
 
-/// What keeps a form in [0, 1]: its values at all points, and c0 alone, which a texture of unsigned numbers may hold.
+/// The limits that keep a form in [0, 1]: its values at all points, and c0 alone, since a texture of unsigned numbers may hold
+/// it.
 fn limits(rows: &[Vec<f64>]) -> Vec<Limit> {
     let c0 = rows.first().map(|row| {
         let mut alone = vec![0.0; row.len()];
@@ -76,7 +75,7 @@ fn limits(rows: &[Vec<f64>]) -> Vec<Limit> {
     rows.iter().cloned().chain(c0).map(limit).collect()
 }
 
-/// A curve with the weights of an aim, computed once for all shapes that are fitted to it.
+/// A curve with the weights of an objective, computed once for all shapes that are fitted to it.
 #[derive(Clone, Debug)]
 pub struct FitProblem<'a> {
     curve: &'a FitCurve,
@@ -86,7 +85,7 @@ pub struct FitProblem<'a> {
 }
 
 impl FitCurve {
-    /// The curve of what is seen at a cosine.
+    /// The curve of a function that gives reflectance at a cosine.
     pub fn new(seen: impl Fn(f64) -> [f64; 3]) -> FitCurve {
         let cosines = cosines();
         FitCurve {
@@ -95,12 +94,12 @@ impl FitCurve {
         }
     }
 
-    /// What is seen of a material in unpolarised light, in its gamut.
+    /// The curve of a material in unpolarised light, in its gamut.
     pub fn of(subject: &MaterialInMedium) -> FitCurve {
         FitCurve::of_surface(&subject.reference.surface)
     }
 
-    /// The same before colours are clipped: a clipped curve has a corner, and a function that ends with a limit clips by itself.
+    /// The same before colours are clipped: a clipped curve has a corner, and a function that ends with a clamp clips by itself.
     pub fn unclipped(subject: &MaterialInMedium) -> FitCurve {
         let mut surface = subject.reference.surface.clone();
         if surface.gamut == Gamut::Clip {
@@ -114,13 +113,12 @@ impl FitCurve {
     }
 }
 
-/// The cosines of all curves.
 fn cosines() -> Vec<f64> {
     let place = |i: usize| unwarped(DENSE, i as f64 / (POINTS - 1) as f64);
     (0..POINTS).map(place).collect()
 }
 
-/// What each coefficient of a shape multiplies, at each of a curve's cosines.
+/// The factor of each coefficient of a shape, at each of a curve's cosines.
 pub fn basis(shape: &Shape) -> Vec<Vec<f64>> {
     let row = |cos_theta: f64| {
         let mut row = vec![0.0; shape.terms()];
@@ -131,7 +129,7 @@ pub fn basis(shape: &Shape) -> Vec<Vec<f64>> {
 }
 
 impl FitProblem<'_> {
-    /// What is to be fitted to a curve.
+    /// The problem of fitting this curve with this objective.
     pub fn new(curve: &FitCurve, aim: FitObjective) -> FitProblem<'_> {
         let of = |seen: &[f64; 3]| aim.weight.of_channels(*seen, aim.space);
         let weights: Vec<[f64; 3]> = curve.seen.iter().map(of).collect();
@@ -144,8 +142,8 @@ impl FitProblem<'_> {
         }
     }
 
-    /// Fits the coefficients of a shape with this [`basis`]. None where its terms do not tell angles apart. For ΔE₀₀, which is of
-    /// all channels together, the better of two: of the channels by their weights, and without.
+    /// Fits the coefficients of a shape with this [`basis`]. None where its terms are linearly dependent. ΔE₀₀ depends on all
+    /// channels together: the better of two fits is taken, with and without the channels' weights.
     pub fn fit(&self, basis: &[Vec<f64>]) -> Option<Fit> {
         let weighed = self.fit_by(&self.weights, basis)?;
         if self.aim.weight != Weight::DeltaE {
@@ -184,7 +182,7 @@ impl FitProblem<'_> {
         })
     }
 
-    /// The coefficients of one channel, as precise as the aim wants them: those of half precision are rounded already.
+    /// The coefficients of one channel, in the objective's precision: those of half precision are already rounded.
     fn channel(
         &self,
         rows: &[Vec<f64>],
@@ -208,7 +206,7 @@ impl FitProblem<'_> {
         }
     }
 
-    /// Green such that the luminance of all three is the best form there is.
+    /// The coefficients of green that make the luminance of all three channels the best form.
     fn green(
         &self,
         basis: &[Vec<f64>],
@@ -240,21 +238,21 @@ impl FitProblem<'_> {
     }
 }
 
-/// Coefficients with their errors, on paper and before the limit to [0, 1].
+/// Coefficients with their errors, on paper and before the clamp to [0, 1].
 #[derive(Clone, Debug)]
 pub struct Coefficients {
-    /// The coefficients, by the names of inputs, as the aim's precision holds them.
+    /// The coefficients, by the names of inputs, in the objective's precision.
     pub values: Values,
-    /// What was minimised, and what is met exactly.
+    /// The objective of the fit.
     pub aim: FitObjective,
     /// The largest error in the measure that was minimised.
     pub error: f64,
-    /// The same without the ends that are met exactly, where there are any.
+    /// The same without the condition of exact ends; none if there is no such condition.
     pub error_without_exact: Option<f64>,
 }
 
 impl Coefficients {
-    /// Fits a method; none where its terms do not tell the angles of the curve apart.
+    /// Fits a method. None where its terms are linearly dependent on the curve's angles.
     pub fn fit(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<Coefficients> {
         let (values, error) = coefficients_and_error(method, curve, aim)?;
         let free = FitObjective {
@@ -274,7 +272,7 @@ impl Coefficients {
     }
 }
 
-/// What coefficients minimise: the largest over all angles of this.
+/// The measure of error whose largest value over all angles is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weight {
     /// `|f - F|`, channel by channel.
@@ -282,20 +280,20 @@ pub enum Weight {
     Absolute,
     /// `|f - F| / |F|`, channel by channel.
     Relative,
-    /// `|Y (f - F)|`, Y the space's luminance. That is one condition on three channels: red and blue keep the least
-    /// `|f - F|` of their own, and green, which carries most of luminance, takes the coefficients that make the three
-    /// together the best. Its own error grows by what it makes up for.
+    /// `|Y (f - F)|`, where Y is the space's luminance. That is one condition on three channels. Red and blue minimise their own
+    /// `|f - F|`, and green, which carries most of the luminance, takes the coefficients that make the three together the best.
+    /// The error of green alone grows by what it compensates.
     Luminance,
-    /// `ΔE₀₀`, beside the white of the space. What is minimised channel by channel is `w |f - F|`, w the ΔE₀₀ per unit of
-    /// that channel at the true colour: right for one channel that errs alone, and for small errors. Channels that err
-    /// together are seen as more or as less than their largest: the figure that reports tell is of all three, and where even
-    /// weights make it smaller they are taken. There is no iteration: it is no optimum.
+    /// `ΔE₀₀`, beside the white of the space. The fit minimises `w |f - F|` channel by channel, where w is the ΔE₀₀ per unit of
+    /// that channel at the true colour. This is right for small errors of a single channel. Errors of several channels together
+    /// can look larger or smaller than their largest. Reports give the figure of all three, and unit weights are taken where they
+    /// make it smaller. Without iteration, the result is no optimum.
     DeltaE,
 }
 
-/// What reflects less counts as this in relative errors: nothing has no share.
+/// The least reference of a relative error: smaller ones count as this.
 const LEAST: f64 = 1e-6;
-/// The step of a channel by which its ΔE₀₀ is taken.
+/// The step of a channel for its derivative of ΔE₀₀.
 const STEP: f64 = 1e-4;
 
 impl Weight {
@@ -322,7 +320,7 @@ impl Weight {
         matches!(self, Weight::Luminance | Weight::DeltaE)
     }
 
-    /// The factors of the errors of each channel, near a reference reflectance.
+    /// The weight of each channel's error, near a reference reflectance.
     pub(super) fn of_channels(self, reference: [f64; 3], space: Space) -> [f64; 3] {
         match self {
             Weight::Absolute | Weight::Luminance => [1.0; 3],
@@ -379,7 +377,7 @@ mod tests {
         FitCurve::new(|c| [1.331, 1.333, 1.337].map(|n| optics::conductor(n, 0.0, c).unpolarised()))
     }
 
-    /// The largest error in a measure of what was fitted for another.
+    /// The largest error in one measure of a fit for another.
     fn error(curve: &FitCurve, name: &str, weight: Weight, coefficients_and_error: Weight) -> f64 {
         let shape = find(name)
             .and_then(|method| method.shape)
@@ -406,7 +404,7 @@ mod tests {
                 let own = error(&curve, name, weight, weight);
                 for other in Weight::ALL.into_iter().filter(|other| *other != weight) {
                     let others = error(&curve, name, weight, other);
-                    // ΔE₀₀ is minimised channel by channel: another may come a little nearer.
+                    // ΔE₀₀ is minimised channel by channel: another fit may be slightly better.
                     let slack = if weight == Weight::DeltaE {
                         1.1
                     } else {
@@ -424,7 +422,7 @@ mod tests {
         }
     }
 
-    /// With and without a gamut. The measure of luminance is the least only where green is free to make up for the others.
+    /// With and without a gamut. The luminance error is the least only where green is free to compensate.
     #[test]
     fn ends_are_met_by_every_form_in_every_measure() {
         for name in ["fitted", "fitted_five", "fitted_rational"] {
@@ -497,7 +495,7 @@ mod weight_tests {
         }
     }
 
-    /// Of one channel that errs a little alone the weight tells the ΔE₀₀, within a hundredth.
+    /// For a small error of a single channel, the weight gives the ΔE₀₀ within a hundredth.
     #[test]
     fn the_weight_of_a_channel_is_what_is_seen_of_it() {
         let weights = Weight::DeltaE.of_channels(GOLD, Space::Srgb);

@@ -1,23 +1,23 @@
-//! Coefficients that half precision holds, rounded in the optimisation: when one is rounded, those that are not yet make up
-//! for it.
+//! Fits with coefficients in half precision, rounded within the optimisation: when one is rounded, those not yet rounded
+//! compensate. Also the texels of a table in half precision, as the method `table` reads it by default.
 //!
-//! The last coefficient goes to one of its two neighbours in half precision, the others are fitted anew to what is left, and so on
-//! to the first; all paths are tried but those that cannot become the best, for a form with free coefficients is never worse
-//! than one with rounded ones. Land and Doig, "An Automatic Method of Solving Discrete Programming Problems", Econometrica 28, 1960,
-//! <https://doi.org/10.2307/1910129>, with two branches a coefficient.
+//! The last coefficient is rounded to one of its two neighbours in half precision, the others are fitted again to the rest, and
+//! so on to the first. All branches are tried except those that cannot become the best, since a form with free coefficients is
+//! never worse than one with rounded ones.
 //!
-//! The texels of a table as the method `table` reads it where nothing else is asked for, in half precision.
+//! Source: Land and Doig, "An Automatic Method of Solving Discrete Programming Problems", Econometrica 28, 1960,
+//! <https://doi.org/10.2307/1910129>, with two branches per coefficient.
 
 use super::minimax::{Limit, Minimax, Points, minimax};
 use crate::language::ir::{Function, Texels, Ty, Value};
 use crate::language::methods::{TEXELS, WARP, unwarped};
 use crate::physics::num::{Half, Num, Precision};
 
-/// By how much a number grows to reach its neighbour in half precision: more than half of its last place, less than one and a
-/// half, on both sides of a power of two.
+/// The share by which a number grows to reach its neighbour in half precision: more than half a unit in the last place and less
+/// than one and a half, on both sides of a power of two.
 const NEIGHBOUR: f64 = 0.6 / 1024.0;
 
-/// The same as [`minimax`], of coefficients in half precision. None also where no rounding that is tried keeps the ranges.
+/// The same as [`minimax`], with coefficients in half precision. None also where no rounding that is tried keeps the ranges.
 pub fn rounded(points: Points) -> Option<Minimax> {
     let terms = points.rows.first()?.len();
     let first = |terms: usize| {
@@ -34,15 +34,15 @@ pub fn rounded(points: Points) -> Option<Minimax> {
     search.best(terms, points.wanted, points.limits, f64::INFINITY)
 }
 
-/// What all paths share.
+/// What all branches share.
 struct RoundingSearch<'a> {
-    /// The rows with no term, with the first one, and so on.
+    /// The rows cut to no term, to the first one, and so on.
     shorter: Vec<Vec<Vec<f64>>>,
     weights: &'a [f64],
 }
 
 impl RoundingSearch<'_> {
-    /// The best of the first terms for what is wanted of them. None where nothing is better than `bound`.
+    /// The best rounded fit with the first `terms` terms. None where nothing is better than `bound`.
     fn best(&self, terms: usize, wanted: &[f64], limits: &[Limit], bound: f64) -> Option<Minimax> {
         let free = self.free(terms, wanted, limits)?;
         if free.error >= bound {
@@ -70,7 +70,7 @@ impl RoundingSearch<'_> {
         best
     }
 
-    /// The best of the first terms, not rounded.
+    /// The best fit with the first `terms` terms, not rounded.
     fn free(&self, terms: usize, wanted: &[f64], limits: &[Limit]) -> Option<Minimax> {
         if terms > 0 {
             return minimax(Points {
@@ -95,7 +95,7 @@ impl RoundingSearch<'_> {
     }
 }
 
-/// The numbers of half precision on both sides, the nearest first.
+/// The two neighbouring numbers of half precision, the nearest first.
 fn neighbours(x: f64) -> [f64; 2] {
     let nearest = Precision::F16.rounded(x);
     let step = NEIGHBOUR * nearest.abs();
@@ -103,7 +103,7 @@ fn neighbours(x: f64) -> [f64; 2] {
     [nearest, Precision::F16.rounded(nearest + beyond)]
 }
 
-/// The table of what is seen at a cosine.
+/// The table of a function that gives reflectance at a cosine.
 pub fn texels(seen: impl Fn(f64) -> [f64; 3]) -> Texels {
     let centre = |i: usize| unwarped(WARP, i as f64 / (TEXELS - 1) as f64);
     let half = |value: f64| Half::from_f64(value).to_f32();
@@ -111,13 +111,13 @@ pub fn texels(seen: impl Fn(f64) -> [f64; 3]) -> Texels {
     Texels::row(&texels)
 }
 
-/// The table that a function with a material's constants folded in reads, where it reads one.
+/// The table that a specialised function reads, if it reads one.
 pub fn table_of(function: &Function, seen: impl Fn(f64) -> [f64; 3]) -> Option<Texels> {
     let is_textured = function.params.iter().any(|param| param.ty == Ty::Texture);
     is_textured.then(|| texels(seen))
 }
 
-/// The arguments of such a function.
+/// The arguments of a specialised function.
 pub fn arguments<N: Num>(cosines: Vec<N>, table: Option<&Texels>) -> Vec<Value<N>> {
     let table = table.map(|table| Value::Texture(Some(table.clone())));
     [Value::each(cosines)].into_iter().chain(table).collect()
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(neighbours(-1.0 - 0.9 * last), [-1.0 - last, -1.0]);
     }
 
-    /// A cubic of large coefficients that cancel: rounding each to the nearest costs many times more.
+    /// A cubic with large coefficients that cancel: rounding each to the nearest gives a many times larger error.
     #[test]
     fn others_make_up_for_what_is_rounded() {
         let xs: Vec<f64> = (0..=64).map(|i| f64::from(i) / 64.0).collect();

@@ -1,4 +1,4 @@
-//! A survey of pages of refractiveindex.info: what each is, its colour, or why it cannot be used.
+//! A survey of pages of refractiveindex.info: what each page holds and its colour, or why it cannot be used.
 
 use super::material_params::ior_in;
 use crate::physics::materials::{
@@ -6,54 +6,54 @@ use crate::physics::materials::{
 };
 use crate::physics::optics::{COS_82, cosine};
 
-/// Angles at which each surface is seen: every degree from 0 to 90.
+/// Angles at which each surface is computed: every degree from 0 to 90.
 pub const SURVEYED_ANGLES: usize = 91;
 
-/// A page and what came of it.
+/// A page and its outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurveyedPage {
     /// The page's file.
     pub file: String,
-    /// What came of it.
+    /// The result of reading it.
     pub outcome: PageOutcome,
 }
 
-/// What came of a page.
+/// The result of reading a page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PageOutcome {
     /// n and k are known over the whole visible spectrum: its colours.
     Seen(PageFacts, VisibleColours),
     /// n and k are known, but not everywhere in the visible spectrum.
     Elsewhere(PageFacts, String),
-    /// It cannot be used, and why.
+    /// It cannot be used, for this reason.
     Refused(String),
 }
 
-/// What is known of every page that can be used.
+/// Facts known of every usable page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PageFacts {
     /// Class of the material.
     pub class: &'static str,
-    /// The range of n and k together, in nanometres.
+    /// The range in which both n and k are known, in nanometres.
     pub range_nm: (f64, f64),
     /// The number of the formula that gives n; 0 for a table.
     pub formula: u8,
-    /// The maker's index at the d line, and ours less it, where the page has one.
+    /// The maker's index at the d line, and ours minus it, if the page gives one.
     pub nd: Option<(f64, f64)>,
 }
 
 /// Unclipped colours of a surface in air.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VisibleColours {
-    /// What was extrapolated, in words, where anything was.
+    /// What was extrapolated, in words; none if nothing was.
     pub held: Option<String>,
-    /// At each whole degree from 0 to 90.
+    /// The colour at each whole degree from 0 to 90.
     pub by_degree: Vec<[f64; 3]>,
-    /// At 81.79 degrees.
+    /// The colour at 81.79 degrees.
     pub f82: [f64; 3],
 }
 
-/// Reads a page and looks at it.
+/// Reads a page and computes its colours.
 pub fn survey_page(file: &str, text: &str, viewing: &ViewingConditions) -> SurveyedPage {
     let outcome = page_outcome(file, text, viewing).unwrap_or_else(PageOutcome::Refused);
     SurveyedPage {
@@ -77,7 +77,7 @@ fn page_outcome(
     })
 }
 
-/// What is known of a material; refused where it has no index in the middle of its own range.
+/// The facts of a material. Refused where it has no index in the middle of its own range.
 fn page_facts(page: &Page, material: &Material) -> Result<PageFacts, String> {
     let (from, to) = material.range_nm();
     material.index(0.5 * (from + to), Extrapolate::Refuse)?;
@@ -106,7 +106,7 @@ fn colours(surface: &Surface) -> VisibleColours {
 }
 
 impl SurveyedPage {
-    /// What is known of it, where it can be used.
+    /// The facts of the page, if it can be used.
     pub fn facts(&self) -> Option<&PageFacts> {
         match &self.outcome {
             PageOutcome::Seen(about, _) | PageOutcome::Elsewhere(about, _) => Some(about),

@@ -11,7 +11,7 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://doc.babylonjs.com/features/featuresDeepDive/materials/using/materialPlugins",
     proof: "run in Babylon.js 9.35.0, by WebGL 2 and by WebGPU",
     languages: &["gles", "wgsl"],
-    // The module reads it along these axes. It errs by less than .003 for every material of the catalogue.
+    // The module reads it along these axes. Its error is below .003 for every material of the catalogue.
     table: Some((64, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),
     pages: &[
         FlavourPage {

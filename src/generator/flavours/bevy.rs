@@ -1,4 +1,4 @@
-//! Bevy: modules to be imported, in WESL for Bevy 0.20 and for naga_oil, which Bevy had up to 0.19.
+//! Bevy: modules to import, in WESL for Bevy 0.20 and for naga_oil, which Bevy used up to 0.19.
 
 use super::flavour::{Flavour, FlavourPage};
 

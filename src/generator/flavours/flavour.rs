@@ -1,27 +1,27 @@
-//! What a flavour is: a plain record in a static table.
-//!
-//! The files of a flavour, in memory.
+//! The record of a flavour, and its files in memory.
 
 use super::view::{AdapterView, view};
 use crate::generator::emit::{self, CatalogueRow};
 use crate::generator::lut::{self, SplitSumAxis};
 
-/// A target dressed for one host.
+/// A target adapted to one host.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Flavour {
-    /// Its one name: file, `--flavour`, folder, row of the table in `docs/engines.md`.
+    /// Its name, used for its file, for `--flavour`, for its folder, and in the table of `docs/engines.md`.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// A description in one line.
     pub summary: &'static str,
-    /// The host, with the version that it was tried in, or that its documentation is of.
+    /// The host, with the version in which the flavour was tested, or that its documentation describes.
     pub host: &'static str,
-    /// The host's documentation of what the adapter uses, with a link.
+    /// The host's documentation of the interfaces that the adapter uses, with a link.
     pub source: &'static str,
-    /// What was seen of it, in words: run in the host, or compiled and not run. It stands in headers, its README and `docs/engines.md`.
+    /// How it was tested, in words: run in the host, or compiled and not run. It appears in headers, its README and
+    /// `docs/engines.md`.
     pub proof: &'static str,
-    /// The targets whose text it holds.
+    /// The targets whose text it contains.
     pub languages: &'static [&'static str],
-    /// The split-sum tables that it holds, where it does: texels of a side, axes of cosine and roughness.
+    /// The split-sum tables that it contains, if any: texels per side, axes of cosine and roughness.
     pub table: Option<(usize, [SplitSumAxis; 2])>,
     /// Its files.
     pub pages: &'static [FlavourPage],
@@ -30,17 +30,17 @@ pub struct Flavour {
 /// A file of a flavour.
 #[derive(Debug)]
 pub struct FlavourPage {
-    /// Its name; with `{material}` there is one for each material.
+    /// Its name. If it contains `{material}`, there is one file for each material.
     pub name: &'static str,
-    /// Its template, in Tera's language. What it sees: `flavours/view.rs`.
+    /// Its template, in Tera's language. Its data: `flavours/view.rs`.
     pub template: &'static str,
 }
 
-/// What stands for the name of a material in the name of a file.
+/// The placeholder of a material's name in the name of a file.
 const MATERIAL: &str = "{material}";
 
 impl FlavourPage {
-    /// Whether there is one for each material.
+    /// Whether there is one file for each material.
     pub fn is_of_material(&self) -> bool {
         self.name.contains(MATERIAL)
     }
@@ -52,7 +52,7 @@ impl FlavourPage {
 }
 
 impl Flavour {
-    /// Whether a file of this name, in the flavour's folder, is one of its files, of this material where it has one.
+    /// Whether the flavour has a file of this name in its folder, for this material if it has one.
     pub fn has(&self, name: &str, material: Option<&str>) -> bool {
         self.pages.iter().any(|page| match material {
             Some(material) => page.is_of_material() && page.file_of(material) == name,
@@ -60,7 +60,7 @@ impl Flavour {
         })
     }
 
-    /// Whether it has files for each material, so that a run adds to them.
+    /// Whether it has files for each material. Then a run adds to them.
     pub fn is_by_material(&self) -> bool {
         self.pages.iter().any(FlavourPage::is_of_material)
     }
@@ -69,9 +69,9 @@ impl Flavour {
 /// A file of a flavour, in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlavourFile {
-    /// Below the flavour's folder.
+    /// The path below the flavour's folder.
     pub name: String,
-    /// The material of a file that is written for each.
+    /// The material, if the file is written for each.
     pub material: Option<String>,
     /// The command that makes it again.
     pub command: String,
@@ -79,7 +79,7 @@ pub struct FlavourFile {
     pub bytes: Vec<u8>,
 }
 
-/// Commands that make files again, as a user types them.
+/// Commands that make files again.
 pub struct Commands<'a> {
     /// All files of the flavour.
     pub all: String,
@@ -87,31 +87,31 @@ pub struct Commands<'a> {
     pub of_material: &'a dyn Fn(&str) -> String,
 }
 
-/// What cannot be written.
+/// An error of writing a flavour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A text is refused: a bug.
+    /// A language refuses a text: a bug.
     #[error(transparent)]
     Emit(#[from] emit::Error),
-    /// A table cannot be: a bug.
+    /// A table cannot be made: a bug.
     #[error(transparent)]
     Table(#[from] lut::Error),
 }
 
-/// Materials, and what the reference is that their coefficients were fitted to, in words.
+/// Materials, and the reference that their coefficients were fitted to.
 #[derive(Clone, Copy, Debug)]
 pub struct Fitted<'a> {
     /// The materials, by method and name.
     pub rows: &'a [CatalogueRow],
-    /// The reference.
+    /// The reference, in words.
     pub reference: &'a str,
 }
 
-/// The files of a flavour for these materials. Files that are not of one material see all of them, but where the flavour has files for
-/// each: then a later run adds materials, and these files show the `example` instead, whatever the run is.
+/// The files of a flavour for these materials. A file that is not for one material shows all of them. If the flavour also has
+/// files for each material, a later run may add materials, so such a file shows the `example` instead, whatever the run.
 ///
 /// # Errors
-/// A text is refused by its language, or a template by its engine: a bug.
+/// A language refuses a text, or the template engine a template: a bug.
 pub fn files(
     flavour: &'static Flavour,
     materials: Fitted,

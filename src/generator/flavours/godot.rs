@@ -1,4 +1,4 @@
-//! Godot 4: functions for its shading language, as files to be included.
+//! Godot 4: functions for its shading language, as include files.
 
 use super::flavour::{Flavour, FlavourPage};
 use crate::generator::lut::SplitSumAxis;

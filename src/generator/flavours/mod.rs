@@ -1,10 +1,14 @@
-//! Flavours: targets dressed for one host. A flavour's files are an adapter: they replace each use of Fresnel's equations in that host,
-//! with fitted coefficients of materials.
+//! Flavours: targets adapted to one host. A flavour's files are an adapter: they replace each use of Fresnel's equations in that
+//! host by fitted coefficients of materials.
 //!
-//! Lamps, image light and the compensation of multiple scattering take the same coefficients, which keep to [0, 1] by themselves, as those
-//! of the catalogue do.
+//! Lights, image-based light and the compensation of multiple scattering use the same coefficients. Their form keeps to [0, 1] by
+//! itself, as that of the catalogue does.
 //!
 //! To add one, write its file with a `pub static FLAVOUR: Flavour` and its templates, and run `tests/lists`.
+
+use std::str::FromStr;
+
+use crate::physics::names::UnknownName;
 
 mod flavour;
 mod view;
@@ -33,9 +37,34 @@ pub static ALL: &[&Flavour] = &[
     &unity::FLAVOUR,
     &unreal::FLAVOUR,
 ];
+
+/// Each by its name.
+#[rustfmt::skip]
+#[allow(missing_docs)]
+impl Flavour {
+    pub const BABYLON: &'static Flavour = &babylon::FLAVOUR;
+    pub const BEVY: &'static Flavour = &bevy::FLAVOUR;
+    pub const GODOT: &'static Flavour = &godot::FLAVOUR;
+    pub const MATERIALX: &'static Flavour = &materialx::FLAVOUR;
+    pub const PLAYCANVAS: &'static Flavour = &playcanvas::FLAVOUR;
+    pub const THREE: &'static Flavour = &three::FLAVOUR;
+    pub const UNITY: &'static Flavour = &unity::FLAVOUR;
+    pub const UNREAL: &'static Flavour = &unreal::FLAVOUR;
+}
 // END list
 
 /// The flavour of this name.
 pub fn find(name: &str) -> Option<&'static Flavour> {
     ALL.iter().find(|flavour| flavour.name == name).copied()
+}
+
+impl FromStr for &'static Flavour {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<&'static Flavour, UnknownName> {
+        find(name).ok_or_else(|| {
+            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
+            UnknownName::new("flavour", name, &names)
+        })
+    }
 }

@@ -11,7 +11,7 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://developer.playcanvas.com/user-manual/graphics/shaders/",
     proof: "run in PlayCanvas 2.23.3, by WebGL 2 and by WebGPU",
     languages: &["gles", "wgsl"],
-    // The module reads it along these axes. It errs by less than .003 for every material of the catalogue.
+    // The module reads it along these axes. Its error is below .003 for every material of the catalogue.
     table: Some((64, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),
     pages: &[
         FlavourPage {

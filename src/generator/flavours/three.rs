@@ -11,7 +11,7 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://threejs.org/docs/#Material.onBeforeCompile",
     proof: "run in three.js r187, by WebGL 2 and by WebGPU",
     languages: &["gles", "wgsl"],
-    // The split sum errs by less than .0014 (the report of `bake --dfg`), which a white furnace can show.
+    // The split sum's error is below .0014 (the report of `bake --dfg`), which a white furnace can show.
     table: Some((80, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),
     pages: &[
         FlavourPage {

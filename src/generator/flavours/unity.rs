@@ -1,4 +1,4 @@
-//! Unity: HLSL for the node Custom Function of Shader Graph, and for lighting functions of one's own.
+//! Unity: HLSL for Shader Graph's node Custom Function, and for users' own lighting functions.
 
 use super::flavour::{Flavour, FlavourPage};
 

@@ -1,4 +1,4 @@
-//! Unreal Engine 5: shader headers for the node Custom of materials, and for shaders of one's own.
+//! Unreal Engine 5: shader headers for the material node Custom, and for users' own shaders.
 
 use super::flavour::{Flavour, FlavourPage};
 

@@ -1,4 +1,4 @@
-//! What the templates of flavours see. Numbers reach them as text that every language of theirs reads.
+//! The data of the flavours' templates. Numbers are passed as text that is valid in all their languages.
 
 use std::collections::BTreeMap;
 
@@ -18,10 +18,10 @@ use crate::generator::reference::FITTED_WITH_FOUR;
 use crate::language::methods::{self, Class, Method};
 use crate::language::targets::{self, Target};
 
-/// What a template sees.
+/// The data of a template.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct AdapterView {
-    /// The first line of each file, behind what begins a comment.
+    /// The mark for the first line of each file, after the start of a comment.
     pub(super) mark: String,
     /// The command that makes the file again.
     pub(super) command: String,
@@ -31,59 +31,54 @@ pub(super) struct AdapterView {
     pub(super) host: &'static str,
     /// The host's documentation.
     pub(super) source: &'static str,
-    /// What was seen of the adapter.
+    /// How the adapter was tested.
     pub(super) proof: &'static str,
     /// The licence of the file.
     pub(super) licence: &'static str,
-    /// What the reference is that coefficients were fitted to.
+    /// The reference that coefficients were fitted to, in words.
     pub(super) reference: String,
-    /// The methods that materials may have: all of them, so that a file without materials of its own is the same in every run.
+    /// The methods that materials may have. All of them, so that a file without materials of its own is the same in every run.
     pub(super) methods: Vec<MethodView>,
     /// The materials, by method and name.
     pub(super) materials: Vec<MaterialView>,
-    /// The one material of a file that is written for each.
+    /// The material of a file that is written for each.
     pub(super) material: Option<MaterialView>,
-    /// The text of each method's library functions, by target and method: F, and behind it the mean over the hemisphere.
+    /// The text of each method's library functions, by target and method: F, followed by the mean over the hemisphere.
     pub(super) library: BTreeMap<&'static str, BTreeMap<&'static str, String>>,
     /// The split-sum tables, by method.
     pub(super) tables: BTreeMap<&'static str, TableView>,
-    /// What the mean albedo of a rough white surface lacks, as a polynomial of the roughness: `lut/bounces.rs`.
+    /// The coefficients of 1 minus the mean albedo of a rough white surface, as a polynomial of the roughness:
+    /// `lut/split_sum.rs`.
     pub(super) white_mean_lost: [String; 4],
 }
 
 /// A method that materials of an adapter have.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MethodView {
-    /// Its name.
     name: &'static str,
-    /// Its library function.
     function: String,
-    /// The mean of F over the hemisphere, of the same arguments without the cosine.
+    /// The function for the mean of F over the hemisphere, with the same arguments without the cosine.
     average_function: String,
     /// Whether its materials have no diffuse light: metals and semiconductors.
     is_opaque: bool,
-    /// Its formula, line by line.
     formula: &'static [&'static str],
-    /// Where its form and its coefficients come from.
+    /// The source of its form and its coefficients.
     source: String,
 }
 
 /// A material of an adapter.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MaterialView {
-    /// Its name.
     name: String,
-    /// The same in capitals.
+    /// The name in capitals.
     constant: String,
-    /// The same in words with capitals, without spaces: `SodaLimeGlass`.
+    /// The name in Pascal case: `SodaLimeGlass`.
     pascal: String,
     /// `metal`, `semiconductor` or `dielectric`.
     class: &'static str,
-    /// Its method.
     method: &'static str,
     /// The name of the function with its coefficients.
     function: String,
-    /// The library function of its method.
     library_function: String,
     /// c0 to c3, three channels each.
     coefficients: Vec<[String; 3]>,
@@ -93,25 +88,23 @@ pub(super) struct MaterialView {
     f0: [String; 3],
     /// The largest error over angles and channels.
     max_error: String,
-    /// Where it stands, in degrees.
+    /// The angle of the largest error, in degrees.
     max_error_degrees: String,
 }
 
-/// A split-sum table of four channels in half precision, little endian: rows by roughness, 0 first, in each a texel by cosine, 0 first.
-/// The ends of both axes are the centres of the outer texels.
+/// A split-sum table of four channels in half precision, little endian: rows by roughness, 0 first, each with texels by cosine, 0
+/// first. The ends of both axes are the centres of the outer texels.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct TableView {
-    /// Texels of a side.
+    /// Texels per side.
     size: usize,
-    /// The name of the cosine's axis.
     cosine: &'static str,
-    /// The name of the roughness's axis.
     roughness: &'static str,
     /// The texels in base 64.
     base64: String,
 }
 
-/// What the templates of a flavour see of these materials.
+/// The data of a flavour's templates for these materials.
 ///
 /// # Errors
 /// The text of a function is refused by its language: a bug.
@@ -145,7 +138,7 @@ pub(super) fn view(
 }
 
 impl AdapterView {
-    /// The same for a file of one material: texts of functions and tables are those of all.
+    /// The same for a file of one material. Texts of functions and tables are those of all materials.
     pub(super) fn of_material(&self, row: &CatalogueRow, reference: &str, command: &str) -> Self {
         let material = material_view(row);
         AdapterView {
@@ -159,7 +152,7 @@ impl AdapterView {
     }
 }
 
-/// It stands in comments of Markdown too, which `>` could end.
+/// The mark. It stands in comments of Markdown too, which `>` could end.
 fn mark(command: &str) -> String {
     let line = comment_lines(vec![format!("{MARK}: {command}")]).concat();
     line.replace(['<', '>'], "?")
@@ -175,7 +168,7 @@ fn plain_reference(reference: &str) -> String {
     xml_comment(&plain)
 }
 
-/// Whether a character says the same in comments, in strings and in marked-up text: a user's own names stand in words.
+/// Whether a character has the same meaning in comments, in strings and in marked-up text: a user's own names appear in these.
 fn is_plain(c: char) -> bool {
     c == ' ' || c.is_ascii_alphanumeric() || ".,;:-+=/()[]_%".contains(c)
 }
@@ -212,7 +205,7 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
     }
 }
 
-/// F at normal incidence, from the form and its limit to [0, 1].
+/// F at normal incidence, from the form and its clamp to [0, 1].
 fn normal_incidence(row: &CatalogueRow) -> [f64; 3] {
     let shape = row
         .method
@@ -230,12 +223,13 @@ fn normal_incidence(row: &CatalogueRow) -> [f64; 3] {
     [channel(0), channel(1), channel(2)]
 }
 
-/// The shortest digits that give the same f32 back, with a point.
+/// The shortest digits that give the same f32, with a decimal point.
 fn numbers(values: &[f64; 3]) -> [String; 3] {
     values.map(|value| format!("{:?}", value as f32))
 }
 
-/// A name without underscores, `gold_babar` as `GoldBabar`. So that two names stay two, one stays before a digit and where it is doubled.
+/// A name in Pascal case, `gold_babar` as `GoldBabar`. An underscore stays before a digit and where it is doubled, so that
+/// different names stay different.
 fn pascal(name: &str) -> String {
     let part = |part: &str| match part.chars().next() {
         Some(first) if first.is_ascii_lowercase() => first.to_uppercase().to_string() + &part[1..],
@@ -262,7 +256,7 @@ fn library(
     flavour.languages.iter().map(of_target).collect()
 }
 
-/// F of a method and its mean over the hemisphere, as their file in the library has them.
+/// F of a method and its mean over the hemisphere, as in the method's library file.
 fn library_text(
     target: &'static Target,
     method: &'static Method,

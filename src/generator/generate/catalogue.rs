@@ -1,5 +1,5 @@
-//! The catalogue of fitted coefficients: an array in each language; as JSON, as a storage buffer, and as textures. A run that names
-//! neither methods nor materials writes it; what is for no language belongs to a run without flags.
+//! The catalogue of fitted coefficients: an array in each language, JSON, a storage buffer, and textures. A run that names
+//! neither methods nor materials writes the arrays. A run without flags also writes the files that belong to no language.
 
 use serde::Serialize;
 
@@ -18,13 +18,14 @@ use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, Source};
 use crate::physics::spectra::Space;
 
-/// The version of the form of `catalogue.json`. In the first one coefficients stood by channel.
+/// The version of the format of `catalogue.json`. In version 1, coefficients were grouped by channel.
 const SCHEMA: u32 = 2;
 
-/// Adds the arrays of the run's languages, and in a run without flags the files for no language, and makes them the run's own.
+/// Adds the arrays of the run's languages, and in a run without flags the files that belong to no language. The run owns all of
+/// them.
 ///
 /// # Errors
-/// A material cannot be seen as the request wants, or a language refuses a name.
+/// A material is not known under the request's viewing conditions, or a language refuses a name.
 pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
     let (rows, reference) = match recorded_rows(request) {
         Some(rows) => (rows, request.viewing.reference_in_words()),
@@ -50,7 +51,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
     Ok(())
 }
 
-/// The materials that can be seen as the request wants. What is known at three wavelengths only has no spectrum.
+/// The materials that are known under the request's viewing conditions. Those known only at three wavelengths have no spectrum.
 fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     let mut subjects = request.subjects()?.materials();
     let of_spectra = request.viewing.wavelengths_nm.is_none();
@@ -58,7 +59,6 @@ fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     Ok(subjects)
 }
 
-/// The rows of a request, where they are recorded.
 fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
     match request.medium {
         None => emit::recorded_catalogue(&request.viewing),
@@ -66,11 +66,11 @@ fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
     }
 }
 
-/// The rows of a request and what the reference is, derived from the spectra. The reference is the same for all; which ones hold a value
-/// beyond their range stands beside each.
+/// The rows of a request and the reference in words, derived from the spectra. The words are the same for all materials. Where an
+/// index is held constant beyond its range, its row says so.
 ///
 /// # Errors
-/// A material cannot be seen as the request wants.
+/// A material is not known under the request's viewing conditions.
 pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Error> {
     let request = Request {
         materials: Materials::All,
@@ -83,7 +83,7 @@ pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Er
     Ok((rows, reference.unwrap_or_default()))
 }
 
-/// The command that writes a target's array among its part of the tree, or all.
+/// The command that writes a target's array with its part of the tree, or all arrays.
 fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
     let medium = request.medium.as_ref();
     let medium = medium.map(Source::argument).transpose()?;
@@ -95,7 +95,8 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
         .into())
 }
 
-/// `catalogue.json`: how its materials are seen, the files with the same numbers, the methods, the materials with their coefficients.
+/// `catalogue.json`: the viewing conditions, the files with the same numbers, the methods, and the materials with their
+/// coefficients.
 #[derive(Serialize)]
 struct CatalogueFile<'a> {
     #[serde(flatten)]
@@ -111,7 +112,7 @@ struct CatalogueFile<'a> {
     materials: Vec<CatalogueMaterial<'a>>,
 }
 
-/// The files for no language; none where no fitted method follows a material.
+/// The files that belong to no language; empty if no material has a fitted method.
 fn shared(
     rows: &[CatalogueRow],
     reference: &str,

@@ -1,4 +1,4 @@
-//! The files of effects: in their usual form, by another method, or specialised to materials.
+//! The files of effects: in their default form, with another method, or specialised to materials.
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, EffectRequest, Emitted, Naming};
@@ -12,16 +12,16 @@ use crate::language::effects::{self, Effect, USUAL_METHOD};
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
 
-/// The effects of a request, with what they are written for.
+/// The effects of a request, and the method for them.
 #[derive(Debug, Default)]
 pub struct WantedEffects {
     /// The effects.
     pub effects: Vec<&'static Effect>,
-    /// What computes R, where it is named.
+    /// The method that computes R, if one is named.
     pub method: Option<&'static Method>,
 }
 
-/// Which effects a request wants.
+/// The effects that a request asks for.
 ///
 /// # Errors
 /// A name is no effect, several methods are named, or the precision is not single.
@@ -61,12 +61,12 @@ pub fn wanted(
 }
 
 impl Run<'_> {
-    /// Whether the run is of effects alone.
+    /// Whether the run writes only effects.
     pub fn is_of_effects(&self) -> bool {
         !self.request.effects.is_empty()
     }
 
-    /// What effects are written for: any material, or each that is named.
+    /// What effects are specialised to: none (any material), or each named material.
     fn effect_subjects(&self) -> Vec<Option<&MaterialInMedium>> {
         let is_named = self.is_of_effects() && !self.subjects.is_empty();
         let subjects = self.subjects.iter().filter(|_| is_named);
@@ -74,7 +74,7 @@ impl Run<'_> {
         if is_named { named } else { vec![None] }
     }
 
-    /// The functions of an effect, with what they were asked for.
+    /// The functions of an effect, with the request that gave them.
     fn effect<'s>(
         &self,
         effect: &'static Effect,
@@ -124,7 +124,7 @@ impl Run<'_> {
     /// The functions of each file. An effect that neither the method nor the material changes has none.
     ///
     /// # Errors
-    /// None of the effects has any.
+    /// No effect has any functions.
     pub fn effect_functions(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
         let mut all = Vec::new();
         for effect in &self.effects.effects {
@@ -141,7 +141,7 @@ impl Run<'_> {
         Ok(all)
     }
 
-    /// Why an effect has no file of this run.
+    /// Why an effect has no file in this run.
     fn unchanged(&self, effect: &str) -> String {
         let what = match (self.effects.method, self.subjects.is_empty()) {
             (Some(method), true) => format!("method `{}`", method.name),
@@ -150,7 +150,7 @@ impl Run<'_> {
         format!("{what} changes nothing of {effect}, whose usual form serves")
     }
 
-    /// Which effects that were named have none of these files, and why.
+    /// The named effects that have none of these files, and why.
     pub fn unchanged_effects(&self, artifacts: &[Artifact]) -> Vec<String> {
         let has = |effect: &Effect| {
             let mut made = artifacts.iter();
@@ -161,7 +161,7 @@ impl Run<'_> {
         without.map(|effect| self.unchanged(effect.name)).collect()
     }
 
-    /// The effects with all of their functions, what several materials share once.
+    /// The effects with all their functions. Functions that several materials share appear once.
     pub fn whole_effects(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
         let mut all = Vec::new();
         for effect in &self.effects.effects {

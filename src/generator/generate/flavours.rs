@@ -12,13 +12,13 @@ use crate::language::methods::Method;
 use crate::language::targets::Target;
 use crate::physics::materials::ViewingConditions;
 
-/// The material that files show which a run with other materials does not change.
+/// The example material in files that a run with other materials does not change.
 const EXAMPLE: &str = "gold";
 
-/// Refuses what adapters cannot follow: their functions, names and languages are the host's.
+/// Refuses requests that adapters cannot follow: their functions, names and languages are the host's.
 ///
 /// # Errors
-/// A target that none of the flavours holds; flags that choose functions.
+/// A target that none of the flavours has, or flags that choose functions.
 pub fn check(
     request: &Request,
     flavours: &[&'static Flavour],
@@ -69,7 +69,7 @@ pub fn check(
     Err(RequestFault::conflict(format!("--flavour {names} {why}")).into())
 }
 
-/// The row of the example, fitted as the usual request sees it.
+/// The row of the example, fitted under the default request.
 fn example_rows() -> Result<Vec<CatalogueRow>, Error> {
     let usual = Request {
         materials: Materials::These(vec![Source::Named(EXAMPLE.to_owned())]),
@@ -80,10 +80,10 @@ fn example_rows() -> Result<Vec<CatalogueRow>, Error> {
 }
 
 impl Run<'_> {
-    /// All files of the flavours, and why materials of `all` have none.
+    /// All files of the flavours, and why some materials of `all` have none.
     ///
     /// # Errors
-    /// No fitted form of four coefficients follows a material that was named.
+    /// A named material has no fitted form with four coefficients.
     pub fn flavour_files(&self) -> Result<(Vec<Artifact>, Vec<String>), Error> {
         if self.flavours.is_empty() {
             return Ok((Vec::new(), Vec::new()));
@@ -147,7 +147,7 @@ impl Run<'_> {
         Ok(flavours::files(flavour, materials, example, &commands)?)
     }
 
-    /// A material's file must not have the name of a file that the flavour has for all.
+    /// Refuses a material whose file would have the name of one of the flavour's shared files.
     fn refuse_names_of_pages(&self, subjects: &[MaterialInMedium]) -> Result<(), RequestFault> {
         for flavour in &self.flavours {
             let clash = |subject: &&MaterialInMedium| {
@@ -164,7 +164,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Whether `all` brought this material along.
+    /// Whether `all` included this material.
     fn is_brought_along(&self, subject: &MaterialInMedium) -> bool {
         let all = self.request.materials.sources();
         all.contains(&Source::BroughtAlong(subject.argument.clone()))

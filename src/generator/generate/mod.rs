@@ -1,4 +1,4 @@
-//! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
+//! Generation: a request becomes artifacts in memory. Only [`Generated::write_to`] touches the disk.
 
 pub mod catalogue;
 mod effects;
@@ -7,12 +7,18 @@ pub mod tables;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
+use crate::generator::bake::as_tables_are_seen;
 use crate::generator::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
 use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
+use crate::generator::generate::tables::add_tables;
 use crate::generator::output::artifact::{Artifact, Scope, sha256};
+use crate::generator::output::lock::Lock;
 use crate::generator::output::manifest::{Input, Provenance};
+use crate::generator::output::tree::plan;
+use crate::generator::output::write::write;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::Subjects;
 use crate::generator::request::{Materials, Request};
@@ -24,51 +30,72 @@ use written::Owners;
 
 pub use written::{generate_single, kept};
 
-/// What a request comes to.
+/// The result of a request.
 #[derive(Clone, Debug)]
 pub struct Generated {
     /// The files, sorted by path.
     pub artifacts: Vec<Artifact>,
-    /// What the run owns of an output folder.
+    /// The manifest entries of an output folder that the run owns.
     #[doc(hidden)]
     pub scope: Scope,
     /// Versions and inputs, for the manifest.
     #[doc(hidden)]
     pub provenance: Provenance,
-    /// Why materials that `all` brings along are left out.
+    /// Why some materials that `all` includes are left out.
     pub left_out: Vec<Unseen>,
-    /// Methods that nobody named and half precision cannot bear, with the reason.
+    /// Methods that nobody named and that half precision cannot represent, with the reason.
     pub refused: Vec<String>,
 }
 
-/// Methods that a material's file holds besides those of the request, by target and material: what earlier runs put
-/// there by name. A run that names methods adds to a file and takes nothing from it.
+/// Methods that a material's file holds besides those of the request, by target and material. Earlier runs put them there by
+/// name. A run that names methods adds to a file and removes nothing from it.
 pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
 
 /// Generates everything that the request asks for.
 ///
 /// ```
-/// use fresnel_gen::{Materials, Request, generate};
+/// use fresnel_gen::{Method, Request, Target, generate};
 ///
-/// let request = Request {
-///     targets: vec!["wgsl".into()],
-///     methods: vec!["schlick".into()],
-///     materials: Materials::None,
-///     ..Request::default()
-/// };
+/// let request = Request::new().target(Target::WGSL).method(Method::SCHLICK);
 /// let files = generate(&request)?.artifacts;
 /// assert_eq!(files[0].path, "wgsl/fresnel_schlick.wgsl");
 /// # Ok::<(), fresnel_gen::Error>(())
 /// ```
 ///
-/// # Errors
-/// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over the
-/// whole spectrum, or two functions would have one name.
+/// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over
+/// the whole spectrum, or two functions would have the same name.
 pub fn generate(request: &Request) -> Result<Generated, Error> {
-    generate_beside(request, &Kept::new())
+    let mut generated = generate_beside(request, &Kept::new())?;
+    if request.tables {
+        let materials = request.materials.clone();
+        let viewing = as_tables_are_seen(&request.viewing, false);
+        add_tables(&mut generated, materials, request.medium.clone(), viewing)?;
+    }
+    Ok(generated)
 }
 
-/// The same, for a folder whose material files hold these methods already.
+impl Generated {
+    /// Writes the files into a folder that is this request's alone, such as `OUT_DIR`, and gives their paths, sorted. It also removes
+    /// what an earlier request wrote there and this one does not. A file that is right already keeps its time, and a file that this
+    /// program did not write is neither replaced nor removed. `manifest.json` beside them says which files are ours.
+    ///
+    /// # Errors
+    /// A file of others lies where one is to be written, or the disk refuses: then all stays as it was.
+    pub fn write_to(&self, out_dir: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
+        let out_dir = out_dir.as_ref();
+        let mut lock = Lock::take(out_dir, &|_| ());
+        let scope = Scope {
+            alone: true,
+            ..self.scope.clone()
+        };
+        let plan = plan(out_dir, &self.artifacts, &scope, &self.provenance)?;
+        write(&plan, &[], false, &mut lock)?;
+        let paths = self.artifacts.iter();
+        Ok(paths.map(|file| out_dir.join(&file.path)).collect())
+    }
+}
+
+/// The same, for a folder whose material files already hold these methods.
 ///
 /// # Errors
 /// As [`generate()`].
@@ -94,39 +121,39 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
     })
 }
 
-/// A file with the functions in it.
+/// A file, and the functions in it.
 #[derive(Clone, Debug)]
 pub struct Made {
     /// The file.
     pub artifact: Artifact,
     /// Its functions in order.
     pub functions: Vec<Emitted>,
-    /// The place of its material among the subjects, where it has one.
+    /// The index of its material among the subjects, if it has one.
     pub subject: Option<usize>,
 }
 
-/// What a request comes to, with what its text means.
+/// The result of a request, with the graphs of its functions.
 #[derive(Clone, Debug)]
 pub struct Meant {
     /// The files.
     pub files: Vec<Made>,
     /// The materials.
     pub subjects: Vec<MaterialInMedium>,
-    /// Why materials that `all` brings along are left out.
+    /// Why some materials that `all` includes are left out.
     pub left_out: Vec<Unseen>,
 }
 
 /// What the files of a folder hold.
 #[derive(Clone, Debug, Default)]
 pub struct Held {
-    /// The methods of material files, which hold these and no others.
+    /// The methods of material files, which hold exactly these.
     pub methods: Kept,
-    /// The files whose comments have the full form, with their folder and without their ending.
+    /// The files whose comments have the full form, with their folder and without their extension.
     pub full_headers: BTreeSet<String>,
 }
 
-/// Generates everything that the request asks for, and keeps the graphs of what is generated. For a file that is in `held`, methods and
-/// form of comments are taken from there.
+/// Generates everything that the request asks for, and keeps the graphs. For a file in `held`, the methods and the form of
+/// comments are taken from there.
 ///
 /// # Errors
 /// As [`generate()`].
@@ -171,7 +198,7 @@ fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
 struct Run<'r> {
     request: &'r Request,
     targets: Vec<&'static Target>,
-    /// The methods asked for by name; nothing where all are meant.
+    /// The methods asked for by name; none where all are meant.
     named: Option<Vec<&'static Method>>,
     effects: WantedEffects,
     flavours: Vec<&'static Flavour>,
@@ -179,7 +206,7 @@ struct Run<'r> {
     left_out: Vec<Unseen>,
     naming: Naming,
     bounds: Bounds,
-    /// What files hold that are compared with what would be written.
+    /// The contents of existing files that are compared with what would be written.
     held: Option<&'r Held>,
 }
 
@@ -212,14 +239,13 @@ impl<'r> Run<'r> {
         })
     }
 
-    /// The functions of a method's library file, and what stands beside them.
+    /// The functions of a method's library file, and their companions.
     fn library_functions(&self, method: &'static Method) -> Result<Vec<Emitted>, Error> {
         let mut functions = emit::library_functions(method, &self.naming)?;
         functions.extend(emit::companions(method, &self.naming)?);
         Ok(functions)
     }
 
-    /// The library files of a method.
     fn library(&self, method: &'static Method, owners: &mut Owners) -> Result<Vec<Made>, Error> {
         let functions = self.library_functions(method)?;
         for emitted in &functions {
@@ -244,7 +270,6 @@ impl<'r> Run<'r> {
         Ok(files)
     }
 
-    /// The files of a material.
     fn material(
         &self,
         index: usize,
@@ -301,7 +326,7 @@ impl<'r> Run<'r> {
         Ok(functions)
     }
 
-    /// What the run owns; of effects the files that it made.
+    /// What the run owns. Of files of effects, it owns those that it made.
     fn scope(&self, artifacts: &[Artifact]) -> Scope {
         let names = |methods: &Vec<&'static Method>| {
             methods
@@ -331,6 +356,7 @@ impl<'r> Run<'r> {
                 .map(|flavour| flavour.name.to_owned())
                 .collect(),
             precision: request.precision,
+            alone: false,
             whole: request.targets.is_empty()
                 && request.flavours.is_empty()
                 && request.names_nothing(),
@@ -346,7 +372,7 @@ impl<'r> Run<'r> {
     }
 }
 
-/// What a manifest says of a run with these inputs.
+/// What a manifest says about a run with these inputs.
 pub fn provenance(inputs: Vec<Input>) -> Provenance {
     Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -1,4 +1,4 @@
-//! Lookup tables of a run: the materials they hold, and their files as a manifest lists them.
+//! Lookup tables of a run: the materials in them, and their files as a manifest lists them.
 
 use std::collections::BTreeMap;
 
@@ -16,21 +16,21 @@ use crate::generator::request::source::{Loaded, load, same_name};
 use crate::generator::request::{Materials, Source, check_transparent};
 use crate::physics::materials::ViewingConditions;
 
-/// The tables that are wanted, of which materials.
+/// The request for lookup tables.
 #[derive(Clone, Debug)]
 pub struct WantedTables {
     /// The choice of materials.
     pub materials: Materials,
-    /// What the light comes from; air where there is none.
+    /// The medium that the light comes from; none for air.
     pub medium: Option<Source>,
-    /// How they are seen.
+    /// The viewing conditions.
     pub viewing: ViewingConditions,
 }
 
-/// The materials, sorted by name, each once; and why some that `all` brings along are left out.
+/// The materials, sorted by name, each once, and why some that `all` includes are left out.
 ///
 /// # Errors
-/// A file or name that is none, a material that is not known where it is looked at, two of one name.
+/// A file or name does not exist, a material is not known at the wavelengths needed, or two have one name.
 pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec<String>), Error> {
     let medium = wanted.medium.as_ref().map(load).transpose()?;
     if let Some(medium) = &medium {
@@ -67,19 +67,19 @@ pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec
     ))
 }
 
-/// Adds the tables of the usual materials and their atlas to what a run without flags generates, so that what functions called
-/// `table` read is there. They are not made the run's own: it replaces tables, and removes none, since `bake` writes others
-/// beside them.
+/// Adds the tables of these materials and their atlas to what a run generates, for the functions called `table` to read. The run
+/// does not own them: it replaces tables but removes none, since `bake` writes others beside them.
 ///
 /// # Errors
-/// The medium or the viewing conditions leave a material unknown.
+/// A material is not known in the medium or under the viewing conditions.
 pub fn add_tables(
     generated: &mut Generated,
+    materials: Materials,
     medium: Option<Source>,
     viewing: ViewingConditions,
 ) -> Result<(), Error> {
     let wanted = WantedTables {
-        materials: Materials::Default,
+        materials,
         medium,
         viewing,
     };
@@ -93,7 +93,7 @@ pub fn add_tables(
     Ok(())
 }
 
-/// The files of a picture as a manifest lists them, and a description of all beside them.
+/// The files of a picture as a manifest lists them, and a file that describes them all.
 pub fn artifacts(baked: Baked) -> Vec<Artifact> {
     let description = format!("{TABLES}/{}.json", baked.name);
     let row_materials = baked.row_materials();
@@ -117,7 +117,7 @@ pub fn artifacts(baked: Baked) -> Vec<Artifact> {
     files.into_iter().map(listed).collect()
 }
 
-/// A file of JSON.
+/// The text of a JSON file.
 fn pretty(report: &impl Serialize) -> String {
     serde_json::to_string_pretty(report).expect("a report has only text keys") + "\n"
 }

@@ -1,12 +1,8 @@
-//! Which methods are written: those asked for, those that a file holds already, and in half precision those that it can bear.
+//! Decides what a run writes into its files: their methods, function names, commands and form of comments.
 //!
-//! Whose function a name is: two of one name must not meet.
-//!
-//! What earlier runs put into an output folder by name, and a run of other names leaves there.
-//!
-//! The command that makes a file again, and the form of its comments.
-//!
-//! One file of functions to be pasted: what `-o` puts out.
+//! The methods of a file are those asked for and those that earlier runs put there by name. In half precision, methods that it
+//! cannot represent are left out. No two functions may have one name ([`Owners`]). [`generate_single`] is the one file of
+//! functions that `-o` writes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,7 +21,7 @@ use crate::physics::num::Precision;
 
 type Named<'a> = Option<&'a [&'static Method]>;
 
-/// The methods of library files: where each material's function is chosen only those that are named.
+/// The methods of library files. Where each material's function is chosen by a budget, only named methods have one.
 pub fn library_methods(request: &Request, named: Named) -> Vec<&'static Method> {
     let all = if request.chosen.is_empty() {
         methods::ALL
@@ -37,7 +33,7 @@ pub fn library_methods(request: &Request, named: Named) -> Vec<&'static Method> 
     methods
 }
 
-/// The methods whose library file is asked for and not written, with the reason.
+/// The methods whose library file is asked for but not written, with the reason.
 pub fn refused(request: &Request, named: Named) -> Vec<String> {
     let asked = named.unwrap_or(methods::ALL).iter();
     let refused = |method: &&'static Method| {
@@ -51,14 +47,14 @@ pub fn refused(request: &Request, named: Named) -> Vec<String> {
     asked.filter_map(refused).collect()
 }
 
-/// The methods that a material's file holds unless others are asked for.
+/// The default methods of a material's file.
 pub fn usual(request: &Request, subject: &MaterialInMedium) -> Vec<&'static str> {
     let mut usual = subject.default_methods();
     usual.retain(|name| is_written(request, name));
     usual
 }
 
-/// The methods asked for of a material: the one that a budget chose, those named, or the usual ones.
+/// The methods for a material: the one that a budget chose, those named, or the default ones.
 pub fn named_or(run: &Run, material: &str, usual: &[&'static str]) -> Vec<&'static str> {
     if let Some(chosen) = run.request.chosen.get(material) {
         return vec![*chosen];
@@ -95,13 +91,13 @@ pub fn methods_of(
     chosen
 }
 
-/// Whether a method is written for materials.
+/// Whether a method is written for materials in the request's precision.
 pub fn is_written(request: &Request, name: &str) -> bool {
     let method = methods::find(name);
     method.is_none_or(|method| request.refusal(method, false).is_none())
 }
 
-/// Refuses methods that were named and cannot be written in the precision of the request.
+/// Refuses named methods that cannot be written in the request's precision.
 pub fn check(request: &Request, named: Named, no_materials: bool) -> Result<(), Error> {
     for method in named.unwrap_or_default() {
         if let Some(why) = request.refusal(method, no_materials) {
@@ -119,12 +115,12 @@ pub fn check(request: &Request, named: Named, no_materials: bool) -> Result<(), 
     Ok(())
 }
 
-/// Which part of the output holds a function, by its name.
+/// The owner of each function name: the part of the output that holds the function.
 #[derive(Default)]
 pub struct Owners(BTreeMap<String, String>);
 
 impl Owners {
-    /// Refuses two functions of one name: a material called `gold_schlick` meets gold's `schlick` so.
+    /// Refuses two functions with one name, such as a material called `gold_schlick` and gold's `schlick`.
     pub fn claim(&mut self, name: &str, owner: &str) -> Result<(), Error> {
         let other = self.0.insert(name.to_owned(), owner.to_owned());
         match other.filter(|other| other != owner) {
@@ -136,7 +132,7 @@ impl Owners {
     }
 }
 
-/// The methods that the folder's material files of this precision hold, by its manifest.
+/// The methods in the folder's material files of this precision, according to its manifest.
 ///
 /// # Errors
 /// The manifest cannot be read, or is not ours.
@@ -160,7 +156,7 @@ pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
 }
 
 impl Run<'_> {
-    /// The form of the comments of a file, named without its ending. Modules have no comments.
+    /// The form of comments in a file, named without its extension. Modules have no comments.
     pub(super) fn form(&self, target: &Target, stem: &str) -> HeaderForm {
         let held = self.held.map(|held| &held.full_headers);
         let is_full = held.is_some_and(|full| full.contains(&format!("{}/{stem}", target.name)));
@@ -223,7 +219,7 @@ impl Run<'_> {
 /// ```
 ///
 /// # Errors
-/// As [`generate()`](crate::generator::generate::generate); also where the request has several targets.
+/// As [`generate()`](crate::generator::generate::generate). Also if the request has several targets.
 pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     let mut request = request.clone();
     if request.targets.is_empty() {
@@ -256,7 +252,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     if run.subjects.is_empty() {
         for method in library_methods(run.request, run.named.as_deref()) {
-            // Of a module one function can be put out, the method's own.
+            // Only one function of a module can be written: the method's own.
             let functions = match target.pages.len() {
                 1 => run.library_functions(method)?,
                 _ => emit::library_functions(method, &run.naming)?,
@@ -283,7 +279,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     Ok(pages.join(&b"\n"[..]))
 }
 
-/// The functions of effects, one behind the other; what the method and the material do not change in its usual form.
+/// The functions of effects, one after the other. Those that the method and the material do not change are in their default form.
 fn effects(run: &Run, target: &'static Target) -> Result<Vec<u8>, Error> {
     let all = run.whole_effects()?;
     if target.finish == Finish::Spirv && all.len() > 1 {

@@ -1,15 +1,15 @@
-//! Axes: where along a table a cosine lies.
+//! Axes: where a cosine lies along a table.
 //!
 //! ```text
 //! u = (1/2 + w(c) (N - 1)) / N        c = cos θ, clamped to [0, 1]; N texels; w(0) = 0, w(1) = 1
 //! ```
 //!
-//! The centre of the first texel is c = 0 and that of the last c = 1, exactly: a sampler that clamps to the edge never
-//! reaches past them, and nothing of the range is lost.
+//! The centre of the first texel is c = 0 and that of the last c = 1, exactly. A sampler that clamps to the edge never reaches
+//! past them, and the whole range is covered.
 //!
-//! Linear filtering errs by h²/8 of the second derivative. Reflectance bends most near grazing, so that an axis should
-//! be dense there: the warp w. Largest error of f32 texels over the catalogue in air, at 64 texels, and the texels that
-//! 1/1023 takes, by the 90th percentile of its 137 materials:
+//! Linear filtering has an error of h²/8 times the second derivative. Reflectance bends most near grazing, so an axis should be
+//! dense there: the warp w. Largest error of f32 texels over the catalogue in air at 64 texels, and the texels needed for an
+//! error of 1/1023, by the 90th percentile of the catalogue's 137 materials:
 //!
 //! | axis | w | error | texels |
 //! |---|---|---:|---:|
@@ -19,12 +19,12 @@
 //! | rational | 5 c / (4 c + 1) | .00014 | 25 |
 //! | steep | 9 c / (8 c + 1) | .00040 | 41 |
 //!
-//! The mean relative error (the thesis's measure) ranks the axes differently for materials that are dark at normal incidence: at 64 texels
-//! water has .04 % along cos, .05 along square, .15 along rational.
+//! The mean relative error (the thesis's measure) ranks the axes differently for materials that are dark at normal incidence: at
+//! 64 texels, water has .04 % along cos, .05 along square, .15 along rational.
 //!
-//! Tried and left out: 1 - (1 - c)³ and higher powers, which starve normal incidence; log(1 + 20 c), as good and dearer;
-//! √(c + b), between sqrt and rational; other constants of the rational one (1/5 and 3/10 in place of its 1/4 need 28
-//! and 26 texels).
+//! Tried and left out: 1 - (1 - c)³ and higher powers, which are sparse at normal incidence; log(1 + 20 c), as good and more
+//! costly; √(c + b), between sqrt and rational; other constants of the rational one (1/5 and 3/10 in place of its 1/4 need 28 and
+//! 26 texels).
 
 use crate::language::methods::{WARP, unwarped, warped};
 use crate::physics::num::Num;
@@ -36,13 +36,13 @@ pub enum TableAxis {
     Cos,
     /// w = c (2 - c) = 1 - (1 - c)²: two operations, no division.
     Square,
-    /// w = √c, as engines have it. Its first texels lie closer than any material in air needs.
+    /// w = √c, as in engines. Its first texels lie closer together than any material in air needs.
     Sqrt,
-    /// w = 5 c / (4 c + 1): one division, and for nearly all materials the fewest texels.
+    /// w = 5 c / (4 c + 1): one division, and the fewest texels for nearly all materials.
     Rational,
-    /// w = 9 c / (8 c + 1): for indices that leave a trough near grazing (zinc by Querry in red).
+    /// w = 9 c / (8 c + 1): for indices whose curves have a trough near grazing (zinc by Querry in red).
     Steep,
-    /// w = 65 c / (64 c + 1): for indices near 1 (gases, a material in a medium like it), which bend close to grazing.
+    /// w = 65 c / (64 c + 1): for indices near 1 (gases, a material in a medium like it), whose curves bend close to grazing.
     Grazing,
 }
 
@@ -92,7 +92,7 @@ impl TableAxis {
         }
     }
 
-    /// w of a cosine in [0, 1], in any kind of number: 0 at 0 and 1 at 1, exactly.
+    /// w of a cosine in [0, 1], in any number type: 0 at 0 and 1 at 1, exactly.
     pub fn warp<N: Num>(self, c: N) -> N {
         match (self, self.constant()) {
             (TableAxis::Cos, _) => c,
@@ -111,7 +111,7 @@ impl TableAxis {
         }
     }
 
-    /// What turns w into u for so many texels: u = scale w + offset.
+    /// The scale and offset that turn w into u: u = scale w + offset.
     pub fn half_texel(texels: usize) -> (f64, f64) {
         let texels = texels as f64;
         ((texels - 1.0) / texels, 0.5 / texels)

@@ -1,4 +1,5 @@
-//! The catalogue of fitted coefficients as a texture: a row a material, four texels c0 to c3, which a shader fetches by number.
+//! The catalogue of fitted coefficients as a texture: one row per material, four texels c0 to c3, which a shader fetches by
+//! number.
 
 use serde::Serialize;
 
@@ -9,16 +10,16 @@ use super::picture::Picture;
 use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
 use crate::physics::spectra::Space;
 
-/// The kind of number that the catalogue's texels hold.
+/// The number type of the catalogue's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CatalogueTexture {
-    /// binary16: coefficients rounded to the nearest.
+    /// binary16: coefficients rounded to the nearest number.
     Half,
-    /// binary32: the numbers of the array.
+    /// binary32: the same numbers as in the array.
     Float,
 }
 
-/// What `catalogue.json` says of a texture's file.
+/// The entry of a texture's file in `catalogue.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueTextureDetail {
     file: &'static str,
@@ -56,7 +57,7 @@ impl CatalogueTexture {
         }
     }
 
-    /// What is said of its file.
+    /// The entry of its file.
     pub fn detail(self, rows: &[CatalogueRow]) -> CatalogueTextureDetail {
         CatalogueTextureDetail {
             file: self.file(),
@@ -68,7 +69,7 @@ impl CatalogueTexture {
         }
     }
 
-    /// Its file. `space` is that of the colours.
+    /// Its file. `space` is the colours' space.
     pub fn encode(self, rows: &[CatalogueRow], space: Option<Space>) -> Vec<u8> {
         let depth = self.depth();
         let colours = rows.iter().flat_map(|row| &row.coefficients);

@@ -1,8 +1,8 @@
 //! OpenEXR: binary16 or binary32, compressed without loss, no dates.
 //!
-//! Source: Academy Software Foundation, *OpenEXR File Layout*, 2013, <https://openexr.com/en/latest/OpenEXRFileLayout.html>.
-//! Red, green and blue, and alpha where there is one, one part, scan lines; the working space's primaries stand in `chromaticities`, so that no reader
-//! has to guess them.
+//! Source: Academy Software Foundation, *OpenEXR File Layout*, 2013, <https://openexr.com/en/latest/OpenEXRFileLayout.html>. Red,
+//! green and blue, with alpha if there is one, in one part of scan lines. The working space's primaries stand in
+//! `chromaticities`, so that no reader has to guess them.
 
 use std::io::Cursor;
 
@@ -16,14 +16,14 @@ use super::format::Depth;
 use super::picture::Picture;
 use crate::physics::spectra::Space;
 
-/// ZIP over sixteen lines: lossless, and every reader has it.
+/// ZIP over sixteen lines: lossless, and supported by every reader.
 const ENCODING: Encoding = Encoding {
     compression: Compression::ZIP16,
     blocks: Blocks::ScanLines,
     line_order: LineOrder::Increasing,
 };
 
-/// The file, or why there is none.
+/// The file, or the reason why it cannot be made.
 pub fn exr(picture: &Picture) -> Result<Vec<u8>, String> {
     let colour = |i: usize| picture.texels.iter().map(move |texel| texel[i]);
     let colours = ["R", "G", "B"].into_iter().enumerate();

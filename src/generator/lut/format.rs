@@ -1,8 +1,5 @@
-//! Formats: the files that a table can be written as.
-//!
-//! What cannot be baked.
-//!
-//! Depth: the kind of number that a texel holds, and what becomes of a table in it.
+//! The file formats of tables ([`Format`]), the number types of texels ([`Depth`]), a table rounded to one of them ([`Stored`]),
+//! and the errors of baking.
 
 use super::axis::TableAxis;
 use super::picture::Picture;
@@ -10,11 +7,11 @@ use super::split_sum::MOST_SIDE;
 use super::table::Table;
 use crate::physics::num::{Half, Num};
 
-/// The folder of lookup tables in an output folder: those of a run without flags, and any that `bake` put beside them, which no
-/// manifest lists.
+/// The folder of lookup tables in an output folder. It holds the tables of a run without flags, and any that `bake` put beside
+/// them, which no manifest lists.
 pub const TABLES: &str = "lut";
 
-/// A kind of file.
+/// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Format {
     /// OpenEXR, binary16.
@@ -25,7 +22,7 @@ pub enum Format {
     Png8,
     /// PNG, 16 bits.
     Png16,
-    /// KTX 2.0, RGBA of binary16: as GPUs take it.
+    /// KTX 2.0, RGBA of binary16, in the layout that GPUs take.
     Ktx2,
     /// A C header with the bits of binary16.
     C,
@@ -62,7 +59,7 @@ impl Format {
         }
     }
 
-    /// What its files end in: no two formats write the same file.
+    /// The ending of its file names: no two formats write the same file.
     pub fn ending(self) -> &'static str {
         match self {
             Format::ExrHalf => ".exr",
@@ -76,12 +73,12 @@ impl Format {
         }
     }
 
-    /// Whether its files are text, as version control sees it.
+    /// Whether its files are text for version control.
     pub fn is_text(self) -> bool {
         matches!(self, Format::C | Format::Rust | Format::Js)
     }
 
-    /// Whether its four channels reach a GPU as they are. What reads EXR and PNG may multiply or divide by alpha.
+    /// Whether its four channels reach a GPU unchanged. Readers of EXR and PNG may multiply or divide by alpha.
     pub fn keeps_alpha(self) -> bool {
         match self {
             Format::Ktx2 | Format::C | Format::Rust | Format::Js => true,
@@ -89,7 +86,7 @@ impl Format {
         }
     }
 
-    /// The kind of number in it.
+    /// The number type of its texels.
     pub fn depth(self) -> Depth {
         match self {
             Format::ExrFloat => Depth::Float,
@@ -99,7 +96,7 @@ impl Format {
         }
     }
 
-    /// The file of a picture, whose depth is this format's.
+    /// The file of a picture with this format's depth.
     ///
     /// # Errors
     /// The encoder refuses.
@@ -126,10 +123,10 @@ impl Format {
     }
 }
 
-/// A fault of what was asked for.
+/// An invalid request for a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A size that no texture has.
+    /// A size that no texture can have.
     #[error("a table of {texels} texels cannot be: it has 2 to 16384")]
     Size {
         /// The size.
@@ -140,11 +137,11 @@ pub enum Error {
         "no table meets an error of {budget:?}: the best of {tried} reaches {best:.2e}, with 8-bit filtering weights and up to 16384 texels. Allow more, or more axes and formats"
     )]
     Budget {
-        /// What was asked for.
+        /// The largest error allowed.
         budget: f64,
-        /// The least error that was reached.
+        /// The least error reached.
         best: f64,
-        /// The axes and depths.
+        /// The axes and depths that were tried.
         tried: String,
     },
     /// A size that a split-sum table cannot have.
@@ -158,10 +155,10 @@ pub enum Error {
         "a split-sum table has a channel for each coefficient, and a texture has 4: {terms} do not fit (fitted and fitted_dielectric have 4)"
     )]
     Terms {
-        /// The coefficients.
+        /// The number of coefficients.
         terms: usize,
     },
-    /// A split-sum table whose terms lie beyond 1.
+    /// A split-sum table whose terms exceed 4.
     #[error(
         "the terms of this form reach beyond 4, which integers cannot hold and half precision holds poorly: fitted and fitted_dielectric stay below 1"
     )]
@@ -176,21 +173,21 @@ pub enum Error {
     },
 }
 
-/// The kind of number.
+/// The number type of a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Depth {
     /// 8 bits, i/255 for 0 to 1.
     Unorm8,
     /// binary16: 11 significant bits.
     Half,
-    /// 16 bits, i/65535 for 0 to 1. GLES and WebGPU sample it by extension only.
+    /// 16 bits, i/65535 for 0 to 1. GLES and WebGPU sample it only with an extension.
     Unorm16,
-    /// binary32. GLES and WebGPU filter it by extension only.
+    /// binary32. GLES and WebGPU filter it only with an extension.
     Float,
 }
 
 impl Depth {
-    /// All depths, the smallest first; of equal sizes, the one that more devices can filter comes first.
+    /// All depths, the smallest first; of equal sizes, the one that more devices can filter.
     pub const ALL: [Depth; 4] = [Depth::Unorm8, Depth::Half, Depth::Unorm16, Depth::Float];
 
     /// The name in reports.
@@ -203,7 +200,7 @@ impl Depth {
         }
     }
 
-    /// Bytes of a texel in the memory of a GPU, which has four channels.
+    /// Bytes of a texel in GPU memory, where it has four channels.
     pub fn bytes(self) -> usize {
         match self {
             Depth::Unorm8 => 4,
@@ -212,7 +209,7 @@ impl Depth {
         }
     }
 
-    /// The largest integer, for depths that divide by it.
+    /// The largest integer, for integer depths.
     pub fn largest(self) -> Option<f32> {
         match self {
             Depth::Unorm8 => Some(255.0),
@@ -221,7 +218,7 @@ impl Depth {
         }
     }
 
-    /// The nearest value, as a sampler gives it back. An integer depth holds 0 to 1 only.
+    /// The nearest value, as a sampler returns it. An integer depth holds only 0 to 1.
     pub fn nearest(self, value: f64) -> f32 {
         match self {
             Depth::Half => Half::from_f64(value).to_f32(),
@@ -234,8 +231,8 @@ impl Depth {
         }
     }
 
-    /// What tables in this depth must be multiplied by: 1, or for integers the largest channel of all where that is
-    /// above 1, rounded up to binary32.
+    /// The factor to store with tables in this depth: 1, or for integers the largest channel of all where that is above 1,
+    /// rounded up to binary32.
     pub fn scale(self, tables: &[&Table]) -> f32 {
         if self.largest().is_none() {
             return 1.0;
@@ -251,26 +248,26 @@ impl Depth {
     }
 }
 
-/// A table as a GPU has it.
+/// A table as stored in a GPU texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stored {
-    /// How cosines are spread.
+    /// The axis of cosines.
     pub axis: TableAxis,
-    /// The kind of number.
+    /// The number type.
     pub depth: Depth,
     /// value = texel × scale.
     pub scale: f32,
-    /// What a sampler gives back for each texel.
+    /// The value of each texel that a sampler returns.
     pub texels: Vec<[f32; 3]>,
 }
 
 impl Stored {
-    /// A table rounded, divided by its own scale.
+    /// A table divided by its own scale and rounded.
     pub fn new(table: &Table, depth: Depth) -> Stored {
         Stored::scaled(table, depth, depth.scale(&[table]))
     }
 
-    /// A table rounded, divided by a scale that it may share with others.
+    /// A table divided by a scale that it may share with others, and rounded.
     pub fn scaled(table: &Table, depth: Depth, scale: f32) -> Stored {
         let rounded = |value: f64| depth.nearest(value / f64::from(scale));
         Stored {

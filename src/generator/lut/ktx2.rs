@@ -2,9 +2,9 @@
 //!
 //! Source: Khronos, *KTX File Format Specification, version 2.0*, 2021,
 //! <https://registry.khronos.org/KTX/specs/2.0/ktxspec.v2.html>; the data format descriptor by Khronos, *Data Format
-//! Specification 1.3*, 2019, <https://registry.khronos.org/DataFormat/specs/1.3/dataformat.1.3.html>. GPUs have no three
-//! channels of 16 bits that all can filter, so that there is an alpha of 1. The transfer function is linear, the
-//! orientation `rd`: the first row is the top one.
+//! Specification 1.3*, 2019, <https://registry.khronos.org/DataFormat/specs/1.3/dataformat.1.3.html>. GPUs have no three-channel
+//! format of 16 bits that all can filter, so alpha is 1. The transfer function is linear and the orientation `rd`: the first row
+//! is the top one.
 
 use super::format::Depth;
 use super::picture::Picture;
@@ -13,14 +13,14 @@ use crate::physics::spectra::Space;
 const IDENTIFIER: [u8; 12] = [
     0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n',
 ];
-/// How a file begins, and what its head says where this program wrote it.
+/// How a file begins, and the mark of this program in its head.
 pub const KTX2_MARK: (&[u8], &[u8]) = (b"\xABKTX 20", b"KTXwriter\0fresnel-gen\0");
 
-/// The kind of number that a file holds.
+/// The number type of a file's channels.
 struct Channel {
-    /// The number of Vulkan's format of four such channels.
+    /// The number of Vulkan's format with four such channels.
     format: u32,
-    /// The bytes of one.
+    /// The bytes of one channel.
     bytes: usize,
 }
 
@@ -43,7 +43,7 @@ impl Channel {
         }
     }
 
-    /// The first byte of the level lies at a multiple of a texel's bytes.
+    /// The bytes of a texel. The level's first byte lies at a multiple of them.
     fn texel(&self) -> usize {
         4 * self.bytes
     }
@@ -51,10 +51,10 @@ impl Channel {
 
 /// Where the header with its index and the one entry of the level index end: 12 + 9·4 + 4·4 + 2·8, and 3·8.
 const HEADER: u32 = 80 + 24;
-/// Words of the descriptor: its length, the basic block's head of six, four samples of four.
+/// Bytes of the descriptor: its length, the basic block's head of six words, and four samples of four.
 const DESCRIPTOR: u32 = 4 * (1 + 6 + 4 * 4);
 
-/// The file. Its numbers are binary32 where the picture's are, else binary16.
+/// The file. Its numbers are binary32 if the picture's are, otherwise binary16.
 pub fn ktx2(picture: &Picture) -> Vec<u8> {
     let channel = Channel::of(picture.depth);
     let pairs = key_values();
@@ -65,7 +65,7 @@ pub fn ktx2(picture: &Picture) -> Vec<u8> {
     for word in head(picture, &channel, pairs.len() as u32) {
         bytes.extend(word.to_le_bytes());
     }
-    // Supercompression data: none. Then the level: place, length, length when uncompressed.
+    // Supercompression data: none. Then the level: offset, length, uncompressed length.
     for word in [0, 0, start, data.len(), data.len()] {
         bytes.extend((word as u64).to_le_bytes());
     }
@@ -136,14 +136,14 @@ fn descriptor(space: Option<Space>, channel: &Channel) -> Vec<u32> {
     words
 }
 
-/// The specification's numbers of primaries; 0 where channels are single wavelengths.
+/// The specification's number of the primaries; 0 where channels are single wavelengths.
 fn primaries(space: Option<Space>) -> u32 {
     match space {
         None => 0,
         Some(Space::Srgb) => 1,
         Some(Space::Rec2020) => 4,
         Some(Space::AcesCg) => 6,
-        Some(Space::P3) => 10,
+        Some(Space::DisplayP3) => 10,
     }
 }
 

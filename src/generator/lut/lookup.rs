@@ -1,18 +1,17 @@
-//! The lookup as a function of a shader: a baked table read at a cosine, as a graph.
+//! The graph of a shader function that looks a cosine up in a baked table.
 //!
-//! What a table is baked with (axis, size, scale) stands in it as constants, so that a caller passes nothing but the
-//! cosine, the texture, and the row where there are several. [`Stored::lookup`](super::Stored::lookup) is what it
-//! gives.
+//! The table's axis, size and scale are constants in it, so a caller passes only the cosine, the texture, and the row where there
+//! are several. It computes the same as [`Stored::lookup`](super::Stored::lookup).
 
 use super::axis::TableAxis;
 use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check, fold};
 use crate::language::methods::{Input, Inputs, ONLY_ROW, fetch, warped_step};
 use crate::physics::num::Precision;
 
-/// The function that reads a table of so many texels along an axis.
+/// The function that reads a table of `texels` texels along an axis.
 ///
-/// Its arguments are `cos_theta`, `table`, then `row` (where the row's middle lies) for more than one row, then
-/// `table_scale` where no scale is given: one function can so serve files that are scaled differently.
+/// Its arguments are `cos_theta`, `table`, then `row` (the coordinate of the row's middle) for more than one row, then
+/// `table_scale` where no scale is given. Without a scale, one function serves files that are scaled differently.
 ///
 /// # Errors
 /// The graph breaks a rule of the representation: a bug.
@@ -42,7 +41,7 @@ pub fn lookup(
     check(fold(&builder.finish("lookup", reflectance)))
 }
 
-/// w of a clamped cosine, [`TableAxis::warp`] as steps of a graph.
+/// w of a clamped cosine: [`TableAxis::warp`] as nodes of a graph.
 fn warp(axis: TableAxis, c: Expr) -> Expr {
     let why = "0 at grazing, 1 at normal incidence; dense near grazing";
     match (axis, axis.constant()) {

@@ -1,17 +1,15 @@
 //! Lookup tables: reflectance by cos θ as a texture, and the error of the filtered lookup.
 //!
-//! The way of a table, one file a step: [`TableAxis`] says where a cosine lies; [`Table`] is the reference at the centres of
-//! texels; [`Stored`] is it in a [`Depth`]; [`Stored::lookup`] is what a sampler gives back, and [`table_error`] holds
-//! that against the reference; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
-//! or more rows becomes a file in a [`Format`]; [`lookup()`] is the function that reads it in a shader.
+//! A table takes these steps, one file each. [`TableAxis`] says where a cosine lies. [`Table`] is the reference at the centres of
+//! texels, and [`Stored`] is the table in a [`Depth`]. [`Stored::lookup`] is what a sampler returns, and [`table_error`] compares
+//! that with the reference. [`smallest`] finds the table with the fewest bytes within an error. A [`Picture`] of one or more rows
+//! becomes a file in a [`Format`]. [`lookup()`] is the shader function that reads it.
 //!
-//! [`CatalogueTexture`] is no table: it holds fitted coefficients, which a shader fetches by number.
+//! [`CatalogueTexture`] is no table: it holds fitted coefficients, which a shader fetches by number. [`SplitSum`] is a table by
+//! angle and roughness of what a rough surface reflects, and [`compensation`] adds what it reflects more than once.
 //!
-//! [`SplitSum`] is a table of another kind, by angle and roughness, of what a rough surface reflects; [`compensation`] is what it reflects
-//! more than once.
-//!
-//! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format
-//! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
+//! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format that can
+//! say so does. Nothing here uses the disk or the terminal. EXR and PNG need the feature `cli`.
 
 mod axis;
 mod catalogue;

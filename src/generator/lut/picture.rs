@@ -1,4 +1,4 @@
-//! A picture: tables of one size, axis and depth as the rows of a texture, with what a file says about them.
+//! A picture: tables of one size, axis and depth as the rows of a texture, with what its file says about them.
 
 use super::axis::TableAxis;
 use super::format::{Depth, Stored};
@@ -10,7 +10,7 @@ use crate::physics::spectra::Space;
 pub enum TermChannels {
     /// Four, the last as alpha.
     All,
-    /// The first three, or as many as there are.
+    /// The first three, or as many as exist.
     FirstThree,
     /// The fourth, in each of three channels.
     Fourth,
@@ -19,11 +19,11 @@ pub enum TermChannels {
 /// One or more tables as a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Its name, which is that of its file and of the array in a text form: a material's, or `atlas`.
+    /// Its name, also that of its file and of the array in a text format: a material's, or `atlas`.
     pub name: String,
-    /// How cosines are spread along x.
+    /// The axis of cosines along x.
     pub axis: TableAxis,
-    /// The kind of number.
+    /// The number type.
     pub depth: Depth,
     /// value = texel × scale.
     pub scale: f32,
@@ -31,18 +31,18 @@ pub struct Picture {
     pub width: usize,
     /// The rows' names, the top one first.
     pub rows: Vec<String>,
-    /// The rows one after the other, as a sampler gives them back.
+    /// The texels row by row, as a sampler returns them.
     pub texels: Vec<[f32; 3]>,
-    /// The fourth channel of each texel, where there is one.
+    /// The fourth channel of each texel, if there is one.
     pub alpha: Option<Vec<f32>>,
-    /// The working space, where the channels are one.
+    /// The working space, if the channels belong to one.
     pub space: Option<Space>,
-    /// What the file says about itself: ASCII, a line each.
+    /// What the file says about itself: ASCII, one entry per line.
     pub about: Vec<String>,
 }
 
 impl Picture {
-    /// Tables, named, one below the other. They have one axis, depth, scale and size: those of the first.
+    /// Named tables, one below the other. All have the first one's axis, depth, scale and size.
     pub fn new(name: &str, rows: &[(&str, &Stored)], space: Option<Space>) -> Picture {
         let first = rows.first().map(|(_, stored)| *stored);
         let width = first.map_or(0, |stored| stored.texels.len());
@@ -64,7 +64,8 @@ impl Picture {
         }
     }
 
-    /// A split-sum table, with its rows' names and what it says about itself. Its axis says nothing of how it is looked up.
+    /// A split-sum table, with its rows' names and what it says about itself. The picture's axis does not describe how it is
+    /// looked up.
     pub fn of_terms(
         name: &str,
         stored: &StoredSplitSum,
@@ -92,12 +93,12 @@ impl Picture {
         }
     }
 
-    /// How many rows.
+    /// The number of rows.
     pub fn height(&self) -> usize {
         self.rows.len()
     }
 
-    /// How a shader looks a cosine up, in words and formulas, but for the scale.
+    /// How a shader looks a cosine up, in words and formulas, without the scale.
     pub fn lookup(&self) -> Vec<String> {
         let (scale, offset) = TableAxis::half_texel(self.width);
         let mut lines = vec![
@@ -120,12 +121,12 @@ impl Picture {
         lines
     }
 
-    /// What a texel is multiplied by, where that is not 1.
+    /// The factor of a texel, in words; none where it is 1.
     pub fn scaling(&self) -> Option<String> {
         (self.scale != 1.0).then(|| format!("Reflectance = texel * {:?}.", self.scale))
     }
 
-    /// The bits of binary16 of each texel, red, green, blue and alpha, which is 1 where there is none. Values of other depths
+    /// The bits of binary16 of each texel: red, green, blue, and alpha, which is 1 where there is none. Values of other depths
     /// are rounded.
     pub(super) fn half_bits(&self) -> impl Iterator<Item = [u16; 4]> {
         let bits = |value: f32| half::f16::from_f32(value).to_bits();
@@ -139,7 +140,7 @@ impl Picture {
         texels.map(move |(i, [r, g, b])| [*r, *g, *b, alpha(i)])
     }
 
-    /// The integers of a depth that has them.
+    /// The integers of each texel, for an integer depth.
     pub(super) fn integers(&self) -> impl Iterator<Item = u16> {
         let largest = self.depth.largest().unwrap_or(0.0);
         let channels = self.texels.iter().enumerate().flat_map(|(i, texel)| {

@@ -1,9 +1,9 @@
 //! PNG: 8 or 16 bits, marked as linear.
 //!
-//! Source: W3C, *Portable Network Graphics (PNG) Specification (Third Edition)*, 2025, <https://www.w3.org/TR/png-3/>: the chunk
-//! gAMA says 1.0 and there is no sRGB chunk, so that whoever heeds the file applies no curve; cHRM names the primaries of another space
-//! than sRGB, which is what a file without one means. Engines often do not ask:
-//! switch sRGB off where textures are imported.
+//! Source: W3C, *Portable Network Graphics (PNG) Specification (Third Edition)*, 2025, <https://www.w3.org/TR/png-3/>. The chunk
+//! gAMA says 1.0 and there is no sRGB chunk, so a reader that follows them applies no curve. cHRM names the primaries of a space
+//! other than sRGB, since a file without it means sRGB. Engines often ignore these chunks: switch sRGB off where textures are
+//! imported.
 
 use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
 
@@ -11,7 +11,7 @@ use super::format::Depth;
 use super::picture::Picture;
 use crate::physics::spectra::Space;
 
-/// The file, or why there is none.
+/// The file, or the reason why it cannot be made.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, String> {
     encoded(picture).map_err(|why| why.to_string())
 }

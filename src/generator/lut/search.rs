@@ -1,9 +1,8 @@
-//! The smallest table that is good enough.
+//! The error of a table, and the search for the smallest table within an error.
 //!
-//! The error of a table: its filtered lookup against the reference, between texels as well as on them.
-//!
-//! The thesis's measure of functions (section 5.2), for lookup tables: the mean relative difference from the exact law at angles
-//! that are even from 0 to 90 degrees.
+//! The error is that of the filtered lookup against the reference, between texels as well as on them. For lookup tables there is
+//! also the thesis's measure of functions (section 5.2): the mean relative difference from the exact law at angles that are
+//! uniform from 0 to 90 degrees.
 
 use super::axis::TableAxis;
 use super::format::{Depth, Error, Stored};
@@ -13,32 +12,32 @@ use crate::generator::reference::{ReferenceCurve, reference_reflectance};
 use crate::language::ir::{Column, Value, Weights};
 use crate::physics::num::each_channel;
 
-/// A kind of table.
+/// The parameters that decide a table's error and size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TableKind {
-    /// How cosines are spread.
+    /// The axis of cosines.
     pub axis: TableAxis,
-    /// The kind of number.
+    /// The number type.
     pub depth: Depth,
-    /// How many texels.
+    /// The number of texels.
     pub texels: usize,
 }
 
 impl TableKind {
-    /// Bytes of a row in the memory of a GPU.
+    /// Bytes of a row in GPU memory.
     pub fn bytes(self) -> usize {
         self.texels * self.depth.bytes()
     }
 }
 
-/// The error mostly falls as the size grows, but ripples. So this many sizes below the first good one are tried too.
+/// The error mostly falls as the size grows, but not always. So this many sizes below the first good one are tried too.
 const BELOW: usize = 8;
 
-/// The choice with the fewest bytes of which the filtered lookup, with weights of 1/256, errs by at most `budget` for
-/// each of these truths; of equally small ones the first by axis, then by depth, in the order given.
+/// The kind with the fewest bytes whose filtered lookup, with weights of 1/256, has an error of at most `budget` for each of
+/// these references. Of equally small ones, the first by axis, then by depth, in the order given.
 ///
 /// # Errors
-/// None is good enough.
+/// None is within the budget.
 pub fn smallest(
     truths: &[&ReferenceCurve],
     budget: f64,
@@ -76,7 +75,7 @@ fn tried(axes: &[TableAxis], depths: &[Depth]) -> String {
     format!("{} in {}", axes.join(", "), depths.join(", "))
 }
 
-/// Tables that differ in size only.
+/// Tables that differ only in size.
 struct TableFamily<'a> {
     truths: &'a [&'a ReferenceCurve],
     axis: TableAxis,
@@ -92,7 +91,7 @@ impl TableFamily<'_> {
         }
     }
 
-    /// The fewest texels that are good enough: doubled until they are, then halved in between.
+    /// The fewest texels within the budget: doubled until they are, then bisected.
     fn first(&self, budget: f64, least: &mut f64) -> Option<usize> {
         let (mut short, mut enough) = (LEAST_TEXELS - 1, LEAST_TEXELS);
         while !self.meets(enough, budget, least) {
@@ -105,13 +104,13 @@ impl TableFamily<'_> {
         Some(self.between(short, enough, budget, least))
     }
 
-    /// The fewest texels that are good enough, where `most` are.
+    /// The fewest texels within the budget, up to `most`; none if `most` are too few.
     fn below(&self, budget: f64, most: usize, least: &mut f64) -> Option<usize> {
         let possible = most >= LEAST_TEXELS && self.meets(most, budget, least);
         possible.then(|| self.between(LEAST_TEXELS - 1, most, budget, least))
     }
 
-    /// The fewest texels that are good enough, between some that are not and some that are.
+    /// The fewest texels within the budget, between a number that is too small and one that is enough.
     fn between(&self, mut short: usize, mut enough: usize, budget: f64, least: &mut f64) -> usize {
         while enough - short > 1 {
             let middle = short.midpoint(enough);
@@ -132,7 +131,7 @@ impl TableFamily<'_> {
         error <= budget
     }
 
-    /// The largest error over all truths, which share a scale. It stops at the first error above the budget.
+    /// The largest error over all references, which share a scale. It stops at the first error above the budget.
     fn error(&self, texels: usize, budget: f64) -> f64 {
         let made = |reference: &&ReferenceCurve| Table::new("", reference, self.axis, texels).ok();
         let Some(tables) = self.truths.iter().map(made).collect::<Option<Vec<Table>>>() else {
@@ -153,14 +152,14 @@ impl TableFamily<'_> {
     }
 }
 
-/// Places between texels at which the reference is known: the error of filtering is largest there.
+/// Places between texels with the reference's values: the error of filtering is largest there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetweenTexels {
     points: Vec<(f64, [f64; 3])>,
 }
 
-/// Places between two texels: the middle, where a smooth curve is furthest from its chord, and others half a weight
-/// step away from where weights of 1/256 are exact.
+/// Shares between two texels: the middle, where a smooth curve is furthest from its chord, and others half a weight step away
+/// from where weights of 1/256 are exact.
 const SHARES: [f64; 4] = [
     0.5,
     0.5 + 1.0 / 512.1,
@@ -179,8 +178,8 @@ impl BetweenTexels {
     }
 }
 
-/// The error of the lookup: the largest over angles, places between texels and channels, and the mean as [`ModelError`]
-/// has it, even in angle.
+/// The error of the lookup: the largest over angles, places between texels and channels, and the mean uniform in angle, as in
+/// [`ModelError`].
 pub fn table_error(
     stored: &Stored,
     weights: Weights,
@@ -199,7 +198,6 @@ pub fn table_error(
     error
 }
 
-/// Lookups at these cosines.
 fn looked_up(stored: &Stored, weights: Weights, cosines: &[f64]) -> Value<f64> {
     let values: Vec<[f32; 3]> = cosines
         .iter()
@@ -209,16 +207,16 @@ fn looked_up(stored: &Stored, weights: Weights, cosines: &[f64]) -> Value<f64> {
     Value::Rgb(each_channel(|i| Column::Each(channel(i))))
 }
 
-/// The exact law at the middles of equal steps of angle: cosines, and reflectance in three channels.
+/// The exact law at the midpoints of equal steps of angle: cosines, and reflectance in three channels.
 pub struct ThesisMeasure(Vec<(f64, [f64; 3])>);
 
 impl ThesisMeasure {
-    /// At so many angles.
+    /// The law at `angles` angles.
     pub fn new(reference: &ReferenceCurve, angles: usize) -> ThesisMeasure {
         ThesisMeasure::part(reference, 0..angles, angles)
     }
 
-    /// At some of these angles.
+    /// The law at a range of these angles.
     fn part(
         reference: &ReferenceCurve,
         some: std::ops::Range<usize>,
@@ -235,7 +233,7 @@ impl ThesisMeasure {
         ThesisMeasure(some.map(at).collect())
     }
 
-    /// The sum over angles and channels of relative differences.
+    /// The sum of relative differences over angles and channels.
     fn sum(&self, stored: &Stored) -> f64 {
         let differences = self.0.iter().map(|(cos_theta, want)| {
             let got = stored.lookup(Weights::Steps256, *cos_theta as f32);
@@ -256,7 +254,7 @@ fn percent(sum: f64, angles: usize) -> f64 {
 }
 
 /// The thesis's measure of several tables of one reference, in per cent: mean relative difference of the lookup at `angles`
-/// angles, even in angle, over three channels. `progress` hears how many angles are done.
+/// angles, uniform in angle, over three channels. `progress` receives how many angles are done.
 pub fn thesis_table_errors(
     reference: &ReferenceCurve,
     tables: &[Stored],

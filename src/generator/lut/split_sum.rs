@@ -1,20 +1,21 @@
-//! The split-sum table: what a rough surface reflects of light from everywhere, for every material of one shape at once.
+//! The split-sum table: what a rough surface reflects of light from all directions, for all materials of one shape.
 //!
 //! ```text
 //! E(cos θ_v, roughness) = Σ c_i T_i(cos θ_v, α),   T_i = ∫ b_i(h·v) D G2 / (4 (n·v) (n·l)) (n·l) dl,   α = roughness²
 //! ```
 //!
-//! The c_i are numbers that a material has, and F = Σ c_i b_i: coefficients of a fitted method, or F0 and others of a method that is
-//! affine in them ([`Basis`]). The terms T_i hold no material: one texture serves all. T_0 is the albedo of what reflects everything. The
-//! microfacets are GGX with height-correlated Smith masking ([`Ggx`]). The limit of F to [0, 1] is left out: it acts for colours outside
-//! the working space only.
+//! The c_i are numbers of a material, and F = Σ c_i b_i: coefficients of a fitted method, or F0 and others of a method that is
+//! affine in them ([`Basis`]). The terms T_i do not depend on the material: one texture serves all. T_0 is the albedo of a
+//! surface that reflects everything. The microfacets are GGX with height-correlated Smith masking ([`Ggx`]). The clamp of F to
+//! [0, 1] is left out: it acts only for colours outside the working space.
 //!
-//! Source: the split of lighting and surface, and its table for Schlick's two terms, of Karis, "Real Shading in Unreal Engine 4",
-//! SIGGRAPH course, 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>.
+//! Source: Karis, "Real Shading in Unreal Engine 4", SIGGRAPH course, 2013,
+//! <https://blog.selfshadow.com/publications/s2013-shading-course/>, for the split of lighting and surface and its table for
+//! Schlick's two terms.
 //!
-//! The valley where masking takes most lies at cos θ_v ≈ α: along ∜c and √roughness it runs along the diagonal, and is as many texels
-//! wide everywhere but at the very corner. Largest error of the lookup of T_0 at roughness .05 and above, which is that of a material
-//! with c_0 = 1, half precision and weights in steps of 1/256:
+//! The valley where masking is strongest lies at cos θ_v ≈ α. Along ∜c and √roughness it follows the diagonal, and is equally
+//! many texels wide everywhere except at the very corner. Largest error of the lookup of T_0 at roughness .05 and above, which is
+//! that of a material with c_0 = 1, with half precision and weights in steps of 1/256:
 //!
 //! | axes | 64² | 128² |
 //! |---|---:|---:|
@@ -26,21 +27,22 @@
 //! | ∜c, √roughness | .0024 | .0007 |
 //! | ∜c, ∜roughness | .0022 | .0007 |
 //!
-//! What microfacets reflect more than once, as a geometric series.
+//! The compensation adds what microfacets reflect more than once, as a geometric series.
 //!
-//! A rough white surface reflects E of the light that falls on it at once, and would reflect all of it in the end: 1 - E is
-//! reflected again. Of each bounce F̄ is left, and Ē escapes, the means over the hemisphere of F and of E. So a surface with the
-//! albedo E_F of one bounce reflects in all
+//! A rough white surface reflects E of the incident light after one bounce, and would reflect all of it in the end: 1 - E is
+//! reflected again. Let F̄ and Ē be the means of F and E over the hemisphere. At each bounce F̄ is left, and Ē escapes. So a
+//! surface with the single-bounce albedo E_F reflects in all
 //!
 //! ```text
 //! E_F + (1 - E) F_ms,  F_ms = F̄² Ē + F̄³ (1 - Ē) Ē + ... = F̄² Ē / (1 - F̄ (1 - Ē))
 //! ```
 //!
-//! For white F_ms is 1. Lamps and image are multiplied by 1 + (1 - E) F_ms / E_F.
+//! For white, F_ms is 1. Lights and image are multiplied by 1 + (1 - E) F_ms / E_F.
 //!
 //! Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
-//! <https://blog.selfshadow.com/publications/s2017-shading-course/>, with F̄ squared, since light that is reflected twice has met the surface
-//! twice: Hill, "A Multi-Faceted Exploration (Part 3)", 2018, <https://blog.selfshadow.com/2018/08/05/multi-faceted-part-3/>.
+//! <https://blog.selfshadow.com/publications/s2017-shading-course/>, with F̄ squared, since light that is reflected twice has met
+//! the surface twice: Hill, "A Multi-Faceted Exploration (Part 3)", 2018,
+//! <https://blog.selfshadow.com/2018/08/05/multi-faceted-part-3/>.
 
 use super::format::{Depth, Error};
 use super::split_sum_design::SplitSumDesign;
@@ -50,43 +52,43 @@ use crate::language::methods::{Basis, MOST_TERMS};
 use crate::physics::num::{each_channel, in_parallel};
 use crate::physics::optics::Ggx;
 
-/// Terms of a table at the most: the channels of a texture.
+/// The most terms of a table: the channels of a texture.
 pub const TERMS: usize = MOST_TERMS;
-/// Texels of a side where nothing else is asked for.
+/// Texels per side by default.
 pub const SPLIT_SUM_SIZE: usize = 128;
-/// The most texels of a side: the errors fall with the square of the size, and are those of half precision from 256 on.
+/// The most texels per side: errors fall with the square of the size, and from 256 on half precision dominates.
 pub const MOST_SIDE: usize = 1024;
-/// The roughness from which on the lookup's error is measured: below it the valley lies between the first texels.
+/// The roughness from which the lookup's error is measured: below it, the valley lies between the first texels.
 pub const LEAST_ROUGHNESS: f64 = 0.05;
 
-/// The terms T_i at the centres of texels: rows by roughness, 0 first, in each a texel by cos θ_v, 0 first.
+/// The terms T_i at the centres of texels: rows by roughness, 0 first, each with texels by cos θ_v, 0 first.
 #[derive(Clone, Debug)]
 pub struct SplitSum {
-    /// How it is laid out.
+    /// Its axes, size and channels.
     pub design: SplitSumDesign,
     /// The texels, row by row.
     pub texels: Vec<[f64; TERMS]>,
 }
 
-/// The same as a GPU has it.
+/// The table as stored in a GPU texture.
 #[derive(Clone, Debug)]
 pub struct StoredSplitSum {
-    /// How it is laid out.
+    /// Its axes, size and channels.
     pub design: SplitSumDesign,
-    /// The kind of number.
+    /// The number type.
     pub depth: Depth,
-    /// What a sampler gives back for each texel.
+    /// The value of each texel that a sampler returns.
     pub texels: Vec<[f32; TERMS]>,
 }
 
-/// How much of a run is done: rows, of how many.
+/// Receives the number of rows done, and of all rows.
 pub type RowProgress<'a> = &'a mut dyn FnMut(u64, u64);
 
 impl SplitSum {
-    /// The table of a design. Rows are shared among threads; the bytes are the same for any number of them.
+    /// The table of a design. Rows are computed in parallel, and the result does not depend on the number of threads.
     ///
     /// # Errors
-    /// More terms than a texture has channels, terms that no texture holds well, a size that no texture has.
+    /// More terms than a texture has channels, terms that no texture holds well, or a size that no texture can have.
     pub fn new(design: &SplitSumDesign, progress: RowProgress) -> Result<SplitSum, Error> {
         check_side(design.width)?;
         check_side(design.height)?;
@@ -106,7 +108,7 @@ impl SplitSum {
         })
     }
 
-    /// The table in a depth, which holds 0 to 1.
+    /// The table in a depth that holds 0 to 1.
     pub fn stored(&self, depth: Depth) -> StoredSplitSum {
         let rounded = |texel: &[f64; TERMS]| texel.map(|value| depth.nearest(value));
         StoredSplitSum {
@@ -129,7 +131,7 @@ pub fn check_side(size: usize) -> Result<(), Error> {
     }
 }
 
-/// The largest that a term may be in half precision, which has 11 digits: above 4 it is off by .002.
+/// The largest term allowed in half precision, which has 11 significant bits: above 4, its error is .002.
 pub const MOST_TERM: f64 = 4.0;
 
 /// Refuses more terms than a texture has channels, and terms that half precision holds poorly.
@@ -145,7 +147,7 @@ fn check_terms(basis: &Basis) -> Result<(), Error> {
     }
 }
 
-/// The least and the largest value of all that numbers are multiplied by, over all angles: terms, being means, lie between.
+/// The least and the largest factor of a material's numbers, over all angles. Terms are means, so they lie between.
 pub fn term_range(basis: &Basis) -> [f64; 2] {
     const STEPS: usize = 1000;
     let mut range = [0.0, 1.0];
@@ -173,7 +175,7 @@ impl StoredSplitSum {
     }
 }
 
-/// The texel before a place, and the weight of the next.
+/// The index of the texel before a place, and the weight of the next.
 fn neighbours(weights: Weights, at: f64, texels: usize) -> (usize, f64) {
     let before = (at.floor() as usize).min(texels - 2);
     let share = at - before as f64;
@@ -191,7 +193,7 @@ fn mix(a: [f64; TERMS], b: [f64; TERMS], share: f64) -> [f64; TERMS] {
     mixed
 }
 
-/// Places between the texels of a table at which its channels are known: filtering errs most there.
+/// Places between the texels of a table with the channels' values: filtering errs most there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetweenSplitSum {
     /// Cosine, roughness, channels.
@@ -231,28 +233,29 @@ impl BetweenSplitSum {
     }
 }
 
-/// 1 - Ē over the roughness r is r³ (a + r (b + r (c + r d))), for GGX with height-correlated Smith masking, α = r²: within .0007.
+/// The coefficients a to d of 1 - Ē = r³ (a + r (b + r (c + r d))) over the roughness r, for GGX with height-correlated Smith
+/// masking and α = r²: within .0007.
 pub const WHITE_MEAN_LOST: [f64; 4] = [0.20275, 3.50269, -4.97845, 1.8645];
 
-/// Ē: the mean over the hemisphere, weighted by cosine, of what a rough white surface reflects at once.
+/// Ē: the cosine-weighted mean over the hemisphere of what a rough white surface reflects after one bounce.
 pub fn white_mean(roughness: f64) -> f64 {
     let [a, b, c, d] = WHITE_MEAN_LOST;
     let inner = a + roughness * (b + roughness * (c + roughness * d));
     1.0 - roughness * roughness * roughness * inner
 }
 
-/// F_ms of each channel: what is left of the light that is reflected more than once, from F̄ and Ē.
+/// F_ms of each channel, the share of the light reflected more than once, from F̄ and Ē.
 pub fn series_of_bounces(average: [f64; 3], white_mean: f64) -> [f64; 3] {
     average.map(|mean| mean * mean * white_mean / (1.0 - mean * (1.0 - white_mean)))
 }
 
-/// What lamps and image are multiplied by, from the image's terms: E_F, E, F̄ and the roughness.
+/// The factor for lights and image, from the image's terms E_F and E, from F̄ and from the roughness.
 pub fn compensation(image: [f64; 3], white: f64, average: [f64; 3], roughness: f64) -> [f64; 3] {
     let series = series_of_bounces(average, white_mean(roughness));
     each_channel(|i| 1.0 + (1.0 - white) * series[i] / image[i].max(SMALLEST_IMAGE))
 }
 
-/// What the image is divided by at least, so that black stays black.
+/// The least divisor for the image, so that black stays black.
 const SMALLEST_IMAGE: f64 = 1e-5;
 
 #[cfg(test)]

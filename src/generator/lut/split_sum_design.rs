@@ -1,25 +1,25 @@
-//! How a split-sum table is laid out: its axes, its size, its masking, and which channel holds what; and what engines bind.
+//! The design of a split-sum table: its axes, size, masking and channels, and the layouts that engines bind.
 //!
-//! Two engines are written down from what they read. Both take n·v along u and roughness along v, both linear, with texel i of N
-//! at (i + 1/2)/N and the smoothest row first, and two terms of Schlick's approximation, w = (1 - h·v)⁵:
+//! The layouts of two engines are taken from their shaders. Both take n·v along u and roughness along v, both linear, with texel
+//! i of N at (i + 1/2)/N and the smoothest row first. Both have two terms of Schlick's approximation, w = (1 - h·v)⁵:
 //!
 //! | engine | red | green | texels | masking |
 //! |---|---|---|---|---|
 //! | Filament | ∫ w | ∫ 1 | 128 × 128 | height-correlated Smith |
 //! | Unreal | ∫ (1 - w) | ∫ w | 128 × 32 | the same with roots replaced by lines: Λ is linear in α |
 //!
-//! Sources: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>, and
-//! its `cmgen --ibl-dfg-multiscatter`, whose own rows lie one texel further: it integrates row i at (i + 3/2)/N. Karis, "Real
-//! Shading in Unreal Engine 4", 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>, `PreIntegratedGF` and
-//! `Vis_SmithJointApprox`.
+//! Sources: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>,
+//! and its `cmgen --ibl-dfg-multiscatter`, whose own rows are shifted by one texel: it integrates row i at (i + 3/2)/N. Karis,
+//! "Real Shading in Unreal Engine 4", 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>, `PreIntegratedGF`
+//! and `Vis_SmithJointApprox`.
 
 use crate::language::methods::{Basis, MOST_TERMS};
 use crate::physics::optics::Ggx;
 
-/// How a number from 0 to 1 is spread over a side.
+/// The spacing of a number from 0 to 1 along a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SplitSumAxis {
-    /// As it is.
+    /// Linear.
     Linear,
     /// By its square root.
     Sqrt,
@@ -28,7 +28,7 @@ pub enum SplitSumAxis {
 }
 
 impl SplitSumAxis {
-    /// All of them, the cheapest first.
+    /// All axes, the cheapest first.
     pub const ALL: [SplitSumAxis; 3] = [
         SplitSumAxis::Linear,
         SplitSumAxis::Sqrt,
@@ -44,7 +44,7 @@ impl SplitSumAxis {
         }
     }
 
-    /// The place of a number, both from 0 to 1.
+    /// The place of a number along the axis, both from 0 to 1.
     pub fn place(self, value: f64) -> f64 {
         match self {
             SplitSumAxis::Linear => value,
@@ -62,7 +62,7 @@ impl SplitSumAxis {
         }
     }
 
-    /// The place of a number as shading languages write it.
+    /// The place of a number, as a formula in shading languages.
     pub fn formula(self, number: &str) -> String {
         match self {
             SplitSumAxis::Linear => format!("clamp({number}, 0.0, 1.0)"),
@@ -72,19 +72,19 @@ impl SplitSumAxis {
     }
 }
 
-/// Which channel holds what.
+/// The meaning of each channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SplitSumLayout {
-    /// A term a channel: what each number is multiplied by.
+    /// One term per channel: the factor of each of a material's numbers.
     Terms,
-    /// What Filament binds.
+    /// The layout of Filament.
     Filament,
-    /// What Unreal Engine binds.
+    /// The layout of Unreal Engine.
     Unreal,
 }
 
 impl SplitSumLayout {
-    /// Those of engines.
+    /// The layouts of engines.
     pub const ENGINES: [SplitSumLayout; 2] = [SplitSumLayout::Filament, SplitSumLayout::Unreal];
 
     /// The name on the command line.
@@ -96,7 +96,7 @@ impl SplitSumLayout {
         }
     }
 
-    /// The channels from the terms T0, of 1, and T1, of w.
+    /// The channels, from the terms T0 (of 1) and T1 (of w) and the others.
     fn arranged(self, [white, grazing, third, fourth]: [f64; MOST_TERMS]) -> [f64; MOST_TERMS] {
         match self {
             SplitSumLayout::Terms => [white, grazing, third, fourth],
@@ -111,19 +111,19 @@ impl SplitSumLayout {
 pub struct SplitSumDesign {
     /// What is integrated.
     pub basis: Basis,
-    /// Which channel holds what; of an engine's, also how masking is computed and where texels lie.
+    /// The meaning of each channel. An engine's layout also decides how masking is computed and where texels lie.
     pub layout: SplitSumLayout,
     /// Texels along n·v.
     pub width: usize,
     /// Texels along roughness.
     pub height: usize,
-    /// How cosines are spread.
+    /// The axis of cosines.
     pub cosine: SplitSumAxis,
-    /// How roughness is spread.
+    /// The axis of roughness.
     pub roughness: SplitSumAxis,
 }
 
-/// The axes unless others are asked for: `sqrt(vec2(cos_v, roughness))` in a shader, within .002 with 128 texels a side.
+/// The default axes: `sqrt(vec2(cos_v, roughness))` in a shader, within .002 with 128 texels a side.
 pub const SPLIT_SUM_AXES: [SplitSumAxis; 2] = [SplitSumAxis::Sqrt; 2];
 
 impl SplitSumDesign {
@@ -139,7 +139,7 @@ impl SplitSumDesign {
         }
     }
 
-    /// What an engine binds, of a basis whose terms are 1 and (1 - c)⁵.
+    /// An engine's table, of a basis whose terms are 1 and (1 - c)⁵.
     pub fn of_engine(basis: Basis, layout: SplitSumLayout) -> Self {
         let height = match layout {
             SplitSumLayout::Unreal => 32,
@@ -155,7 +155,7 @@ impl SplitSumDesign {
         }
     }
 
-    /// How many channels are used.
+    /// The number of channels used.
     pub fn channels(&self) -> usize {
         match self.layout {
             SplitSumLayout::Terms => self.basis.terms(),
@@ -163,12 +163,12 @@ impl SplitSumDesign {
         }
     }
 
-    /// Whether the ends of a side are 0 and 1; an engine's texel i of N is at (i + 1/2)/N.
+    /// Whether the first and last texel lie at 0 and 1. An engine's texel i of N lies at (i + 1/2)/N.
     fn ends_are_centres(&self) -> bool {
         self.layout == SplitSumLayout::Terms
     }
 
-    /// What turns the place on an axis of so many texels into u: u = scale place + offset.
+    /// The scale and offset that turn the place on an axis into u: u = scale place + offset.
     pub fn half_texel(&self, texels: usize) -> (f64, f64) {
         if self.ends_are_centres() {
             super::axis::TableAxis::half_texel(texels)
@@ -177,7 +177,7 @@ impl SplitSumDesign {
         }
     }
 
-    /// The cosine and the roughness at a texel, or between some.
+    /// The cosine and the roughness at a texel, or between texels.
     pub fn at(&self, column: f64, row: f64) -> (f64, f64) {
         let place = |texel: f64, texels: usize| {
             if self.ends_are_centres() {
@@ -192,7 +192,7 @@ impl SplitSumDesign {
         )
     }
 
-    /// The column and the row of a cosine and a roughness, both clamped to [0, 1]; texels are clamped to the edge.
+    /// The column and the row of a cosine and a roughness, both clamped to [0, 1]. Texels are clamped to the edge.
     pub fn texel(&self, cos_v: f64, roughness: f64) -> (f64, f64) {
         let texel = |place: f64, texels: usize| {
             let last = (texels - 1) as f64;
@@ -223,7 +223,7 @@ impl SplitSumDesign {
     }
 }
 
-/// The quotient of Unreal's masking and the exact one: `√(c² + α² (1 - c²))` there is `c (1 - α) + α`.
+/// The ratio of Unreal's masking to the exact one. Unreal replaces `√(c² + α² (1 - c²))` by `c (1 - α) + α`.
 fn lines_for_roots(cos_v: f64, light: f64, alpha: f64) -> f64 {
     let root = |c: f64| (c * c + alpha * alpha * (1.0 - c * c).max(0.0)).sqrt();
     let line = |c: f64| c * (1.0 - alpha) + alpha;

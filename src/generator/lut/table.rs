@@ -1,8 +1,7 @@
-//! A table: reflectance at the centres of texels, along an axis.
+//! A table: reflectance at the centres of texels along an axis, and its filtered lookup.
 //!
-//! The filter: what a linear sampler that clamps to the edge gives back for a cosine.
-//!
-//! The coordinate is computed as a shader does, in binary32 and unfused; the texels are then mixed as [`filtered`] says.
+//! The lookup is that of a linear sampler that clamps to the edge. The coordinate is computed as in a shader, in binary32 and
+//! unfused. The texels are then mixed by [`filtered`].
 
 use super::axis::TableAxis;
 use super::format::{Error, Stored};
@@ -13,23 +12,23 @@ use crate::physics::num::Num;
 /// Reflectance along an axis, cos θ = 0 first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// The material, with `_in_` and the medium's name where there is one.
+    /// The material's name, followed by `_in_` and the medium's name if there is one.
     pub name: String,
-    /// How cosines are spread.
+    /// The axis of cosines.
     pub axis: TableAxis,
     /// Red, green and blue at each texel's centre, linear, in the gamut of the reference.
     pub texels: Vec<[f64; 3]>,
 }
 
-/// The fewest texels: both ends.
+/// The fewest texels: one at each end.
 pub const LEAST_TEXELS: usize = 2;
 /// The most texels: the longest side of a texture that all today's GPUs take (Direct3D 11's limit; WebGL 2 asks for 2048).
 pub const MOST_TEXELS: usize = 16_384;
 
-/// A number of texels that a texture can have.
+/// Refuses a number of texels that a texture cannot have.
 ///
 /// # Errors
-/// Fewer than [`LEAST_TEXELS`], more than [`MOST_TEXELS`].
+/// Fewer than [`LEAST_TEXELS`], or more than [`MOST_TEXELS`].
 pub fn check_size(texels: usize) -> Result<(), Error> {
     if (LEAST_TEXELS..=MOST_TEXELS).contains(&texels) {
         Ok(())
@@ -71,13 +70,13 @@ impl Stored {
             .map(|value| value * self.scale)
     }
 
-    /// u of a cosine: clamped, warped, and half a texel left at each end.
+    /// u of a cosine: clamped, warped, and inset by half a texel at each end.
     pub fn coordinate(&self, cos_theta: f32) -> f32 {
         let (scale, offset) = TableAxis::half_texel(self.texels.len());
         self.axis.warp(cos_theta.saturate()) * scale as f32 + offset as f32
     }
 
-    /// What a sampler gives at u, before the scale.
+    /// The sampler's result at u, before the scale.
     pub fn sample(&self, weights: Weights, u: f32) -> [f32; 3] {
         filtered(&self.texels, weights, f64::from(u)).map(|channel| channel as f32)
     }
@@ -132,7 +131,7 @@ mod filter_tests {
                 for weights in [Weights::Exact, Weights::Steps256] {
                     let last = (texels - 1) as f32;
                     let at = |c: f32| ramp.lookup(weights, c)[0];
-                    // u has 24 bits, of which the number of texels takes some.
+                    // u has 24 bits, some of which select the texel.
                     let within = last * 4e-7;
                     assert!(at(0.0) <= within && at(-1.0) <= within && at(f32::NAN) <= within);
                     assert!((at(1.0) - last).abs() <= within && (at(2.0) - last).abs() <= within);

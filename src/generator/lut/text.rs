@@ -1,5 +1,5 @@
-//! Text: the bits of binary16 as arrays, for engines that cannot read a float texture. RGBA with an alpha of 1, ready
-//! for an upload as RGBA16F; one texel a line.
+//! Text formats: the bits of binary16 as arrays, for engines that cannot read a float texture. RGBA with an alpha of 1, ready for
+//! upload as RGBA16F, one texel per line.
 
 use super::picture::Picture;
 use crate::generator::emit::comment_lines;
@@ -43,7 +43,7 @@ pub fn js(picture: &Picture) -> String {
     )
 }
 
-/// The array's name, the same in capitals, and its length.
+/// The array's name, its name in capitals, and its length.
 fn names(picture: &Picture) -> (String, String, usize) {
     let name = format!("fresnel_table_{}", picture.name);
     let loud = name.to_uppercase();

@@ -1,8 +1,8 @@
-//! An artifact: one output file in memory, and the rules that its path obeys.
+//! An artifact, and the scope of a run.
 //!
-//! The scope of a run: which manifest entries it may replace or remove.
-//!
-//! A run owns only what it asked for, so that `--material silver` after `--target gles` gives the same tree as the other way round.
+//! An artifact is one output file in memory, with a path that obeys the rules of [`check_path`]. The scope says which manifest
+//! entries a run may replace or remove. A run owns only what it was asked for, so that `--material silver` after `--target gles`
+//! gives the same tree as the other way round.
 
 use std::collections::BTreeSet;
 
@@ -22,9 +22,9 @@ pub struct Artifact {
     pub bytes: Vec<u8>,
     /// The target that it is written for.
     pub target: String,
-    /// The effect of a file of effects.
+    /// The effect, in a file of effects.
     pub effect: Option<String>,
-    /// The method of a library file; of an effect's file the method that computes R, where it is not the usual one.
+    /// In a library file, its method. In an effect's file, the method that computes R, unless it is the default.
     pub method: Option<String>,
     /// The material of a specialised file.
     pub material: Option<String>,
@@ -33,17 +33,17 @@ pub struct Artifact {
 }
 
 impl Artifact {
-    /// What tells a file of an effect from others in its target's folder.
+    /// The key that distinguishes a file of an effect from others in its target's folder.
     pub(in crate::generator) fn effect_key(&self) -> Option<EffectKey> {
         let effect = self.effect.clone()?;
         Some((effect, self.material.clone(), self.method.clone()))
     }
 }
 
-/// Refuses paths that leave the output folder, meet each other, or take the manifest's place.
+/// Refuses paths that leave the output folder, collide with each other, or are the manifest's.
 ///
 /// # Errors
-/// A path breaks a rule of [`check_path`], is the manifest's, is another artifact's, or is a folder that another one needs.
+/// A path breaks a rule of [`check_path`], is the manifest's, is another artifact's, or is a folder that another artifact needs.
 pub fn check_paths(artifacts: &[Artifact]) -> Result<(), Error> {
     let mut seen = BTreeSet::new();
     for artifact in artifacts {
@@ -62,7 +62,7 @@ pub fn check_paths(artifacts: &[Artifact]) -> Result<(), Error> {
     }
 }
 
-/// Is this a path that stays inside its folder, on every system?
+/// Checks that a path stays inside its folder, on every system.
 ///
 /// # Errors
 /// The path holds `\\`, `:` or a control character, is absolute, or has a part that is empty, `.` or `..`.
@@ -89,36 +89,41 @@ fn fault(path: &str, reason: &str) -> Error {
     }
 }
 
-/// What a run generates, by name. A name must stand here only if the run generates its files:
-/// what a run owns and does not generate, it removes.
+/// What a run generates, by name. Only names whose files the run generates may stand here: a run removes the files that it owns
+/// but does not generate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scope {
     /// The targets selected, by `--target` or by default.
     pub targets: BTreeSet<String>,
-    /// The methods selected by `--method`. None: all, also those that this version no longer knows,
-    /// so that the files of a deleted method go. An empty set: the run makes no library files.
+    /// The methods selected by `--method`. None: all, also those that this version no longer knows, so that the files of a
+    /// deleted method are removed. An empty set: the run makes no library files.
     pub methods: Option<BTreeSet<String>>,
     /// The materials selected, by `--material` or by default. There is no "all" here:
     /// an earlier run may have added a material from the user's own file.
     pub materials: BTreeSet<String>,
-    /// Does the run make the files that name neither method nor material, such as the catalogue?
+    /// Whether the run makes the files that name neither method nor material, such as the catalogue.
     pub shared: bool,
-    /// The files of effects that the run makes: the effect, the material, the method where it is not the usual one.
+    /// The files of effects that the run makes.
     pub effects: BTreeSet<EffectKey>,
     /// The flavours that the run writes.
     pub flavours: BTreeSet<String>,
-    /// What the run's functions compute in: files of the other precision are not its own.
+    /// The precision of the run's functions. The run does not own files of the other precision.
     pub precision: Precision,
-    /// None of the flags that choose was given: the run also removes orphans.
+    /// Whether no selecting flag was given. Such a run also removes orphans.
     pub whole: bool,
+    /// Whether the folder belongs to this run alone. Then the run owns all that the manifest lists.
+    pub alone: bool,
 }
 
-/// What tells files of effects apart in a target's folder.
+/// The key of a file of effects in its target's folder: the effect, the material, and the method unless it is the default.
 pub type EffectKey = (String, Option<String>, Option<String>);
 
 impl Scope {
     /// May this run replace or remove the entry?
     pub fn owns(&self, entry: &Entry) -> bool {
+        if self.alone {
+            return true;
+        }
         if let Some(effect) = &entry.effect {
             let key = (effect.clone(), entry.material.clone(), entry.method.clone());
             let is_usual = entry.material.is_none() && entry.method.is_none();

@@ -1,18 +1,20 @@
 //! The depfile: which outputs depend on which inputs, in the syntax that Make and Ninja read.
 //!
-//! A path is spelt so that both read it. Some cannot be: for Make `;` begins a recipe, `=` an assignment, `|` other
-//! prerequisites, and no quoting helps, nor does it for a backslash before `#` or `:`; Ninja ends a name at the other signs of
-//! `UNREADABLE`, or Make takes them for patterns: `%` in a target, which `\\%` mends for Make alone; `[` as it is means other files to Make, and `\[` another file to Ninja.
+//! A path is spelt so that both read it. Some paths cannot be. In Make, `;` begins a recipe, `=` an assignment and `|` order-only
+//! prerequisites, and quoting does not help. Nor does it help a backslash before `#` or `:`. At the other characters of
+//! `UNREADABLE`, Ninja ends a name, or Make takes them for patterns. `%` in a target can be written `\\%` for Make, but not for
+//! Ninja. `[` is a pattern in Make, and `\[` names another file in Ninja.
 
 use std::collections::BTreeSet;
 
 use crate::generator::error::Error;
 
-/// What no spelling brings through both programs, measured with GNU Make 4.3 and Ninja 1.11.
+/// Characters that no spelling brings through both programs, measured with GNU Make 4.3 and Ninja 1.11.
 const UNREADABLE: &str = "\"%&'*;<=>?^`|\t\n\r";
 
-/// One rule, `out1 out2: in1 in2`, without doubles: outputs in the order given, since Ninja takes the first for its own, inputs sorted. Then
-/// an empty rule for each input, as of `gcc -MP`, so that Make goes on after one was renamed or removed.
+/// One rule, `out1 out2: in1 in2`, without duplicates. Outputs keep the order given, since Ninja takes the first for its own.
+/// Inputs are sorted. An empty rule for each input follows, as `gcc -MP` writes it, so that Make goes on after an input was
+/// renamed or removed.
 ///
 /// # Errors
 /// A path holds a character that Make or Ninja cannot read in a depfile.
@@ -30,8 +32,8 @@ pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
     Ok(format!("{outputs}:{space}{inputs}\n{empty}"))
 }
 
-/// The path of this program, an input of all that it writes: another version writes other text. None where no depfile can hold the path,
-/// since nobody chose it for this run.
+/// The path of this program, an input of all that it writes: another version writes other text. None where a depfile cannot hold
+/// the path. That is no error, since nobody chose the path for this run.
 pub fn own_program() -> Option<String> {
     let program = std::env::current_exe().ok()?;
     let path = program.to_str()?;
@@ -41,7 +43,8 @@ pub fn own_program() -> Option<String> {
 fn fault(path: &str) -> Option<String> {
     let letter = path.chars().find(|c| UNREADABLE.contains(*c));
     let pair = || ["\\#", "\\:"].into_iter().find(|pair| path.contains(pair));
-    // Make takes a first `~` for a home, a last `)` for the end of an archive's member, and `[` with a `]` behind it for a choice.
+    // Make expands a leading `~` to a home folder, takes a final `)` for the end of an archive's member, and `[` with a later `]`
+    // for a pattern.
     let home = || path.starts_with('~').then_some("~");
     let member = || (path.contains('(') && path.ends_with(')')).then_some(")");
     let choice = || {
@@ -63,8 +66,8 @@ fn spelt(paths: &[String], spell: impl Fn(&str) -> String) -> String {
     paths.map(|path| spell(path)).collect::<Vec<_>>().join(" ")
 }
 
-/// Make's quoting, as GCC 10 writes it and Ninja reads it: backslashes stand for themselves,
-/// except before a space and at the end of a name, where they are doubled (Ninja knows no such ending).
+/// Make's quoting, as GCC 10 writes it and Ninja reads it. Backslashes stand for themselves, except before a space and at the end
+/// of a name. There they are doubled, although Ninja cannot read a name that ends so.
 fn escape(path: &str) -> String {
     let mut text = String::new();
     let mut backslashes = 0;

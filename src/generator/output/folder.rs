@@ -1,7 +1,7 @@
-//! Reading the output folder. Links are never followed here: what lies behind one is not ours to remove.
+//! Reads the output folder and the files in it, and resolves paths.
 //!
-//! Reading a file without waiting for ever. Some files of Linux' `/proc` and `/sys` say that they are ordinary and empty, and are
-//! neither: they end never, or give nothing until something happens.
+//! Listing never follows links: what lies behind one is not ours to remove. Reading never blocks for ever: some files of Linux'
+//! `/proc` and `/sys` claim to be ordinary and empty, but never end, or give nothing until something happens.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
@@ -11,15 +11,12 @@ use std::path::{Component, Path, PathBuf};
 use crate::generator::error::Error;
 use crate::physics::digest::sha256;
 
-/// The beginning of a temporary file's name.
 const TEMPORARY_PREFIX: &str = ".fresnel-gen-";
-/// The end of a temporary file's name.
 const TEMPORARY_SUFFIX: &str = ".tmp";
-/// The hexadecimal digits between them.
 const TEMPORARY_DIGITS: usize = 16;
 
-/// The files right in `root` and at any depth of these folders in it, as paths relative to `root` with `/`.
-/// A link is listed as one file.
+/// The files directly in `root`, and those at any depth in the given folders of it, as paths relative to `root` with `/`. A link
+/// is listed as one file.
 ///
 /// # Errors
 /// A folder cannot be read. A folder that does not exist has no files, and is no error.
@@ -39,7 +36,7 @@ pub fn list(root: &Path, folders: &BTreeSet<String>) -> Result<BTreeSet<String>,
 /// What lies there is not a file, or cannot be read.
 pub fn read(path: &Path) -> Result<Option<Vec<u8>>, Error> {
     match fs::metadata(path) {
-        // Opening a pipe would wait for ever.
+        // Opening a pipe would block for ever.
         Ok(found) if !found.is_file() => Err(Error::NotAFile {
             path: path.to_path_buf(),
         }),
@@ -61,8 +58,8 @@ pub fn temporary_name() -> String {
     )
 }
 
-/// A new name for the temporary file of an output that the user names. Its first half is the same in every run, so that what a
-/// killed run left behind is found by the next one. Its second half is new in every run, so that nobody can take the place.
+/// A new name for the temporary file of an output that the user names. Its first half is the same in every run, so that the next
+/// run finds what a killed run left behind. Its second half is new in every run, so that nobody can occupy the name in advance.
 pub fn temporary_of(output: &Path) -> String {
     format!(
         "{}{:08x}{TEMPORARY_SUFFIX}",
@@ -78,7 +75,7 @@ fn temporaries_of(output: &Path) -> String {
     format!("{TEMPORARY_PREFIX}{}", &hash[..TEMPORARY_DIGITS / 2])
 }
 
-/// The temporary files of an output that lie beside it: those of other runs. A folder that cannot be listed has none.
+/// The temporary files of other runs that lie beside an output. A folder that cannot be listed has none.
 pub fn temporaries_beside(output: &Path) -> Vec<PathBuf> {
     let start = temporaries_of(output);
     let entries = fs::read_dir(folder_of(output)).into_iter().flatten();
@@ -107,17 +104,17 @@ pub fn is_temporary(path: &str) -> bool {
     })
 }
 
-/// Is this a file itself, and neither a link nor a folder?
+/// Whether this is an ordinary file, and neither a link nor a folder.
 pub fn is_plain_file(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
 }
 
-/// Whether two paths lead to one file, which the later of two outputs would replace. A device takes both.
+/// Whether two paths lead to one file, so that the later of two outputs would replace the earlier. A device accepts both.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     !is_device(one) && resolved(one) == resolved(other)
 }
 
-/// Whether a path ends in a slash, so that no file can bear it.
+/// Whether a path ends in a slash, so that no file can have that name.
 pub fn is_named_as_folder(path: &Path) -> bool {
     let last = path.to_string_lossy().chars().next_back();
     last.is_some_and(std::path::is_separator)
@@ -136,17 +133,17 @@ pub fn is_below(folder: &Path, path: &Path) -> bool {
 /// How many links are followed in a row: as many as Linux follows.
 const LINKS: u32 = 40;
 
-/// A path without links and without `..`, whether or not it is there: a run makes the folders that are missing, so that `new/..`
-/// is where `new` will lie, and a link that leads to nothing leads to what will be made.
+/// A path without links and without `..`, whether or not it exists. A run makes missing folders, so `new/..` is the folder that
+/// will hold `new`, and a dangling link leads to the file that will be made.
 pub fn resolved(path: &Path) -> PathBuf {
     let whole = resolved_within(path, LINKS, &mut |_, _| {});
     fs::canonicalize(&whole).unwrap_or(whole)
 }
 
-/// What another user may have put on the way to a path: the first such link, or a pipe in its place.
+/// The first link on the way to a path that another user may have put there, or a pipe in its place.
 pub fn planted(path: &Path) -> Option<PathBuf> {
     let mut first = None;
-    // To open a pipe waits for who reads it, and what is written goes to them.
+    // Opening a pipe for writing waits for its reader, who receives what is written.
     if is_device(path) && is_planted(folder_of(path), path) {
         return Some(path.to_path_buf());
     }
@@ -158,8 +155,9 @@ pub fn planted(path: &Path) -> Option<PathBuf> {
     first
 }
 
-/// Whether this lies in a folder that several users write to, such as `/tmp`, and belongs to none of these: the user who runs this, root, the owner of
-/// the folder. The rule is that of Linux (`fs.protected_symlinks`), which other systems lack and an administrator can turn off.
+/// Whether this lies in a folder that several users can write to, such as `/tmp`, and its owner is neither the current user, nor
+/// root, nor the folder's owner. This is Linux' rule `fs.protected_symlinks`, which other systems lack and an administrator can
+/// turn off.
 #[cfg(unix)]
 fn is_planted(folder: &Path, link: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -173,13 +171,13 @@ fn is_planted(folder: &Path, link: &Path) -> bool {
     is_shared && ![user, 0, folder.uid()].contains(&link.uid())
 }
 
-/// Elsewhere folders have no such bit. In a build script nobody else writes.
+/// Other systems have no sticky bit. In a build script nobody else writes.
 #[cfg(not(unix))]
 fn is_planted(_folder: &Path, _link: &Path) -> bool {
     false
 }
 
-/// `on_link` hears of each link that is followed: its folder, without links, and the link.
+/// Calls `on_link` for each link that it follows, with the link's folder (without links) and the link.
 fn resolved_within(path: &Path, links: u32, on_link: &mut dyn FnMut(&Path, &Path)) -> PathBuf {
     let mut whole = if path.is_absolute() {
         PathBuf::new()
@@ -208,14 +206,14 @@ fn resolved_within(path: &Path, links: u32, on_link: &mut dyn FnMut(&Path, &Path
     whole
 }
 
-/// Where a link leads that leads to nothing.
+/// Where a dangling link leads; none if this is no dangling link.
 pub fn dangling_link(path: &Path) -> Option<PathBuf> {
     let leads_to = fs::read_link(path).ok()?;
     let is_missing = fs::metadata(path).is_err_and(|fault| fault.kind() == ErrorKind::NotFound);
     is_missing.then(|| path.parent().unwrap_or(Path::new("")).join(leads_to))
 }
 
-/// The first folder on the way from `root` to this path that is a link, and where the link leads.
+/// The first folder on the way from `root` to this path that is a link, and where it leads.
 pub fn linked_folder(root: &Path, path: &str) -> Option<(PathBuf, PathBuf)> {
     let mut folder = root.to_path_buf();
     let parts: Vec<&str> = path.split('/').collect();
@@ -228,7 +226,7 @@ pub fn linked_folder(root: &Path, path: &str) -> Option<(PathBuf, PathBuf)> {
     None
 }
 
-/// Adds the files of one folder and returns the folders in it. A folder that is not there is empty.
+/// Adds the files of one folder and returns the folders in it. A missing folder is empty.
 fn list_one(root: &Path, folder: &str, files: &mut BTreeSet<String>) -> Result<Vec<String>, Error> {
     let path = root.join(folder);
     let entries = match fs::read_dir(&path) {
@@ -264,16 +262,16 @@ fn read_fault(path: &Path, source: io::Error) -> Error {
     }
 }
 
-/// The bytes of an ordinary file that has at most so many.
+/// The bytes of an ordinary file of at most `largest` bytes.
 ///
 /// # Errors
-/// It is none, it is larger, nothing comes from it, or the system refuses.
+/// It is not an ordinary file, it is larger, it gives no bytes, or the system refuses.
 pub fn bytes(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
-    // Before it is opened: to open a device or a pipe can do something, or wait.
+    // Checked before opening, since opening a device or a pipe can have effects, or block.
     let said = fs::metadata(path)?;
     check(&said, largest)?;
     let file = open(path)?;
-    // By now something else may lie there.
+    // Something else may lie there by now.
     check(&file.metadata()?, largest)?;
     let mut bytes = Vec::new();
     bytes
@@ -306,7 +304,7 @@ fn too_large(has: String, largest: u64) -> io::Error {
     io::Error::other(format!("it has {has} bytes; at most {largest} are read"))
 }
 
-/// Opens a file so that no reading of it waits.
+/// Opens a file so that reads never block.
 #[cfg(unix)]
 fn open(path: &Path) -> io::Result<File> {
     use std::os::unix::fs::OpenOptionsExt as _;
@@ -345,7 +343,7 @@ mod tests {
     fn what_says_that_it_is_ordinary_is_read_to_its_limit() {
         check(Path::new("/proc/self/status"), 10, "more than 10 bytes");
         check(Path::new("/dev/zero"), 10, "not an ordinary file");
-        // Whoever may not open it is told so; whoever may does not wait.
+        // A user without the right to open it gets an error. A user with it must not block.
         let _ = bytes(Path::new("/proc/kmsg"), 1 << 20);
     }
 }

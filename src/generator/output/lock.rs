@@ -1,11 +1,12 @@
 //! The lock on an output folder: runs that write to one folder do so one after the other.
 //!
-//! The lock lies on the file [`FILE`] in the folder. The system releases it when a run ends or is killed. While a run
-//! works, the file lists the temporary files of the run, written down before they are made: what a killed run leaves
-//! behind is known by its name, and the next run removes it. A run that ends removes the file itself. Nobody renames it.
+//! The lock is held on the file [`FILE`] in the folder. The system releases it when a run ends or is killed. During a run, the
+//! file lists the run's temporary files. Their names are written down before they are made, so that the next run can find and
+//! remove what a killed run left behind. A run that ends removes the file itself. Nobody renames it.
 //!
-//! A file that the user names has no such folder: there the lock lies on its temporary file, which has a name of its own in every run.
-//! Nobody waits for it. It only tells the next run of that output that the run lives: what nobody holds is removed.
+//! A file that the user names has no such folder. Its temporary file, which has a new name in every run, is locked instead. No
+//! run waits for that lock. It only tells the next run of that output that the first one is alive: temporary files that are not
+//! locked are removed.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -19,36 +20,36 @@ use crate::generator::output::folder::{is_plain_file, is_temporary, planted, tem
 /// The lock's file in the output folder.
 pub const FILE: &str = ".fresnel-gen.lock";
 
-/// How long a run waits before it says that it waits: so many turns of so many milliseconds.
+/// A run waits this many turns of this many milliseconds before it says that it waits.
 const SILENT_TURNS: u64 = 20;
 const TURN_MS: u64 = 50;
-/// How long a run waits at most.
+/// The longest wait, in seconds.
 const MOST_WAIT_S: u64 = 120;
 
-/// How often a run that waited finds another file in the lock's place, and begins again. Without an end a file system whose files
-/// change their numbers would hold it for ever.
+/// How often a waiting run may find that the lock's file was replaced, and begin again. Without a limit, a file system whose
+/// inode numbers change would hold it for ever.
 const TAKING_TURNS: u32 = 1000;
 
-/// Hears what a person should know while a run goes on.
+/// Receives messages for the user during a run.
 pub type Announce<'a> = &'a dyn Fn(&str);
 
-/// A held lock, or the lack of one where the folder cannot have it.
+/// A held lock, or none where the folder cannot have one.
 #[derive(Debug)]
 pub struct Lock {
     file: Option<File>,
     path: PathBuf,
     /// Temporary files that a killed run left behind, relative to the folder.
     leftovers: Vec<String>,
-    /// Folders that were made for the lock, the outermost first.
+    /// Folders that were made for the lock, outermost first.
     created: Vec<PathBuf>,
 }
 
 impl Lock {
-    /// Waits until no other run holds the folder's lock, and takes it. The folder is made where it is missing.
+    /// Waits until no other run holds the folder's lock, and takes it. A missing folder is made.
     ///
-    /// Where the lock's file cannot be made, as in a read-only folder, nothing is held: a run that has nothing to write
-    /// needs no lock, and one that has something fails when it writes. Where the file system has no locks the run goes on
-    /// without and `announce` hears of it.
+    /// Where the lock's file cannot be made, as in a read-only folder, no lock is held: a run that has nothing to write needs
+    /// none, and one that has something to write fails then. Where the file system has no locks, the run goes on without one and
+    /// `announce` is told.
     pub fn take(out_dir: &Path, announce: Announce) -> Lock {
         let mut lock = Lock {
             file: None,
@@ -56,7 +57,7 @@ impl Lock {
             leftovers: Vec::new(),
             created: Vec::new(),
         };
-        // The write that follows is refused.
+        // The write that follows will be refused.
         if planted(out_dir).is_some() {
             return lock;
         }
@@ -68,10 +69,10 @@ impl Lock {
             }
             let mut file = match open(&lock.path) {
                 Ok(file) => file,
-                // Another run made it, or somebody put a link there: the next turn looks again.
+                // Another run made it, or somebody put a link there: try again.
                 Err(why) if why.kind() == ErrorKind::AlreadyExists => continue,
                 Err(why) => {
-                    // Where nothing lies there, the folder is read-only.
+                    // If nothing lies there, the folder is read-only.
                     if is_plain_file(&lock.path) {
                         announce(&without(&lock.path, &format!("cannot be opened ({why})")));
                     }
@@ -93,7 +94,7 @@ impl Lock {
                     announce(&without(&lock.path, &why));
                     return lock;
                 }
-                // The run before this one removed the file while this one waited for it, or somebody put another into its place.
+                // The previous run removed the file while this one waited for it, or somebody replaced it.
                 Ok(true) if !is_at(&file, &lock.path) => continue,
                 Ok(true) => {
                     lock.leftovers = listed(&mut file);
@@ -106,10 +107,10 @@ impl Lock {
         lock
     }
 
-    /// Writes down which temporary files are about to be made. Without a held lock nothing is written down.
+    /// Writes down which temporary files are about to be made. Does nothing if no lock is held.
     ///
     /// # Errors
-    /// The disk is full, or the like.
+    /// Writing fails, for example because the disk is full.
     pub fn write_down(&mut self, temporaries: &[String]) -> io::Result<()> {
         let Some(file) = &mut self.file else {
             return Ok(());
@@ -117,7 +118,7 @@ impl Lock {
         let lines: String = (self.leftovers.iter().chain(temporaries))
             .map(|name| format!("{name}\n"))
             .collect();
-        // Cut after the write, not before: a run that is killed between the two leaves no empty list.
+        // Truncated after the write, not before, so that a run killed between the two leaves no empty list.
         file.seek(SeekFrom::Start(0))?;
         file.write_all(lines.as_bytes())?;
         file.set_len(lines.len() as u64)
@@ -128,7 +129,7 @@ impl Lock {
         &self.leftovers
     }
 
-    /// The leftovers are removed: nobody need remember them.
+    /// Forgets the leftovers, once they are removed.
     pub fn forget_leftovers(&mut self) {
         self.leftovers.clear();
     }
@@ -148,24 +149,24 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // A run that failed removed its own temporary files, and not those of the run before it.
+        // A run that failed removed its own temporary files, but not those of the previous run.
         let is_clean = self.leftovers.is_empty() || self.write_down(&[]).is_err();
         if let (Some(file), true) = (&mut self.file, is_clean) {
-            // Elsewhere a file that another run has open cannot be removed: it stays, and lists nothing.
+            // Other systems cannot remove a file that another run has open: it stays, and lists nothing.
             if cfg!(unix) {
                 let _ = fs::remove_file(&self.path);
             } else {
                 let _ = file.set_len(0);
             }
         }
-        // A run that wrote nothing leaves no folder. One that holds something is not removed.
+        // A run that wrote nothing leaves no folder. Folders that are not empty stay.
         for folder in self.created.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Opens the lock's file, and makes it where it is missing. A link that leads to nothing makes no file elsewhere.
+/// Opens the lock's file, or makes it. A dangling link makes no file elsewhere.
 fn open(path: &Path) -> io::Result<File> {
     let mut way = OpenOptions::new();
     way.read(true).write(true);
@@ -175,7 +176,7 @@ fn open(path: &Path) -> io::Result<File> {
     }
 }
 
-/// What is said where a run goes on without a lock.
+/// The message of a run that goes on without a lock.
 fn without(path: &Path, why: &str) -> String {
     format!(
         "{} {why}; fresnel-gen goes on without a lock: let no other run write there meanwhile",
@@ -183,25 +184,25 @@ fn without(path: &Path, why: &str) -> String {
     )
 }
 
-/// Makes a temporary file, and holds its lock where the file system has locks.
+/// Makes a temporary file, and locks it where the file system has locks.
 ///
 /// # Errors
-/// Something lies there (`AlreadyExists`), another run looks at it just now (`WouldBlock`), or the disk refuses.
+/// Something lies there (`AlreadyExists`), another run is checking it at this moment (`WouldBlock`), or the disk refuses.
 pub fn create_held(temporary: &Path) -> io::Result<File> {
     let file = OpenOptions::new()
         .write(true)
         .create_new(true)
         .open(temporary)?;
     match file.try_lock() {
-        // Another run took it for a leftover before it was locked, and removes it.
+        // Another run took it for a leftover before it was locked, and is removing it.
         Err(TryLockError::WouldBlock) => Err(ErrorKind::WouldBlock.into()),
         Ok(()) if !is_at(&file, temporary) => Err(ErrorKind::WouldBlock.into()),
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }
 
-/// Removes the temporary files of an output that runs left behind which were killed. What another run holds, what another user
-/// owns and what is no file stays, and so does everything where the file system has no locks.
+/// Removes the temporary files of an output that killed runs left behind. Files that another run has locked, that another user
+/// owns, or that are not ordinary files stay. Where the file system has no locks, all stay.
 pub fn remove_leftovers_of(output: &Path) {
     for left in temporaries_beside(output) {
         let open = || OpenOptions::new().read(true).write(true).open(&left);
@@ -215,8 +216,8 @@ pub fn remove_leftovers_of(output: &Path) {
     }
 }
 
-/// Waits for the lock, and says so when that takes longer than a second. False: it is held for so long that no run of ours can be
-/// at work. A run holds it while it writes, and anybody who may open the file can hold it for ever.
+/// Waits for the lock, and says so when that takes longer than a second. False: it was held longer than any run of ours can take.
+/// A run holds it while it writes, but anybody who may open the file can hold it for ever.
 fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<bool> {
     for turn in 0..MOST_WAIT_S * 1000 / TURN_MS {
         match file.try_lock() {
@@ -234,7 +235,7 @@ fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<bool> {
     Ok(false)
 }
 
-/// Whether the open file is still the one that lies at this path.
+/// Whether the open file is still the one at this path.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -246,13 +247,12 @@ fn is_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Elsewhere the file is never removed.
+/// Other systems never remove the file.
 #[cfg(not(unix))]
 fn is_at(_file: &File, _path: &Path) -> bool {
     true
 }
 
-/// The temporary files that the lock's file lists.
 fn listed(file: &mut File) -> Vec<String> {
     let mut text = String::new();
     let read = file.read_to_string(&mut text);
@@ -262,8 +262,8 @@ fn listed(file: &mut File) -> Vec<String> {
     }
 }
 
-/// Whether something else lies at the lock's place: a link, a folder, a pipe, or a file that lists other names than those
-/// of temporary files.
+/// Whether something else lies in the lock's place: a link, a folder, a pipe, or a file that lists names which are not those of
+/// temporary files.
 fn is_foreign(path: &Path) -> bool {
     /// A list of twenty thousand names is shorter, and a tree has far fewer files.
     const MOST_BYTES: u64 = 2 << 20;
@@ -279,13 +279,13 @@ fn is_foreign(path: &Path) -> bool {
         || fs::read(path).is_ok_and(|bytes| !is_list(bytes))
 }
 
-/// Whether a file lies in other places too: it would be written to there as well.
+/// Whether a file has other hard links, through which a write would change it elsewhere.
 #[cfg(unix)]
 fn has_other_names(found: &fs::Metadata) -> bool {
     std::os::unix::fs::MetadataExt::nlink(found) > 1
 }
 
-/// Elsewhere that is not known.
+/// Other systems do not tell.
 #[cfg(not(unix))]
 fn has_other_names(_found: &fs::Metadata) -> bool {
     false

@@ -1,4 +1,4 @@
-//! `manifest.json`: what lies in the output folder, what each file was made from, and how wrong it is.
+//! `manifest.json`: the files in the output folder, what each was made from, and its errors.
 //!
 //! Runs of different scopes share one manifest. Its bytes are a function of the entries alone, not of the order of the runs.
 
@@ -19,7 +19,7 @@ use crate::physics::spectra::without_mark;
 /// The manifest's name in the output folder.
 pub const FILE: &str = "manifest.json";
 
-/// The version of the manifest's form. It rises when an older program would misread a newer manifest.
+/// The version of the manifest's format. It rises when an older program would misread a newer manifest.
 pub const SCHEMA: u32 = 1;
 
 /// All that `manifest.json` says.
@@ -28,18 +28,18 @@ pub struct Manifest {
     /// Always [`TOOL`].
     #[serde(deserialize_with = "our_tool")]
     pub tool: String,
-    /// The version of its form: [`SCHEMA`]. The first manifests did not say it.
+    /// The version of the format: [`SCHEMA`]. The first manifests lacked it.
     #[serde(default, deserialize_with = "known_schema")]
     pub schema: u32,
-    /// The version that wrote it last.
+    /// The version of the program that wrote it last.
     pub version: String,
-    /// The version of naga that lowered to SPIR-V.
+    /// The version of naga that generated the SPIR-V.
     pub naga: String,
     /// The data of the materials, sorted by name.
     pub inputs: Vec<Input>,
     /// The artifacts, sorted by file.
     pub files: Vec<Entry>,
-    /// What somebody else wrote into it: it stays.
+    /// Fields that somebody else wrote: they are kept.
     #[serde(flatten)]
     pub others: Map<String, Value>,
 }
@@ -61,20 +61,21 @@ pub struct Entry {
     pub file: String,
     /// The target that it is written for.
     pub target: String,
-    /// The effect of a file of effects.
+    /// The effect, in a file of effects.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub effect: Option<String>,
-    /// The method of a library file; of an effect's file the method that computes R, where it is not the usual one.
+    /// In a library file, its method. In an effect's file, the method that computes R, unless it is the default.
     pub method: Option<String>,
     /// The material of a specialised file.
     pub material: Option<String>,
-    /// The SHA-256 of the file; of text, as it is with LF at the ends of lines.
+    /// The SHA-256 of the file. For text, line ends are hashed as LF.
     pub sha256: String,
-    /// The SHA-256 of the file that this one replaces. It stands here only while a run writes, so that a run that is
-    /// killed leaves no file unlisted.
+    /// The SHA-256 of the file that this one replaces. It is set only while a run writes, so that a killed run leaves no file
+    /// unlisted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// Functions, parameters, errors: [`Detail`](crate::generator::emit::Detail), or what another version wrote, which stays.
+    /// Functions, parameters and errors as in [`Detail`](crate::generator::emit::Detail), or as another version wrote them; those
+    /// are kept.
     #[serde(flatten)]
     pub detail: Map<String, Value>,
 }
@@ -86,17 +87,17 @@ pub struct Provenance {
     pub version: String,
     /// The version of naga.
     pub naga: String,
-    /// The data of the materials that the run used; those that no entry names are left out.
+    /// The data of the materials that the run used. Those that no entry names are left out.
     pub inputs: Vec<Input>,
 }
 
 impl Manifest {
-    /// Reads a manifest; `path` is for the message only.
+    /// Reads a manifest. `path` is used only in the message.
     ///
     /// # Errors
     /// The text is not JSON, not a manifest of this program, or holds the marks of a merge conflict.
     pub fn parse(path: &Path, text: &[u8]) -> Result<Manifest, Error> {
-        // A UTF-16 text is no JSON, and is told so by the parser.
+        // UTF-16 text is not JSON, and the parser reports it.
         let text = without_mark(text).unwrap_or(text);
         serde_json::from_slice(text).map_err(|fault| match conflict(text) {
             Some(line) => Error::Manifest {
@@ -132,7 +133,7 @@ impl Manifest {
             .iter()
             .filter(|entry| !scope.owns(entry) || !could_be_written(entry));
         let made = artifacts.iter().map(Entry::of);
-        // Later pairs replace earlier ones: what this run made stands above what it found.
+        // Later pairs replace earlier ones, so that this run's entries win.
         let files: BTreeMap<_, _> = (kept.cloned().chain(made))
             .map(|entry| (entry.file.clone(), entry))
             .collect();
@@ -150,13 +151,13 @@ impl Manifest {
 }
 
 impl Entry {
-    /// What its functions compute in; only half precision is said.
+    /// The precision of its functions. Only half precision is recorded.
     pub fn precision(&self) -> &str {
         let said = self.detail.get("precision").and_then(Value::as_str);
         said.unwrap_or(Precision::F32.name())
     }
 
-    /// Its functions. What another version wrote need not be as this one writes it: what is not counts as not said.
+    /// Its functions. Another version may have written them in another form: what does not fit counts as absent.
     pub fn functions(&self) -> &[Value] {
         let functions = self.detail.get("functions").and_then(Value::as_array);
         functions.map_or(&[], Vec::as_slice)
@@ -181,7 +182,7 @@ impl Entry {
         rows.filter_map(Value::as_str).collect()
     }
 
-    /// How its material is seen, in words.
+    /// The viewing conditions of its material, in words.
     pub fn reference(&self) -> Option<&str> {
         self.detail.get("seen")?["truth"].as_str()
     }
@@ -218,7 +219,7 @@ fn merge_inputs(old: Option<&Manifest>, new: &[Input], files: &[Entry]) -> Vec<I
 const CONFLICT: &str = "it holds a merge conflict. Take either side whole (git checkout --ours or --theirs), then run the \
     same commands again: each run lists what it writes";
 
-/// The line of a conflict that version control left, from 1.
+/// The line of a merge conflict, counted from 1.
 fn conflict(text: &[u8]) -> Option<usize> {
     let mut lines = text.split(|byte| *byte == b'\n');
     let marks: [&[u8]; 2] = [b"<<<<<<< ", b">>>>>>> "];
@@ -228,7 +229,7 @@ fn conflict(text: &[u8]) -> Option<usize> {
 
 fn reason(fault: &serde_json::Error) -> String {
     let text = fault.to_string();
-    // serde_json ends with the position, which the message gives in front.
+    // serde_json ends with the position, which our message puts first.
     let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |p| p.0);
     format!("not a manifest of {TOOL}: {reason}")
 }
@@ -241,7 +242,7 @@ fn our_tool<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     Err(D::Error::custom(format!("`tool` is `{tool}`")))
 }
 
-/// What a newer program wrote may mean something else: it is not touched.
+/// A newer format may mean something else, so it is left alone.
 fn known_schema<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     let schema = u32::deserialize(from)?;
     if schema <= SCHEMA {
@@ -252,7 +253,7 @@ fn known_schema<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     )))
 }
 
-/// A manifest comes from a repository, and what it lists may be removed: it must not reach outside.
+/// A manifest comes from a repository, and the files that it lists may be removed. Its paths must stay inside the folder.
 fn inner_path<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let path = String::deserialize(from)?;
     match check_path(&path) {

@@ -1,7 +1,7 @@
 //! The output folder: what lies in it, which of its files are ours, and how a run's files get there.
 //!
-//! [`tree::plan`] compares a run's artifacts with the folder, [`tree::report`] says what differs, [`write::write`] writes.
-//! Only [`write`](mod@write) changes the disk, but for the file of the [`lock`].
+//! [`tree::plan`] compares a run's artifacts with the folder, [`tree::report`] says what differs, and [`write::write`] writes.
+//! Only [`write`](mod@write) changes the disk, except for the file of the [`lock`].
 
 pub mod artifact;
 pub mod depfile;

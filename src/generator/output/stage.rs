@@ -1,8 +1,9 @@
-//! Files that wait beside their places: written whole, and not yet renamed. In a tree the folder's lock lists their temporary names
-//! before they are made; elsewhere each is locked itself. Whatever is dropped before it is renamed leaves nothing behind.
+//! Staged files: written whole beside their places, and not yet renamed. In a tree, the folder's lock lists their temporary names
+//! before they are made. Elsewhere each one is locked itself. A staged file that is dropped before it is renamed leaves nothing
+//! behind.
 //!
-//! What a run expects in the place of a file when it puts its own there. A run takes a while between the look at a folder and the
-//! renaming: what appears or changes there meanwhile is somebody else's, and stays.
+//! This file also holds what a run expects in a file's place when it renames its own into it. Between the look at a folder and
+//! the renaming, somebody else may make or change a file there. That file stays.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write as _};
@@ -20,22 +21,22 @@ use crate::physics::digest::sha256;
 pub struct Pending<'a> {
     /// Its place.
     pub path: PathBuf,
-    /// What it is to hold.
+    /// What it will hold.
     pub bytes: &'a [u8],
-    /// What may lie there when it takes its place.
+    /// What may lie there when the file is renamed.
     pub before: Before,
 }
 
-/// A file ready to be renamed into place; deleted when dropped before.
+/// A file ready to be renamed. It is deleted when dropped before.
 struct Staged {
     temporary: TempPath,
     destination: PathBuf,
     before: Before,
-    /// The lock on the temporary file, held until it is renamed or removed.
+    /// The lock on the temporary file, held until that is renamed or removed.
     _held: Option<File>,
 }
 
-/// Files ready to be renamed into place, and the folders that were made for them.
+/// Files ready to be renamed, and the folders that were made for them.
 #[derive(Default)]
 pub struct StagedFiles {
     files: Vec<Staged>,
@@ -69,7 +70,7 @@ impl StagedFiles {
                 .write(true)
                 .create_new(true)
                 .open(&temporary)?;
-            // A tree has more files than some systems let a process open: they are closed, and the folder's lock holds.
+            // A tree has more files than some systems let a process open: they are closed, and the folder's lock protects them.
             Ok((temporary, new, false))
         })
     }
@@ -86,7 +87,7 @@ impl StagedFiles {
         })
     }
 
-    /// Stages files in temporary ones that `create` makes; it says too whether they are held open.
+    /// Stages files in temporary ones that `create` makes. `create` also says whether they stay open.
     fn new(
         pending: &[Pending],
         mut create: impl FnMut(&Path) -> io::Result<(PathBuf, File, bool)>,
@@ -110,7 +111,7 @@ impl StagedFiles {
         self.files.len()
     }
 
-    /// Takes the last one out, where it is wanted.
+    /// Splits off the last file, if that is wanted.
     pub fn split_last(&mut self, is_wanted: bool) -> StagedFiles {
         let last = if is_wanted { self.files.pop() } else { None };
         StagedFiles {
@@ -119,11 +120,11 @@ impl StagedFiles {
         }
     }
 
-    /// Refuses places where a folder lies by now: one output of a run can lie above another (`-o a.wgsl --depfile a.wgsl/b.d`), whose
-    /// folder was made when it was staged. To be asked when all are staged, and none is renamed.
+    /// Refuses places that are folders by now. One output of a run can lie above another (`-o a.wgsl --depfile a.wgsl/b.d`), and
+    /// its folder is made when it is staged. Call this when all are staged and none is renamed.
     ///
     /// # Errors
-    /// One is a folder.
+    /// A place is a folder.
     pub fn refuse_folders(&self) -> Result<(), Error> {
         match self.files.iter().find(|file| file.destination.is_dir()) {
             Some(file) => Err(Error::NotAFile {
@@ -133,10 +134,10 @@ impl StagedFiles {
         }
     }
 
-    /// Refuses places where something lies by now that was not there when the run looked: to be asked before the first is renamed.
+    /// Refuses places that were empty when the run looked and are taken by now. Call this before the first file is renamed.
     ///
     /// # Errors
-    /// One is taken.
+    /// A place is taken.
     pub fn refuse_taken(&self) -> Result<(), Error> {
         let is_taken = |file: &&Staged| !file.before.allows(&file.destination);
         match self.files.iter().find(is_taken) {
@@ -149,10 +150,10 @@ impl StagedFiles {
         }
     }
 
-    /// Renames all into place; the numbers are for the message: how many were replaced before, how many there are in all.
+    /// Renames all into place. The numbers are for the message: how many were replaced before, and how many there are in all.
     ///
     /// # Errors
-    /// The system refuses one, or something has appeared in its place. Those before it are in place then.
+    /// The system refuses one, or something has appeared in its place. The files before it are then in place.
     pub fn replace(mut self, before: usize, pending: usize) -> Result<(), Error> {
         for (index, file) in self.files.drain(..).enumerate() {
             let (path, replaced) = (file.destination, before + index);
@@ -182,7 +183,7 @@ impl StagedFiles {
 impl Drop for StagedFiles {
     fn drop(&mut self) {
         self.files.clear();
-        // Where nothing was put in place they are empty; others cannot be removed so.
+        // Where nothing was put in place they are empty. The system refuses to remove others.
         for folder in self.created.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
@@ -196,9 +197,9 @@ fn inner(out_dir: &Path, path: &Path) -> String {
     parts.join("/")
 }
 
-/// Makes a temporary file beside an output, and holds its lock where there can be one.
+/// Makes a temporary file beside an output, and locks it where the file system has locks.
 fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
-    /// Names are drawn by lot: one that is taken, or that another run looks at just now, is given up.
+    /// Names are random. One that is taken, or that another run is checking at this moment, is given up.
     const TRIES: usize = 16;
     let create = || {
         let temporary = folder_of(path).join(folder::temporary_of(path));
@@ -217,7 +218,7 @@ fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     made
 }
 
-/// A temporary file with its bytes.
+/// A temporary file that holds the given bytes.
 fn filled(
     temporary: PathBuf,
     mut file: File,
@@ -225,9 +226,9 @@ fn filled(
     pending: &Pending,
 ) -> io::Result<Staged> {
     let path = &pending.path;
-    // From here on it is deleted when dropped.
+    // From here on the file is deleted when dropped.
     let temporary = TempPath::try_from_path(temporary)?;
-    // Who may read a file is its owner's choice: a new version keeps it, where the file system can.
+    // The owner chose who may read a file: a new version keeps the permissions, where the file system can.
     if let Some(old) = fs::symlink_metadata(path)
         .ok()
         .filter(fs::Metadata::is_file)
@@ -244,7 +245,7 @@ fn filled(
     })
 }
 
-/// Creates a folder and those above it, and notes each that was not there.
+/// Creates a folder and those above it, and notes each one that it made.
 fn create_folder(folder: &Path, created: &mut Vec<PathBuf>) -> io::Result<()> {
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
@@ -261,7 +262,7 @@ fn create_folder(folder: &Path, created: &mut Vec<PathBuf>) -> io::Result<()> {
     Ok(())
 }
 
-/// What is said where a file cannot be prepared.
+/// The error of a file that cannot be prepared.
 pub fn stage_fault(path: &Path, source: io::Error) -> Error {
     Error::Stage {
         path: path.to_path_buf(),
@@ -269,24 +270,24 @@ pub fn stage_fault(path: &Path, source: io::Error) -> Error {
     }
 }
 
-/// What may lie in a place at the moment of renaming.
+/// What may lie in a place when a file is renamed into it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Before {
-    /// Anything: the user named the file, or has all replaced.
+    /// Anything: the user named the file, or wants everything replaced.
     Anything,
-    /// Nothing, or what bears this program's mark.
+    /// Nothing, or a file that bears this program's mark.
     Free,
-    /// What has this SHA-256, what bears the mark, or nothing.
+    /// A file with this SHA-256, one that bears the mark, or nothing.
     Was(String),
 }
 
 impl Before {
-    /// What is expected where these bytes were seen; none: nothing was there.
+    /// What to expect where these bytes were seen. None: nothing was there.
     pub fn seen(old: Option<&[u8]>) -> Before {
         old.map_or(Before::Free, |bytes| Before::Was(sha256(bytes)))
     }
 
-    /// Whether what lies there now may be replaced. A link, or what cannot be read, may not.
+    /// Whether what lies there now may be replaced. A link or an unreadable file may not.
     pub fn allows(&self, place: &Path) -> bool {
         if *self == Before::Anything || fs::symlink_metadata(place).is_err() {
             return true;
@@ -301,7 +302,7 @@ impl Before {
     }
 }
 
-/// What came of putting a file in its place.
+/// The result of putting a file in its place.
 #[derive(Debug)]
 pub enum Placing {
     /// It is there.
@@ -312,7 +313,7 @@ pub enum Placing {
     Refused(io::Error),
 }
 
-/// Renames a file into its place. Where nothing was seen there, the system itself keeps it from replacing what has appeared.
+/// Renames a file into its place. Where nothing was seen there, the system itself refuses to replace what has appeared.
 pub fn put(temporary: TempPath, place: &Path, before: &Before) -> Placing {
     if !before.allows(place) {
         return Placing::Taken;
@@ -330,7 +331,7 @@ pub fn put(temporary: TempPath, place: &Path, before: &Before) -> Placing {
                 Placing::Taken
             }
         }
-        // A file system that can neither rename so nor link: the look right before has to do.
+        // The file system can neither rename without replacing nor link: the check just before must do.
         Err(fault) if fs::symlink_metadata(place).is_err() => replaced(fault.path, place),
         Err(fault) => Placing::Refused(fault.error),
     }

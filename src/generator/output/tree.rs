@@ -1,16 +1,16 @@
-//! The artifacts of a run against the output folder: what would be written, what removed. Nothing is changed here.
+//! Compares the artifacts of a run with the output folder: what would be written, and what removed. Nothing is changed here.
 //!
-//! An *orphan* is in the scope of the run, is no longer generated, and is removed: it is proved to be as this program wrote it. What else lies in the folder *stays*. Where a file that is not ours lies in the place of an artifact,
-//! it is an *obstacle*: the run ends before it writes anything. What is ours and by what proof: [`ours`](crate::generator::output::ours).
+//! An *orphan* is in the run's scope, is no longer generated, and is proved to be as this program wrote it. It is removed.
+//! Everything else in the folder *stays*. A file that is not ours in the place of an artifact is an *obstacle*: the run ends
+//! before it writes anything. [`ours`](crate::generator::output::ours) decides what is ours.
 //!
-//! What `--check` prints: what a run would write or remove. It changes nothing. A file that a run leaves alone is no
-//! difference.
+//! [`report`] is what `--check` prints: what a run would write or remove. A file that a run leaves alone is no difference.
 //!
-//! Which material stands in which row of an atlas, before a run and after it. A function that reads a row by its number shows
-//! another material where the rows change.
+//! [`changed_rows`] compares the materials in the rows of an atlas before and after a run. A function that reads a row by its
+//! number shows another material where the rows change.
 //!
-//! Two files whose materials come out with one name: `Gläser.csv` and `Glaser.csv`. The second run would take the place of the first
-//! one's functions without a word.
+//! [`refuse_namesakes`] refuses two files whose materials get the same name, such as `Gläser.csv` and `Glaser.csv`: the second
+//! run would silently replace the functions of the first.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -40,21 +40,22 @@ pub struct TreePlan {
     pub files: Vec<Planned>,
     /// The manifest after the run.
     pub manifest: Planned,
-    /// The manifest while the run writes: it lists what is there and what comes.
+    /// The manifest during the run. It lists both the present files and those to come.
     pub interim: Vec<u8>,
     /// The entries of files that a write removes, sorted by file.
     pub orphans: Vec<Entry>,
-    /// Files that stay though they are not what this program writes there, sorted: to be named.
+    /// Files that stay although they are not what this program writes there, sorted. The run names them.
     pub stays: Vec<Stay>,
-    /// Files of others that lie where an artifact is to be written.
+    /// Files of others in the places of artifacts.
     pub obstacles: Vec<Obstacle>,
-    /// Files of ours that were changed since they were written, and that a write replaces: to be named.
+    /// Files of ours that were changed since they were written, and that a write replaces. The run names them.
     pub edited: Vec<String>,
-    /// Functions that earlier runs put into a file and this one does not, by file: to be named.
+    /// Functions that earlier runs put into a file and this one does not, by file. The run names them.
     pub dropped: Vec<(String, Vec<String>)>,
-    /// Files whose functions are written for other viewing conditions than before: the file, and both in words; to be named.
+    /// Files whose functions get other viewing conditions than before: the file, and both conditions in words. The run names
+    /// them.
     pub reseen: Vec<(String, [String; 2])>,
-    /// Atlases whose rows are other materials than before: to be named.
+    /// Atlases whose rows get other materials than before. The run names them.
     pub rows: Vec<ChangedRows>,
     /// The first folder of the tree that is a link, and where it leads.
     pub linked: Option<(PathBuf, PathBuf)>,
@@ -65,13 +66,13 @@ pub struct TreePlan {
 pub struct Planned {
     /// The path, relative to the output folder, parts separated by `/`.
     pub path: String,
-    /// The bytes on disk, if the file is there.
+    /// The bytes on disk; none if the file is missing.
     pub old: Option<Vec<u8>>,
     /// The bytes that it should have.
     pub new: Vec<u8>,
 }
 
-/// What lies where an artifact is to be written, and is not this program's to replace.
+/// A file in the place of an artifact that this program must not replace.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
     /// The path, relative to the output folder.
@@ -80,7 +81,7 @@ pub struct Obstacle {
     pub leads_to: Option<PathBuf>,
 }
 
-/// How a file on disk stands to what it should be.
+/// How a file on disk compares with what it should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// It is not there.
@@ -152,7 +153,7 @@ pub fn plan(
     })
 }
 
-/// Functions that the manifest lists of a file and the artifact does not hold.
+/// Functions that the manifest lists for a file and the artifact lacks.
 fn dropped_functions(
     artifacts: &[Artifact],
     listed: &BTreeMap<&str, &Entry>,
@@ -168,8 +169,8 @@ fn dropped_functions(
     artifacts.iter().filter_map(dropped).collect()
 }
 
-/// Files of materials whose functions were written for other viewing conditions. A file is written for one set of them: functions
-/// that it keeps from earlier runs change with it.
+/// Files of materials whose functions were written for other viewing conditions. A file is written for one set of conditions, so
+/// functions that it keeps from earlier runs change with it.
 fn reseen(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<(String, [String; 2])> {
     let changed = |artifact: &Artifact| {
         let old = listed.get(artifact.path.as_str())?.reference()?;
@@ -179,14 +180,14 @@ fn reseen(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<(Strin
     artifacts.iter().filter_map(changed).collect()
 }
 
-/// Refuses a function that another file of the same language holds already, from another run: whoever includes both would have
-/// it twice.
+/// Refuses a function that another file of the same language already holds from another run: including both would define it
+/// twice.
 fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(), Error> {
     let made: BTreeSet<&str> = artifacts
         .iter()
         .map(|artifact| artifact.path.as_str())
         .collect();
-    // What this program could not have written is not its own, whatever a manifest says of it.
+    // What this program could not have written is not its own, whatever a manifest says about it.
     let is_other = |entry: &&Entry| !made.contains(entry.file.as_str()) && could_be_written(entry);
     let others = merged.files.iter().filter(is_other);
     let mut owners: BTreeMap<(&str, &str), &str> = BTreeMap::new();
@@ -224,7 +225,7 @@ impl TreePlan {
 }
 
 impl Planned {
-    /// How the file on disk stands to what it should be.
+    /// How the file on disk compares with what it should be.
     pub fn state(&self) -> State {
         match &self.old {
             None => State::Missing,
@@ -234,8 +235,8 @@ impl Planned {
     }
 }
 
-/// The old manifest. A run without flags forgets entries whose file somebody deleted:
-/// no other run would, once nobody asks for that material again.
+/// The old manifest. A run without flags forgets entries whose file somebody deleted. No other run would, once that material is
+/// no longer asked for.
 fn old_manifest(
     out_dir: &Path,
     text: Option<&[u8]>,
@@ -266,7 +267,7 @@ fn planned(out_dir: &Path, artifacts: &[Artifact]) -> Result<Vec<Planned>, Error
     Ok(files)
 }
 
-/// What the old manifest lists and the new one does not: files as they are listed are orphans, others stay.
+/// Entries of the old manifest that the new one lacks. Files that are as listed are orphans; others stay.
 fn dropped(
     out_dir: &Path,
     old: &[Entry],
@@ -292,7 +293,7 @@ fn dropped(
     Ok((orphans, stays))
 }
 
-/// Of the files that differ from what they should be: those of others, and those of ours that were changed.
+/// Among the files that differ from what they should be: those of others, and those of ours that were changed.
 fn standing(
     out_dir: &Path,
     files: &[Planned],
@@ -306,7 +307,7 @@ fn standing(
         }
         let leads_to = fs::read_link(out_dir.join(&file.path)).ok();
         let Some(old) = &file.old else {
-            // A link that leads to nothing lies there, or nothing does.
+            // Either a dangling link lies there, or nothing.
             obstacles.extend(leads_to.map(|leads_to| Obstacle {
                 path: file.path.clone(),
                 leads_to: Some(leads_to),
@@ -319,7 +320,7 @@ fn standing(
         if leads_to.is_some() {
             obstacles.push(Obstacle { path, leads_to });
         } else if is_manifest || entry.is_some_and(|entry| is_as_written(entry, old)) {
-            // As we left it.
+            // Unchanged since we wrote it.
         } else if bears_mark(old) {
             edited.push(path);
         } else {
@@ -329,8 +330,8 @@ fn standing(
     (obstacles, edited)
 }
 
-/// The manifest that is on disk while the run writes. It lists every file with the hash that it has before and the one it
-/// has after, and the orphans: a run that is killed leaves nothing unlisted.
+/// The manifest on disk while the run writes. It lists every file with its hashes before and after, and the orphans, so that a
+/// killed run leaves nothing unlisted.
 fn interim(
     merged: &Manifest,
     files: &[Planned],
@@ -358,7 +359,7 @@ fn interim(
 
 const CONTEXT_LINES: usize = 3;
 
-/// The report, sorted by path, and whether there is anything in it.
+/// The report, sorted by path, and whether it reports any difference.
 pub fn report(plan: &TreePlan) -> (String, bool) {
     let mut parts = BTreeMap::new();
     for file in plan.all() {
@@ -400,16 +401,15 @@ fn text_difference(path: &str, old: &str, new: &str) -> String {
     text.split_terminator('\n').map(difference_line).collect()
 }
 
-/// A line of a difference: its mark, and what a file holds there.
+/// A line of a diff: its mark, and the file's text.
 fn difference_line(line: &str) -> String {
     let (mark, held) = line.split_at(line.len().min(1));
     format!("{mark}{}\n", line_of_file(held))
 }
 
-/// Files of an atlas whose rows change.
+/// The files of an atlas whose rows change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedRows {
-    /// The files, relative to the output folder.
     files: Vec<String>,
     /// The materials of the rows before.
     old: Vec<String>,
@@ -418,7 +418,7 @@ pub struct ChangedRows {
 }
 
 impl ChangedRows {
-    /// For people.
+    /// The change in words, for the user.
     pub fn words(&self) -> String {
         let lost = self.old.iter().filter(|name| !self.new.contains(name));
         let lost: Vec<String> = lost.map(|name| Foreign(name).to_string()).collect();
@@ -447,7 +447,7 @@ impl ChangedRows {
     }
 }
 
-/// The atlases of a run whose rows are others than the manifest lists.
+/// The atlases of a run whose rows differ from those that the manifest lists.
 pub fn changed_rows(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<ChangedRows> {
     let mut changed: Vec<ChangedRows> = Vec::new();
     for artifact in artifacts {
@@ -471,12 +471,12 @@ pub fn changed_rows(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> 
     changed
 }
 
-/// Refuses to write what is made of a table or page beside what is made of another, or of a material of the catalogue with its name: a table
-/// and a page are named after their files, and the data differ.
-/// A material file says its name itself, and is taken to be a newer one of that name.
+/// Refuses to write what is made of a table or page beside what is made of another one, or of a catalogue material, with the same
+/// name. Tables and pages are named after their files, and the data differ. A material file states its own name, and is taken for
+/// a newer version of that material.
 ///
 /// # Errors
-/// The manifest lists something of another's.
+/// The manifest lists something made from other data.
 pub fn refuse_namesakes(
     artifacts: &[Artifact],
     files: &[Planned],
@@ -489,7 +489,7 @@ pub fn refuse_namesakes(
         };
         let [known_data, new_data] = [&old.inputs, &provenance.inputs]
             .map(|inputs| inputs.iter().find(|input| input.name == *name));
-        // Whatever of that material lies in the folder counts, in every language and format: a manifest has one hash for all of it.
+        // Everything made of that material counts, in every language and format: a manifest has one hash for all of it.
         let of_name = |entry: &&Entry| entry.material.as_ref() == Some(name);
         for entry in old.files.iter().filter(of_name) {
             let Some(known) = listed(entry).filter(|known| *known != new) else {
@@ -527,7 +527,7 @@ fn wanted(artifact: &Artifact) -> Option<&str> {
     }
 }
 
-/// The word after the flag, as a shell takes it: to the first blank that is not quoted.
+/// The word after the flag, as a shell reads it: up to the first unquoted blank.
 fn material_word(command: &str) -> Option<&str> {
     let (_, rest) = command.split_once(" --material ")?;
     let (mut quote, mut is_escaped) = (None, false);
@@ -545,7 +545,7 @@ fn material_word(command: &str) -> Option<&str> {
     Some(&rest[..end.unwrap_or(rest.len())])
 }
 
-/// Whether a word, as a shell takes it, is no material file: a table, a page, or a name of the catalogue.
+/// Whether a word, as a shell reads it, is not a material file but a table, a page, or a name of the catalogue.
 fn names_no_material_file(word: &str) -> bool {
     let word = word.trim_end_matches(['\'', '"', ')']).to_lowercase();
     !word.ends_with(".toml")

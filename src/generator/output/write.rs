@@ -1,10 +1,12 @@
-//! The only writer. Every file is first staged beside its destination (`stage.rs`). When
-//! all are staged, a manifest that lists old and new files is put in place, then the files, then orphans are removed, then
-//! the manifest that stays is put in place. Until the first of these steps a failure changes nothing. A run killed at any
-//! moment leaves each file either old or new and listed, and running it again ends its work.
+//! Writes the files of a run. Nothing else changes the disk, except for the lock's file.
 //!
-//! What is not proved to be this program's own is never replaced or removed: [`ours`](crate::generator::output::ours).
-//! Nothing is forced to the disk's platter: after a power cut, run again.
+//! Every file is first staged beside its destination (`stage.rs`). When all are staged, a manifest that lists old and new files
+//! is put in place, then the files. Then orphans are removed, and the final manifest is put in place. A failure before the first
+//! of these steps changes nothing. A run killed at any moment leaves each file either old or new and listed, and another run
+//! completes its work.
+//!
+//! What is not proved to be this program's own is never replaced or removed: see [`ours`](crate::generator::output::ours).
+//! Nothing is forced to the disk: after a power cut, run again.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -17,7 +19,7 @@ use crate::generator::output::ours::{bears_mark, remove, remove_leftover};
 use crate::generator::output::stage::{Before, Pending, StagedFiles, stage_fault};
 use crate::generator::output::tree::{Obstacle, Planned, State, TreePlan};
 
-/// What a write did, in files, the manifest included.
+/// What a write did, in numbers of files, the manifest included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Written {
     /// Files that are new or differ from before.
@@ -28,12 +30,11 @@ pub struct Written {
     pub unchanged: usize,
 }
 
-/// Brings the folder to the state of the plan, and writes files beside the tree: all, or nothing where the disk refuses. Files
-/// that are right already are not touched. With `overwrite` files of others are replaced where they lie in the place of one of the
-/// plan's.
+/// Brings the folder to the state of the plan, and writes files beside the tree: all of them, or none where the disk refuses.
+/// Files that are already right are not touched. With `overwrite`, files of others in the places of the plan's are replaced.
 ///
 /// # Errors
-/// A file of others lies where one is to be written, a folder of the tree is a link, or the disk refuses.
+/// A file of others lies in a file's place, a folder of the tree is a link, or the disk refuses.
 pub fn write(
     plan: &TreePlan,
     beside: &[OutputFile],
@@ -70,7 +71,7 @@ pub fn write(
     beside.write_devices()?;
     interim.replace(0, all)?;
     staged.replace(0, all)?;
-    // Before the last manifest: of a run that is killed here, or cannot remove one, the one on disk still lists the orphans.
+    // Done before the final manifest: if the run is killed here, or cannot remove an orphan, the manifest on disk still lists it.
     let removed: Result<usize, Error> = (plan.orphans.iter())
         .map(|orphan| remove(&plan.out_dir, orphan).map(usize::from))
         .sum();
@@ -90,7 +91,7 @@ pub fn write(
     })
 }
 
-/// A file of a tree with these bytes. Its place must be as the plan found it, unless all is to be overwritten.
+/// A file of a tree with these bytes. Its place must be as the plan found it, unless everything is to be overwritten.
 fn staged_file<'a>(
     plan: &TreePlan,
     file: &Planned,
@@ -108,7 +109,7 @@ fn staged_file<'a>(
     }
 }
 
-/// Refuses a tree in whose places others' files or links lie.
+/// Refuses a tree where files or links of others lie in the places of its files.
 fn refuse_others(plan: &TreePlan, overwrite: bool) -> Result<(), Error> {
     refuse_planted(&plan.out_dir)?;
     if let Some((link, leads_to)) = &plan.linked {
@@ -125,7 +126,7 @@ fn refuse_others(plan: &TreePlan, overwrite: bool) -> Result<(), Error> {
     }
 }
 
-/// Refuses a path that leads over a link, or into a pipe, which another user may have put there.
+/// Refuses a path that follows a link or ends in a pipe which another user may have put there.
 fn refuse_planted(path: &Path) -> Result<(), Error> {
     match folder::planted(path) {
         Some(link) => Err(Error::Planted { link }),
@@ -133,10 +134,10 @@ fn refuse_planted(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Refuses these places of a report where files lie that do not bear our mark.
+/// Refuses places of a report that hold files without our mark.
 ///
 /// # Errors
-/// One does.
+/// A place holds such a file.
 pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Error> {
     for path in files.iter().filter(|_| !overwrite) {
         let link = fs::read_link(path).ok();
@@ -150,7 +151,7 @@ pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Erro
     Ok(())
 }
 
-/// What lies in the place of an output.
+/// Describes what lies in the place of an output.
 fn of_others(leads_to: Option<&Path>) -> String {
     match leads_to {
         Some(leads_to) => format!(
@@ -180,16 +181,16 @@ pub struct OutputFile {
     place: OutputPlace,
 }
 
-/// By what rule an output takes its place.
+/// The rule by which an output takes its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum OutputPlace {
-    /// The user named the file: it is replaced, whatever lies there. Links are followed, and devices are written to, because
-    /// renaming would destroy them.
+    /// The user named the file: it replaces whatever lies there. Links are followed. Devices are written to, because renaming
+    /// would destroy them.
     Named,
-    /// The user named the file, which is theirs once it is there: it is made, and replaces nothing.
+    /// The user named the file, which is theirs once it exists: it is made, and replaces nothing.
     New,
-    /// The user named the folder of a report: a file there replaces only what bears our mark, unless all is to be overwritten.
-    /// Links are not followed: what lies behind one is not the report's.
+    /// The user named the folder of a report: a file there replaces only what bears our mark, unless everything is to be
+    /// overwritten. Links are not followed: what lies behind one is not the report's.
     OfReport { overwrite: bool },
 }
 
@@ -203,7 +204,7 @@ impl OutputFile {
         }
     }
 
-    /// A file that the user names, where nothing is replaced.
+    /// A file that the user names and that replaces nothing.
     pub fn new(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> OutputFile {
         OutputFile {
             path: path.into(),
@@ -235,19 +236,18 @@ impl OutputFile {
 struct StagedOutputs<'a> {
     devices: Vec<&'a OutputFile>,
     files: StagedFiles,
-    /// Which files of reports are replaced.
     replaced: Vec<PathBuf>,
 }
 
 impl<'a> StagedOutputs<'a> {
-    /// Prepares them all. Those that are right already are left alone.
+    /// Prepares all outputs. Those that are already right are left alone.
     fn new(outputs: &'a [OutputFile]) -> Result<StagedOutputs<'a>, Error> {
         let (mut devices, mut pending, mut replaced) = (Vec::new(), Vec::new(), Vec::new());
         for output in outputs {
             let (path, bytes) = (&output.path, output.bytes.as_slice());
             match output.place {
                 OutputPlace::Named | OutputPlace::New => refuse_planted(path)?,
-                // The file itself is not followed.
+                // A link in the place of the file itself is not followed.
                 OutputPlace::OfReport { .. } => refuse_planted(folder::folder_of(path))?,
             }
             match output.place {
@@ -286,12 +286,11 @@ impl<'a> StagedOutputs<'a> {
         })
     }
 
-    /// How many are to be written.
     fn count(&self) -> usize {
         self.devices.len() + self.files.count()
     }
 
-    /// Writes to devices: before anything is replaced, since a device can refuse.
+    /// Writes to devices. This comes before anything is replaced, since a device can refuse.
     fn write_devices(&self) -> Result<(), Error> {
         for device in &self.devices {
             fs::write(&device.path, &device.bytes).map_err(|why| stage_fault(&device.path, why))?;
@@ -300,11 +299,11 @@ impl<'a> StagedOutputs<'a> {
     }
 }
 
-/// Writes these files, with the folders above them: all of them, or none. Which files of reports were replaced: no manifest tells
-/// whether somebody changed them since.
+/// Writes these files and the folders above them: all of them, or none. Returns the files of reports that were replaced: no
+/// manifest tells whether somebody changed them since.
 ///
 /// # Errors
-/// A file of others lies in the place of a report's, a folder stands in a file's place, or the disk refuses.
+/// A file of others lies in the place of a report's file, a folder lies in a file's place, or the disk refuses.
 pub fn write_outputs(outputs: &[OutputFile]) -> Result<Vec<PathBuf>, Error> {
     let staged = StagedOutputs::new(outputs)?;
     staged.files.refuse_folders()?;
@@ -315,11 +314,11 @@ pub fn write_outputs(outputs: &[OutputFile]) -> Result<Vec<PathBuf>, Error> {
     Ok(staged.replaced)
 }
 
-/// Writes a single file whole or not at all, with the folders above it. False: it was right already.
-/// A link is followed; a device or pipe (`/dev/null`) is written to, because renaming would destroy it.
+/// Writes a single file whole or not at all, and the folders above it. False: it was already right. A link is followed. A device
+/// or pipe (`/dev/null`) is written to, because renaming would destroy it.
 ///
 /// # Errors
-/// A folder stands in the file's place, or the disk refuses. The old file is then as it was.
+/// A folder lies in the file's place, or the disk refuses. The old file is then unchanged.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
     let output = [OutputFile::named(path, bytes)];
     let staged = StagedOutputs::new(&output)?;
@@ -329,21 +328,21 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
     Ok(count == 1)
 }
 
-/// Whether a file can be written there, found out by doing it and taking it back: before work that takes long.
+/// Tests whether a file can be written there, by writing it and taking it back. Call this before long work.
 ///
 /// # Errors
-/// It cannot be.
+/// The file cannot be written.
 pub fn try_file(path: &Path) -> Result<(), Error> {
     refuse_planted(path)?;
     if folder::is_device(path) {
         return Ok(());
     }
-    // No file of ours holds this alone.
+    // No file of ours consists of this byte alone.
     let pending = named(path, &[0], Before::Anything)?;
     StagedFiles::beside_outputs(pending.as_slice()).map(drop)
 }
 
-/// A file that the user names; none where it is right already.
+/// A file that the user names; none if it is already right.
 fn named<'a>(path: &Path, bytes: &'a [u8], before: Before) -> Result<Option<Pending<'a>>, Error> {
     let place = destination(path, bytes)?;
     Ok(place.map(|path| Pending {
@@ -353,7 +352,7 @@ fn named<'a>(path: &Path, bytes: &'a [u8], before: Before) -> Result<Option<Pend
     }))
 }
 
-/// Where these bytes go; nowhere where they are already.
+/// Where these bytes go; none if they are already there.
 fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
     let fault = |source| stage_fault(path, source);
     let not_a_file = || Error::NotAFile {
@@ -365,7 +364,7 @@ fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
         Ok(_) => fs::canonicalize(path).map(Some).map_err(fault),
         Err(missing) if missing.kind() == ErrorKind::NotFound => {
             match folder::dangling_link(path) {
-                // The link stays, and what it leads to is made.
+                // The link stays, and its target is made.
                 Some(leads_to) if folder::folder_of(&leads_to).is_dir() => Ok(Some(leads_to)),
                 Some(_) => Err(fault(missing)),
                 None if folder::is_named_as_folder(path) => Err(not_a_file()),

@@ -1,8 +1,9 @@
-//! The index per channel that stands for a whole spectrum: n and k that give the channel's F0 and F82, or, where no
-//! index does, those whose curve comes nearest over all angles.
+//! The effective index of each channel, which stands for a whole spectrum. Its n and k give the channel's F0 and F82. If no index
+//! does, they are those whose curve is nearest over all angles.
 //!
-//! No index has an F0 above 1 (the red of saturated gold), and the mean of several dielectrics is not quite a
-//! dielectric. There the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves it.
+//! No index has an F0 above 1 (the red of saturated gold), and the mean of several dielectrics is not quite a dielectric. There
+//! the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves
+//! it.
 
 use super::reference_curve::{ReferenceCurve, reference_reflectance};
 use crate::language::methods::Light;
@@ -10,23 +11,23 @@ use crate::physics::materials::{Channels, Index, MaterialKind};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{self, COS_82, index_from_f0_f82};
 
-/// The index per channel, and how it was come by.
+/// The index per channel, and how it was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effective {
     /// n and k per channel.
     pub channels: Channels,
-    /// How each channel's index stands for what is seen.
+    /// How each channel's index was found.
     pub by: [By; 3],
 }
 
-/// How an index stands for a channel.
+/// How a channel's index was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// It is the index itself: the channel is one wavelength.
     Itself,
     /// It has the channel's F0 and F82.
     F0AndF82,
-    /// No index has: its curve is the nearest.
+    /// No index has both: its curve is the nearest.
     Nearest,
 }
 
@@ -43,26 +44,26 @@ impl By {
 
 /// Below this n the exact law loses digits in f32.
 const LEAST_N: f64 = 1e-3;
-/// The box that is searched: n up to here in steps of equal ratio, k up to here, denser near 0.
+/// The bounds of the search: n up to this in steps of equal ratio, k up to this, denser near 0.
 const MOST_N: f64 = 20.0;
 const MOST_K: f64 = 60.0;
-/// A dielectric that reflects more has an n that no medium has.
+/// The largest F0 of a dielectric: above it, n would be that of no medium.
 const MOST_F0: f64 = 0.9;
-/// A dielectric whose k stays below this is taken as transparent: k² adds 4 n k²/(n + 1)⁴ to its F0, 2.5e-5 at most.
+/// A dielectric with k below this counts as transparent: k² adds 4 n k²/(n + 1)⁴ to its F0, at most 2.5e-5.
 const FAINT_K: f64 = 0.01;
-/// Even steps of angle at which curves are compared, 0 and nearly 90 degrees included.
+/// The number of equal steps of angle at which curves are compared, including 0 and nearly 90 degrees.
 const ANGLES: usize = 60;
-/// As many where k is 0, so that n alone is searched: past a critical angle there is a cusp to be met.
+/// The same where k is 0 and n alone is searched: past a critical angle there is a cusp to match.
 const FINE: usize = 720;
-/// Cosines close to grazing, besides: 2⁻ⁱ, where a large k has its minimum.
+/// Additional cosines close to grazing: 2⁻ⁱ, where a large k has its minimum.
 const GRAZING: i32 = 14;
-/// Even steps of n and of k before a golden section, its sections, and its ratio: (√5 - 1)/2.
+/// Steps of n and of k before a golden section, its sections, and its ratio: (√5 - 1)/2.
 const STEPS_N: usize = 20;
 const STEPS_K: usize = 48;
 const SECTIONS: usize = 24;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The index per channel for what is seen of a surface in unpolarised light.
+/// The index per channel for a surface in unpolarised light.
 pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
     if let Some(channels) = reference.surface.channels() {
         return Effective {
@@ -97,8 +98,8 @@ pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
     }
 }
 
-/// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
-/// part below 1 is what an index can follow.
+/// Cosines and the reflectance there, clipped to [0, 1]: no index reflects more than 1, so for saturated gold's red an index can
+/// follow only the part below 1.
 fn curve(reference: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
     let even = (0..angles).map(|i| i as f64 / angles as f64 * std::f64::consts::FRAC_PI_2);
     let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
@@ -108,8 +109,8 @@ fn curve(reference: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
         .collect()
 }
 
-/// The index whose curve is nearest, by largest absolute difference: for each k the best n, and of these the best.
-/// The valley is long, narrow and not smooth, so that each is searched by itself.
+/// The index whose curve is nearest, by largest absolute difference: for each k the best n, and of these the best. The valley is
+/// long, narrow and not smooth, so n and k are searched separately.
 fn nearest(curve: &[(f64, f64)]) -> Index {
     let of = |k: f64, n: f64| Index {
         n: LEAST_N * libm::pow(MOST_N / LEAST_N, n),
@@ -120,8 +121,8 @@ fn nearest(curve: &[(f64, f64)]) -> Index {
     of(k, best_n(k).0)
 }
 
-/// The nearest index without k, on the side of 1 that serves better: in the square root q of F0 around that of the
-/// curve, n = (1 + q) / (1 - q), up to twice or half of it.
+/// The nearest index with k = 0, above or below 1, whichever is better. It is searched in the square root q of F0, n = (1 + q) /
+/// (1 - q), from half the curve's q to twice that.
 fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
     let root = curve[0].1.clamp(0.0, MOST_F0).sqrt();
     let q = |share: f64| (root * libm::exp2(2.0 * share - 1.0)).min(MOST_F0);
@@ -137,8 +138,8 @@ fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
     Index { n, k: 0.0 }
 }
 
-/// Where in [0, 1] a function is least, and its value: the best of even steps, then a golden section between its
-/// neighbours. The function also takes a limit: where its value is above it, it may return any number above it.
+/// The place in [0, 1] where a function has its minimum, and its value: the best of equal steps, then a golden section between
+/// its neighbours. The function also receives a limit: if its value exceeds the limit, it may return any number above it.
 fn least(steps: usize, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let at = |i: usize| i as f64 / steps as f64;
     let (mut best, mut value) = (0, f64::INFINITY);
@@ -167,7 +168,7 @@ fn least(steps: usize, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     }
 }
 
-/// The largest difference between an index's curve and this one, or the first that is above the limit.
+/// The largest difference between an index's curve and this one, or the first above the limit.
 fn distance(index: Index, curve: &[(f64, f64)], limit: f64) -> f64 {
     let mut largest: f64 = 0.0;
     for (cos_theta, reflectance) in curve {
@@ -197,7 +198,7 @@ mod tests {
         )
     }
 
-    /// No index of a dense grid around, and of a coarse one over the whole box, comes nearer.
+    /// No index is nearer, neither of a dense grid around it nor of a coarse grid over all bounds.
     #[test]
     fn the_nearest_index_is_the_nearest() {
         for (name, channel) in [
@@ -237,7 +238,7 @@ mod tests {
         }
     }
 
-    /// An index that is one comes back.
+    /// A curve made from an index gives that index back.
     #[test]
     fn grey_media_come_back() {
         for (n, k, kind) in [

@@ -1,8 +1,4 @@
-//! A material in its medium, as it is seen.
-//!
-//! The choices that the derivation of a material's inputs leaves open.
-//!
-//! The classes of materials that are taken together.
+//! A material in its medium under viewing conditions, the options for deriving its inputs, and the classes of materials.
 
 use super::effective::{Effective, effective};
 use super::reference_curve::ReferenceCurve;
@@ -11,36 +7,36 @@ use crate::physics::materials::{
     Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions,
 };
 
-/// The least n of a dielectric that fitted methods follow.
+/// The least n of a dielectric for which there is a fitted method.
 pub const LEAST_FITTED_N: f64 = 1.2;
 
-/// A material in its medium, as functions are specialised to it.
+/// A material in its medium, to which functions are specialised.
 #[derive(Clone, Debug)]
 pub struct MaterialInMedium {
-    /// The material's name, with `_in_` and the medium's where there is one.
+    /// The material's name, followed by `_in_` and the medium's name if there is one.
     pub name: String,
-    /// What a user types to get it again: a name, or a file's name.
+    /// The argument that names it again on the command line: a name, or a file's name.
     pub argument: String,
     /// The record.
     pub material: Material,
-    /// What a user types to get the medium again, and its record, where it is not air.
+    /// The argument that names the medium again, and its record; none for air.
     pub medium: Option<(String, Material)>,
-    /// What is seen of it, in unpolarised light.
+    /// Its reflectance under the viewing conditions, in unpolarised light.
     pub reference: ReferenceCurve,
-    /// The index per channel that stands for it.
+    /// The effective index of each channel.
     pub effective: Effective,
     /// How inputs are derived from it.
     pub derivation: Derivation,
 }
 
-/// A material with what a user types to get it: a name, or a file's name.
+/// A material with the argument that names it: a name, or a file's name.
 pub type Typed = (String, Material);
 
-/// The fitted methods of four coefficients that materials have: of metals and semiconductors, and of dielectrics.
+/// The fitted methods with four coefficients: of metals and semiconductors, and of dielectrics.
 pub const FITTED_WITH_FOUR: [&str; 2] = ["fitted", "fitted_dielectric"];
 
 impl MaterialInMedium {
-    /// A material in air or in a medium, as it is seen.
+    /// A material in air or in a medium, under viewing conditions.
     ///
     /// # Errors
     /// The material or the medium was not measured at a wavelength of these conditions, or the light has no white in the space.
@@ -67,7 +63,7 @@ impl MaterialInMedium {
         })
     }
 
-    /// What a method's error is held against: the reference in its light; what reads a table keeps the table's colours.
+    /// The reference for a method's error, in the method's light. For a method that reads a table, it keeps the table's colours.
     pub fn truth_for(&self, method: &Method) -> ReferenceCurve {
         let reference = if method.light == self.reference.light {
             self.reference.clone()
@@ -81,13 +77,13 @@ impl MaterialInMedium {
         }
     }
 
-    /// Whether the exact law for dielectrics serves it.
+    /// Whether the exact law for dielectrics describes it.
     fn is_glass(&self) -> bool {
         self.material.kind == MaterialKind::Dielectric && self.effective.channels.is_transparent()
     }
 
-    /// Whether a method describes it: the exact laws for dielectrics take no k, that for metals takes no small one. Coefficients
-    /// follow a dielectric that absorbs too.
+    /// Whether a method describes it. The exact laws for dielectrics take no k, and that for metals no small one. Fitted
+    /// coefficients also describe a dielectric that absorbs.
     pub fn is_described_by(&self, method: &Method) -> bool {
         let is_followed = method.is_fitted() && self.material.kind == MaterialKind::Dielectric;
         let Channels { n, k } = &self.effective.channels;
@@ -103,8 +99,8 @@ impl MaterialInMedium {
         }
     }
 
-    /// The fitted method of its class with four coefficients, for arrays of materials. None follows a dielectric that is nearly
-    /// matched, or seen from a denser medium.
+    /// The fitted method of its class with four coefficients, for arrays of materials. None for a dielectric that is nearly
+    /// index-matched, or seen from a denser medium.
     pub fn fitted_with_four(&self) -> Option<&'static str> {
         let n = self.effective.channels.n;
         match self.is_glass() {
@@ -114,7 +110,8 @@ impl MaterialInMedium {
         }
     }
 
-    /// The fitted method that suits its class: a semiconductor's needs five coefficients, or errs eight times as much.
+    /// The best fitted method for its class: a semiconductor needs five coefficients, since with four the error is eight times as
+    /// large.
     pub fn fitted_method(&self) -> Option<&'static str> {
         match self.material.kind {
             MaterialKind::Semiconductor => Some("fitted_five"),
@@ -122,7 +119,7 @@ impl MaterialInMedium {
         }
     }
 
-    /// The methods that its file holds unless others are asked for: the exact one first.
+    /// The default methods of its file, the exact one first.
     pub fn default_methods(&self) -> Vec<&'static str> {
         let rest = ["schlick_rescaled", "schlick_corrected", "table"];
         let exact = [self.exact_method()].into_iter();
@@ -130,16 +127,16 @@ impl MaterialInMedium {
     }
 }
 
-/// cos θ at which λ is matched unless asked otherwise: 81.37 degrees. The thesis's text matches at 84.26 degrees, but its Table 2
-/// comes out with cos θ = 0.15, the other end of the range that it gives.
+/// cos θ at which λ is matched by default: 81.37 degrees. The thesis's text matches at 84.26 degrees, but its Table 2 results
+/// from cos θ = 0.15, the other end of the range that it gives.
 ///
 /// Source of λ: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005, <https://hdl.handle.net/11025/11214>.
 pub const THESIS_MATCHING_COS: f64 = 0.15;
 
-/// The choices that a derivation leaves open.
+/// The options of a derivation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Derivation {
-    /// cos θ at which λ of the corrected method meets the exact law.
+    /// cos θ at which λ of the corrected method matches the exact law.
     pub matching_cos: f64,
 }
 
@@ -151,7 +148,7 @@ impl Default for Derivation {
     }
 }
 
-/// A class of materials. Gases are in none, nor are dielectrics that absorb, nor what is known at three wavelengths alone.
+/// A class of materials. It excludes gases, dielectrics that absorb, and materials known only at three wavelengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialClass {
     /// Metals and alloys.
@@ -188,7 +185,7 @@ impl MaterialClass {
         }
     }
 
-    /// The class that a material in its medium is in.
+    /// The class of a material in its medium.
     pub fn containing(subject: &MaterialInMedium) -> Option<MaterialClass> {
         let channels = &subject.effective.channels;
         if subject.material.rgb_nm.is_some() {

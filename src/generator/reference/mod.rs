@@ -1,5 +1,5 @@
-//! The reference: a material in its medium as it is seen, its reference reflectance, and the index per channel that stands for
-//! its spectrum. Methods are fitted to it and held against it.
+//! The reference: a material in its medium under viewing conditions, its reference reflectance, and the effective index of each
+//! channel. Methods are fitted to it and compared with it.
 
 mod effective;
 mod material_in_medium;

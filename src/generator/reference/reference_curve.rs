@@ -12,7 +12,7 @@ use crate::physics::spectra::Gamut;
 
 /// Angles between 0 and 90 degrees over which means are taken.
 pub const ANGLES: usize = 2048;
-/// Cosines close to grazing, besides: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
+/// Additional cosines close to grazing: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
 const GRAZING: usize = 120;
 /// The reference of methods: a surface under viewing conditions, in light of one polarisation.
 #[derive(Clone, Debug)]
@@ -64,8 +64,8 @@ impl ReferenceCurve {
         reference_reflectance(&self.surface, self.light, cos_theta)
     }
 
-    /// The hemispherical reflectance of each channel, 2 ∫ R cos θ d(cos θ), by the middles of equal steps of angle:
-    /// ∫ R sin 2θ dθ, within 1e-6.
+    /// The hemispherical reflectance of each channel, 2 ∫ R cos θ d(cos θ), by the midpoint rule in angle: ∫ R sin 2θ dθ, within
+    /// 1e-6.
     pub fn average(&self) -> [f64; 3] {
         let step = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
         let weight = |i: usize| libm::sin((2 * i + 1) as f64 * step) * step;
@@ -95,7 +95,7 @@ fn reflected(surface: &Surface, light: Light, cos_theta: f64) -> DVec3 {
     }
 }
 
-/// The middles of equal steps of angle, over which means are taken, and after them both ends and grazing cosines.
+/// The midpoints of equal steps of angle, over which means are taken, then both ends and grazing cosines.
 pub fn cosines(angles: usize) -> Vec<f64> {
     let middles = (0..angles).map(|i| cosine_of_part(2 * i + 1, 2 * angles));
     let grazing = (1..GRAZING).map(|i| libm::exp2(-(i as f64) / 4.0));

@@ -1,5 +1,6 @@
-//! The request: what a run is asked for, with names resolved. The input of the pure library.
+//! The request: what a run shall generate, with names resolved. It is the input of the pure library.
 
+mod builder;
 pub mod source;
 
 use std::collections::BTreeMap;
@@ -16,37 +17,41 @@ use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions}
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
 
-/// What to generate. `Request::default()` is what the program does without flags.
+/// What to generate. `Request::default()` is a run without flags.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Names of targets; `all` is those that are written by default. Empty: the same.
+    /// Names of targets, or `all` for those written by default. Empty: the same as `all`.
     pub targets: Vec<String>,
-    /// Names of methods, or `all`. Empty: all, and materials get their usual four.
+    /// Names of methods, or `all`. Empty: all, and each material gets its four default ones.
     pub methods: Vec<String>,
-    /// Names of effects, or `all`: then their files are written and no others, with R by the one method that is named, specialised to
-    /// the materials that are named. Empty: all in their usual form where neither methods nor materials are named, else none.
+    /// Names of effects, or `all`. If any are named, only files of effects are written, with R by the one method that is named,
+    /// and specialised to the materials that are named. If none are named, all are written in their default form where neither
+    /// methods nor materials are named, otherwise none.
     pub effects: Vec<String>,
-    /// Names of flavours: adapters for hosts, beside the targets that are named; without named targets nothing else is written.
+    /// Names of flavours: adapters for hosts, written beside the named targets. Without named targets nothing else is written.
     pub flavours: Vec<String>,
-    /// Which materials functions are specialised to.
+    /// The materials that functions are specialised to.
     pub materials: Materials,
-    /// The medium that the light comes from; air where there is none.
+    /// The medium that the light comes from; none for air.
     pub medium: Option<Source>,
-    /// Goes before every function's name.
+    /// The prefix of every function's name.
     pub prefix: String,
-    /// Degrees at which λ of the corrected method is matched, between 0 and 90; the thesis's 81.37 where not given.
+    /// The angle in degrees, between 0 and 90, at which λ of the corrected method is matched. None: the thesis's 81.37.
     pub matching_angle: Option<f64>,
-    /// What functions compute in.
+    /// The functions' precision.
     pub precision: Precision,
-    /// Whether methods are written in half precision that cannot be saved there.
+    /// Whether to write methods in half precision that lose too much accuracy there.
     pub force: bool,
-    /// The one method of each material, by the material's name, where a budget chose them; empty where none did.
+    /// The one method of each material, by the material's name, where a budget chose them; otherwise empty.
     #[doc(hidden)]
     pub chosen: BTreeMap<String, &'static str>,
-    /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
+    /// The viewing conditions of materials. Default: the whole spectrum in linear sRGB under D65.
     pub viewing: ViewingConditions,
     /// How much the comments of files say.
     pub header: HeaderForm,
+    /// Whether lookup tables of the materials are written too.
+    #[doc(hidden)]
+    pub tables: bool,
 }
 
 impl Default for Request {
@@ -65,6 +70,7 @@ impl Default for Request {
             chosen: BTreeMap::new(),
             viewing: ViewingConditions::default(),
             header: HeaderForm::default(),
+            tables: false,
         }
     }
 }
@@ -78,12 +84,12 @@ pub enum Materials {
     None,
     /// The whole catalogue.
     All,
-    /// These.
+    /// The listed materials.
     These(Vec<Source>),
 }
 
 impl Materials {
-    /// Where each comes from.
+    /// The source of each material.
     pub fn sources(&self) -> Vec<Source> {
         match self {
             Materials::Default => DEFAULT_MATERIALS
@@ -96,12 +102,13 @@ impl Materials {
     }
 }
 
-/// Where a material comes from.
+/// The source of a material.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The catalogue; or, of a medium, a refractive index from 1 to 10, such as `1.5`: without absorption and dispersion.
+    /// A material of the catalogue. A medium can also be a refractive index from 1 to 10, such as `1.5`, without absorption and
+    /// dispersion.
     Named(String),
-    /// The catalogue, brought along by `all`: left out where it is not known over the whole spectrum.
+    /// A material of the catalogue that `all` includes. It is left out where it is not known over the whole spectrum.
     BroughtAlong(String),
     /// A user's file, already read.
     File {
@@ -113,7 +120,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// What a user types to name it again.
+    /// The argument that names it again on the command line.
     ///
     /// # Errors
     /// As [`load`].
@@ -135,7 +142,7 @@ impl Source {
 pub const DEFAULT_MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"];
 
 impl Request {
-    /// The targets, sorted, each once: those by default where neither targets nor flavours are named.
+    /// The targets, sorted, each once. Those written by default if neither targets nor flavours are named.
     ///
     /// # Errors
     /// A name is no target.
@@ -168,7 +175,7 @@ impl Request {
         Ok(chosen)
     }
 
-    /// The methods asked for by name, sorted, each once; nothing where all are meant.
+    /// The methods asked for by name, sorted, each once; none where all are meant.
     ///
     /// # Errors
     /// A name is no method.
@@ -228,7 +235,7 @@ impl Request {
         Ok(chosen)
     }
 
-    /// The materials read, each in the medium, with the text of both files.
+    /// The materials, each read and set in the medium, with the text of both files.
     ///
     /// # Errors
     /// A material cannot be read or is not measured over the spectrum, the medium absorbs, or two materials have one name.
@@ -252,7 +259,7 @@ impl Request {
         subjects.sorted()
     }
 
-    /// A user's light as text: it is an input, and its name does not tell its numbers.
+    /// A user's light as text. It is an input, since its name does not determine its numbers.
     fn light(&self) -> String {
         match &self.viewing.integration.illuminant {
             Illuminant::Table { power, .. } => format!("{:?}", power.points()),
@@ -269,8 +276,8 @@ impl Request {
         }
     }
 
-    /// Whether it names neither methods nor effects nor materials, in single precision: effects and the catalogue go with such a run, and to a whole
-    /// tree, where it names no targets either, tables do.
+    /// Whether it names neither methods nor effects nor materials, in single precision. Such a run also writes effects and the
+    /// catalogue, and if it names no targets either (a whole tree), tables.
     #[doc(hidden)]
     pub fn names_nothing(&self) -> bool {
         self.methods.is_empty()
@@ -279,7 +286,7 @@ impl Request {
             && !self.precision.is_half()
     }
 
-    /// Why this method is not written in the request's precision, if it is not: its library function, or any.
+    /// Why this method's library function, or any function of it, is not written in the request's precision; none if it is.
     #[doc(hidden)]
     pub fn refusal(&self, method: &Method, library: bool) -> Option<&'static str> {
         let refused = if library {
@@ -326,7 +333,8 @@ impl Request {
     }
 }
 
-/// The exact function of a material bears its name alone, where a method's function bears the method's.
+/// Refuses the name of a method: the exact function of a material has the material's name alone, where a method's function has
+/// the method's.
 fn check_not_a_method(name: &str) -> Result<(), Error> {
     let stem = name.strip_suffix("_scalar").unwrap_or(name);
     if name.ends_with(Precision::F16.suffix()) {
@@ -348,7 +356,7 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
     .into())
 }
 
-/// Through a metal or a semiconductor no light comes to reflect.
+/// Refuses a medium that absorbs: no light comes through a metal or a semiconductor.
 ///
 /// # Errors
 /// The medium is a metal or a semiconductor.

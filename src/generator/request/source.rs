@@ -1,8 +1,6 @@
-//! Reading the files that a user names.
+//! Reads the files that a user names, and the materials of a request, each in its medium.
 //!
-//! The materials of a request, each in its medium.
-//!
-//! A source read: a material of the catalogue, of a text at hand, or a medium that is a number.
+//! A source is a material of the catalogue, a text already read, or a medium that is a number.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -16,27 +14,28 @@ use crate::physics::foreign::{self, one_line};
 use crate::physics::materials::{self, ConstantIndex, FileFault, Material, Unseen};
 use crate::physics::spectra::{TextFault, mesh_text, user_text};
 
-/// A material file has at most this many bytes: 10⁶ rows fit.
+/// The largest material file in bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
 
-/// A file with a function of a user's has at most this many bytes.
+/// The largest file with a user's own function, in bytes.
 const LARGEST_SHADER: u64 = 1 << 20;
 
-/// A picture has at most this many bytes: 8192 x 4096 pixels of four floats fit.
+/// The largest picture in bytes: 8192 x 4096 pixels of four floats fit.
 const LARGEST_PICTURE: u64 = 1 << 30;
 
-/// A mesh has at most this many bytes: three million triangles fit.
+/// The largest mesh in bytes: three million triangles fit.
 const LARGEST_MESH: u64 = 256 << 20;
 
-/// A shard's report has at most this many bytes: 10⁵ rows fit.
+/// The largest report of a shard in bytes: 10⁵ rows fit.
 const LARGEST_REPORT: u64 = 256 << 20;
 
-/// Whether a name means a file: names of the catalogue have neither dots nor slashes.
+/// Whether a name is a path: names of the catalogue have neither dots nor slashes.
 pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
 }
 
-/// The words of a list with commas between. A path that exists is a path, whatever commas it holds; of two the longer one.
+/// The words of a comma-separated list. The path of an existing file is kept whole, whatever commas it holds. Of two such paths,
+/// the longer one is taken.
 pub fn comma_list(list: &str) -> Vec<String> {
     let parts: Vec<&str> = list.split(',').collect();
     let is_file = |word: &String| is_path(word) && Path::new(word).is_file();
@@ -53,8 +52,8 @@ pub fn comma_list(list: &str) -> Vec<String> {
     words
 }
 
-/// Refuses a file that another file names and that lies elsewhere: what a scene, a plan or a list of materials names lies below
-/// its own folder, links resolved, unless the command line names it, or a folder above it, with `--allow`.
+/// Refuses a file that another file names and that lies elsewhere. What a scene, a plan or a list of materials names must lie
+/// below its own folder, with links resolved, unless the command line allows that file, or a folder above it, with `--allow`.
 ///
 /// # Errors
 /// It lies elsewhere.
@@ -72,7 +71,7 @@ pub fn check_below(naming: &Path, named: &Path, allowed: &[PathBuf]) -> Result<(
 /// The text of a file that a user names.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, too large, or not UTF-8.
+/// The file is missing, not an ordinary file, too large, or not UTF-8.
 pub fn read(name: &str) -> Result<String, Error> {
     read_within(LARGEST, Path::new(name))
 }
@@ -80,15 +79,15 @@ pub fn read(name: &str) -> Result<String, Error> {
 /// The text of a file at a path that a user names.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, too large, or not UTF-8.
+/// The file is missing, not an ordinary file, too large, or not UTF-8.
 pub fn text(path: &Path) -> Result<String, Error> {
     read_within(LARGEST, path)
 }
 
-/// The text of a file with a function of a user's.
+/// The text of a file with a user's own function.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, too large, or not UTF-8.
+/// The file is missing, not an ordinary file, too large, or not UTF-8.
 pub fn shader(name: &str) -> Result<String, Error> {
     read_within(LARGEST_SHADER, Path::new(name))
 }
@@ -96,7 +95,7 @@ pub fn shader(name: &str) -> Result<String, Error> {
 /// The text of a mesh that a user names.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, too large, or no text.
+/// The file is missing, not an ordinary file, too large, or not text.
 pub fn mesh(path: &Path) -> Result<String, Error> {
     mesh_text(bytes_within(LARGEST_MESH, path)?).map_err(|fault| no_text(path, fault))
 }
@@ -104,7 +103,7 @@ pub fn mesh(path: &Path) -> Result<String, Error> {
 /// The text of a shard's report.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, too large, or not UTF-8.
+/// The file is missing, not an ordinary file, too large, or not UTF-8.
 pub fn report(path: &Path) -> Result<String, Error> {
     read_within(LARGEST_REPORT, path)
 }
@@ -112,7 +111,7 @@ pub fn report(path: &Path) -> Result<String, Error> {
 /// The bytes of a picture that a user names.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, or too large.
+/// The file is missing, not an ordinary file, or too large.
 pub fn picture(path: &Path) -> Result<Vec<u8>, Error> {
     bytes_within(LARGEST_PICTURE, path)
 }
@@ -138,9 +137,8 @@ fn no_text(path: &Path, fault: TextFault) -> Error {
     })
 }
 
-/// The pages below a folder, by their paths in it with `/`, sorted; links to
-/// folders are not followed. A file is its own and only
-/// page, whose path in itself is empty.
+/// The pages below a folder, by their paths in it with `/`, sorted. Links to folders are not followed. A file is its own only
+/// page, with an empty path.
 ///
 /// # Errors
 /// A folder cannot be read, or the path does not exist.
@@ -178,7 +176,7 @@ pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
     Ok(found)
 }
 
-/// Whether a file of the database is a page: others tell about a book, or list the shelves.
+/// Whether a file of the database is a page. Other files describe a book, or list the shelves.
 fn is_page(name: &str) -> bool {
     [".yml", ".yaml"]
         .iter()
@@ -191,9 +189,9 @@ fn is_page(name: &str) -> bool {
 /// The materials of a request.
 #[derive(Clone, Debug, Default)]
 pub struct Subjects {
-    /// Each in its medium, with the text of both files; sorted by name, each once.
+    /// Each material in its medium, with the text of both files; sorted by name, each once.
     pub ready: Vec<(MaterialInMedium, String)>,
-    /// Why some of those that `all` brings along are left out.
+    /// Why some of the materials that `all` includes are left out.
     pub left_out: Vec<Unseen>,
 }
 
@@ -230,7 +228,7 @@ impl Subjects {
     }
 }
 
-/// Two materials of one name, and the words that name them.
+/// The error for two materials with one name, and the words that name them.
 pub fn same_name(name: &str, words: [&str; 2]) -> Error {
     RequestFault::SameName {
         name: name.to_owned(),
@@ -239,18 +237,18 @@ pub fn same_name(name: &str, words: [&str; 2]) -> Error {
     .into()
 }
 
-/// A source read: the material, and what it was read from.
+/// A material, and what it was read from.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The record.
     pub material: Material,
-    /// What a user types to name it again.
+    /// The argument that names it again on the command line.
     pub argument: String,
     /// Its file's text.
     pub text: String,
 }
 
-/// Reads a material from the catalogue, or from a text at hand.
+/// Reads a material from the catalogue, or from a text already read.
 ///
 /// # Errors
 /// The catalogue has no material of this name, the number lies outside its limits, or the text is not a material.
@@ -289,8 +287,8 @@ fn constant(word: &str) -> Result<Loaded, Error> {
     })
 }
 
-/// What a user types to name a file again. A page at an absolute path is named by its place in the database that it lies in, since its
-/// name is made of that.
+/// The argument that names a file again. A page at an absolute path is named by its place in its database, since its name is made
+/// of that.
 fn argument(file: &str, page: &str) -> String {
     let is_absolute = Path::new(file).is_absolute();
     if is_absolute && !page.is_empty() && file.replace('\\', "/").ends_with(page) {

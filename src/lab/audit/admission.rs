@@ -1,4 +1,5 @@
-//! What a user's text may hold. What could read another file, hide a name, or be read in two ways is refused before any compiler sees it.
+//! The check of a user's text: whatever could read another file, hide a name, or be read in two ways is refused before any
+//! compiler sees it.
 
 use super::condition::{Language, bare, definition};
 use super::directives::{self, TextFault};
@@ -7,10 +8,10 @@ use super::loops::is_in_macro;
 use super::preprocess::{Define, Preprocessed, joined_comments, joined_lines, preprocessed};
 use crate::generator::emit::shader_words::tokens;
 
-/// The text as compilers would see it: behind the preprocessor, without comments.
+/// The text as compilers would see it: preprocessed, without comments.
 ///
 /// # Errors
-/// A name that is ours, a file that asks for others, or signs that are no text.
+/// It holds a reserved name, asks for another file, or holds characters that are not text.
 pub fn admitted(
     file: &str,
     text: &str,
@@ -29,13 +30,13 @@ pub fn admitted(
     let live = live.map_err(|fault| error(file, fault))?;
     told(own_name(&live.text))?;
     if language.has_preprocessor() {
-        // What a macro stands for is looked at where the function needs it.
+        // The body of a macro is checked where the function needs it.
         told(directives::fault(&without_definitions(&live.text)))?;
     }
     Ok(live)
 }
 
-/// Refuses what the function needs and no program can be made of.
+/// Refuses a slice from which no program can be made.
 ///
 /// # Errors
 /// A macro that hides a loop or a name.
@@ -50,7 +51,7 @@ pub fn check_needed(file: &str, slice: &str, language: Language) -> Result<(), E
     directives::fault(slice).map_or(Ok(()), |fault| Err(error(file, fault)))
 }
 
-/// Refuses a text in which the name of the audited function means another thing to compilers.
+/// Refuses a text in which the name of the audited function means something else to compilers.
 ///
 /// # Errors
 /// A macro has that name.
@@ -85,7 +86,7 @@ fn without_definitions(text: &str) -> String {
     lines.join("\n")
 }
 
-/// What ends a line in WGSL, and is a character like others elsewhere.
+/// Whether a character ends a line in WGSL only.
 fn is_line_end(c: char) -> bool {
     ['\u{2028}', '\u{2029}'].contains(&c)
 }
@@ -111,12 +112,12 @@ fn own_name(text: &str) -> Option<TextFault> {
     Some((found.line, found.column, what))
 }
 
-/// The line at which comments could be read in two ways, and why: what is hidden from us must be hidden from compilers.
+/// The line at which comments could be read in two ways, and why. What is a comment to us must be one to compilers.
 fn ambiguous(text: &str) -> Option<TextFault> {
     let code = bare(text, false);
     let lines = text.lines().zip(code.lines()).enumerate();
     let mut found = lines.filter_map(|(number, (line, code))| {
-        // Another file is refused as such: `#include "res://a"`.
+        // An include is refused elsewhere: `#include "res://a"`.
         let words = code.trim().trim_start_matches('#').trim_start();
         let is_include = code.trim_start().starts_with('#') && words.starts_with("include");
         let has_comment = !is_include && (line.contains("/*") || line.contains("//"));
@@ -133,7 +134,7 @@ fn ambiguous(text: &str) -> Option<TextFault> {
     found.next().or_else(|| nested(text))
 }
 
-/// The line at which a comment begins in another: in some languages the first end of one ends both.
+/// The line at which a comment begins inside another. In some languages the first `*/` ends both.
 fn nested(text: &str) -> Option<TextFault> {
     let (mut rest, mut line) = (text, 1);
     while let Some(start) = rest.find("/*") {
@@ -141,7 +142,7 @@ fn nested(text: &str) -> Option<TextFault> {
         let (before, after) = rest.split_at(start);
         line += before.matches('\n').count();
         if before[begins..].contains("//") {
-            // It stands in a comment that ends with its line.
+            // It stands in a line comment.
             rest = after.split_once('\n').map_or("", |(_, rest)| rest);
             line += usize::from(!rest.is_empty());
             continue;

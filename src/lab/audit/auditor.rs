@@ -1,5 +1,5 @@
-//! The audit of one function for several materials. Compilers are asked once about equal texts: materials differ in values, seldom in
-//! the text around the function.
+//! The audit of one function for several materials. Compilers are asked once about equal texts, since materials differ in values
+//! and seldom in the text around the function.
 
 use core::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -36,9 +36,9 @@ pub struct Auditor<'a> {
     branch: Option<Branch>,
     surroundings: Surroundings,
     compilers: Compilers,
-    /// What compilers say of programs.
+    /// What compilers say of programs, by the program's text.
     accepted: RefCell<BTreeMap<String, Accepted>>,
-    /// What programs cost.
+    /// The costs of programs, by the program's text.
     costs: RefCell<BTreeMap<String, Vec<AuditCost>>>,
     ours: OnceCell<CostedMethods>,
 }
@@ -141,10 +141,10 @@ impl<'a> Auditor<'a> {
         Ok(accepted)
     }
 
-    /// A process that has the function compiled with these values.
+    /// A process that has compiled the function with these values.
     fn runner(&self, bound: &Bound) -> Result<Result<Runner, Trouble>, Error> {
         let (program, run) = self.program(bound);
-        // Only what its compilers accept as it is gets counters, or is run at all.
+        // Only text that its compilers accept unchanged gets counters and is run.
         let code = match self.accepted(&program)?.code {
             Ok(_) if run.text != program.text => self.accepted(&run)?.code,
             code => code,
@@ -166,7 +166,7 @@ impl<'a> Auditor<'a> {
         }
     }
 
-    /// What comes of running it, and which method of ours it computes.
+    /// The result of running it, and which of our methods it computes.
     fn ran(
         &self,
         runner: &Runner,
@@ -213,7 +213,7 @@ impl<'a> Auditor<'a> {
         })
     }
 
-    /// The first argument that stands for another quantity of its name, with which the function computes a method of ours.
+    /// The first argument for which another quantity of its name makes the function compute one of our methods.
     fn exact_fit(
         &self,
         bound: &Bound,
@@ -245,7 +245,7 @@ impl<'a> Auditor<'a> {
         Ok(None)
     }
 
-    /// Adds the verdict of the compiler that ran it, and puts places in the user's file before all messages.
+    /// Adds the verdict of the compiler that ran it, and puts the place in the user's file before each message.
     fn accept(&self, verdicts: &mut Vec<(String, Verdict)>, ran: &Result<Ran, Trouble>) {
         let own = match self.audit.language {
             Language::Wgsl => "naga",
@@ -257,7 +257,7 @@ impl<'a> Auditor<'a> {
             Err(Trouble::Refused(_, words)) if error::names_place(words) => {
                 Some(Verdict::No(words.clone()))
             }
-            // It may be a fault of the driver, or of the machine.
+            // The driver or the machine may be at fault.
             Err(Trouble::Refused(_, words)) => Some(Verdict::NotChecked(words.clone())),
             Err(Trouble::Absent(why) | Trouble::Failed(why)) => {
                 Some(Verdict::NotChecked(why.clone()))
@@ -338,7 +338,7 @@ impl<'a> Auditor<'a> {
     }
 }
 
-/// The form of our functions that a user's is compared with: as many channels, and arguments where it takes some.
+/// The form of our functions that a user's is compared with: the same number of channels, with arguments if the user's takes some.
 fn compared_form(bound: &Bound) -> Option<FunctionForm> {
     match (bound.is_one_channel(), bound.arguments.is_empty()) {
         (true, true) => None,
@@ -348,13 +348,13 @@ fn compared_form(bound: &Bound) -> Option<FunctionForm> {
     }
 }
 
-/// The method of ours that a function computes with these values.
+/// Which of our methods a function computes with these values.
 fn computed(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Option<&'static str> {
     let results = runner.run(&comparison::cosines()).ok()?;
     recognised(&results, bound, subject)
 }
 
-/// What else the cosine's argument may be, with which the function computes a method of ours.
+/// Another form of the cosine's argument with which the function computes one of our methods.
 fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Option<ExactFit> {
     let others = CosineForm::NAMED
         .iter()
@@ -363,7 +363,7 @@ fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Opt
         let results = runner.run_as(*form, &comparison::cosines()).ok()?;
         let method = recognised(&results, bound, subject)?;
         let error = runner.error_as(*form, &subject.reference).ok()?;
-        // What is constant is so of everything.
+        // A constant is constant in every form of the argument.
         (method != "constant_f0").then(|| ExactFit {
             argument: bound.function.params[bound.cosine].name.clone(),
             quantity: name,
@@ -373,8 +373,7 @@ fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Opt
     })
 }
 
-/// What a result may reach: 1, or an F0 that is given above it, as our own functions take it; no colour of a surface has more than
-/// [`BRIGHTEST`].
+/// The largest valid result of each channel: 1, or a given F0 above 1, up to [`BRIGHTEST`]. Our own functions take such an F0 too.
 fn most(bound: &Bound) -> [f32; 3] {
     let raises = |argument: &&BoundArgument| {
         let meaning = argument.meaning();
@@ -389,5 +388,5 @@ fn most(bound: &Bound) -> [f32; 3] {
         })
 }
 
-/// The most that a channel of a metal's F0 reaches in a working space is 1.06, of gold in sRGB.
+/// A bound on F0. The largest channel of a metal's F0 in any working space is 1.06, that of gold in sRGB.
 const BRIGHTEST: f32 = 1.25;

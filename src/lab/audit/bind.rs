@@ -1,4 +1,4 @@
-//! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
+//! Binds each argument of a user's function: to the cosine, to a value given with `--arg`, or to a value of the material.
 
 use super::cosine::{CosineForm, cosine, is_named};
 use super::error::{Error, FunctionPlace, MissingArgument, MissingCosine};
@@ -11,22 +11,22 @@ use crate::generator::emit::shader_words::tokens;
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::names::UnknownName;
 
-/// A function with all that it takes.
+/// A function with all its arguments bound.
 #[derive(Clone, Debug)]
 pub struct Bound {
     /// The function.
     pub function: FoundFunction,
-    /// The place of the cosine among its arguments.
+    /// The index of the cosine among its arguments.
     pub cosine: usize,
-    /// What that argument is of the angle.
+    /// The quantity of the angle that this argument takes.
     pub form: CosineForm,
-    /// How that is known, where its name alone does not say so, in words.
+    /// How that is known, in words, where its name alone does not say so.
     pub cosine_words: Option<String>,
-    /// The arguments that have the value that the text gives them.
+    /// The arguments that keep the default value in the text.
     pub defaults: Vec<DefaultArgument>,
-    /// The others, in order; behind them what it reads from outside.
+    /// The others, in order, followed by the inputs from outside.
     pub arguments: Vec<BoundArgument>,
-    /// What it reads from outside.
+    /// The inputs that it reads from outside.
     pub hidden: Vec<HiddenInput>,
 }
 
@@ -39,21 +39,21 @@ pub struct BoundArgument {
     pub is_rgb: bool,
     /// The value of each channel.
     pub value: [f32; 3],
-    /// The quantity whose value in the material was taken; none where numbers were given.
+    /// The quantity of the material whose value was taken. None where numbers were given.
     pub quantity: Option<Quantity>,
-    /// What it may stand for by its name.
+    /// The quantities that its name may stand for.
     pub meanings: Vec<Quantity>,
     /// Whether its name alone says what it stands for.
     pub is_by_name: bool,
 }
 
 impl Bound {
-    /// Whether the function is called once for each channel: it takes one number where the channels differ.
+    /// Whether the function is called once for each channel, since it takes one number where the channels differ.
     pub fn is_per_channel(&self) -> bool {
         self.arguments.iter().any(BoundArgument::is_split)
     }
 
-    /// What was filled in, for people.
+    /// The arguments that were filled in, in words.
     pub fn filled(&self) -> Vec<String> {
         self.arguments
             .iter()
@@ -61,12 +61,12 @@ impl Bound {
             .collect()
     }
 
-    /// Whether it gives one number.
+    /// Whether it returns one number.
     pub fn is_one_channel(&self) -> bool {
         self.function.result == NumberShape::Scalar
     }
 
-    /// The same for the first channel alone.
+    /// This function for the first channel alone.
     pub fn first_channel(&self) -> Bound {
         let mut one = self.clone();
         for argument in one.arguments.iter_mut().filter(|argument| !argument.is_rgb) {
@@ -75,12 +75,12 @@ impl Bound {
         one
     }
 
-    /// How many numbers a material takes.
+    /// How many numbers describe a material.
     pub fn input_numbers(&self) -> usize {
         self.arguments.iter().map(BoundArgument::numbers).sum()
     }
 
-    /// The same with one argument as another quantity; none where the material has no value for it.
+    /// This function with one argument bound to another quantity. None where the material has no value for it.
     pub fn with(
         &self,
         place: usize,
@@ -100,13 +100,13 @@ impl Bound {
 }
 
 impl BoundArgument {
-    /// Whether it is one number in the text and has another for each channel.
+    /// Whether it is one number in the text and has a different value for each channel.
     pub fn is_split(&self) -> bool {
         let [r, g, b] = self.value;
         !self.is_rgb && (r != g || g != b)
     }
 
-    /// What was filled in, for people.
+    /// What was filled in, in words.
     fn filled(&self) -> Option<String> {
         let quantity = self.quantity?;
         let meaning = if plain(&self.name) == plain(quantity.name) {
@@ -117,12 +117,12 @@ impl BoundArgument {
         Some(format!("{}{meaning} = {}", self.name, numbers(self.value)))
     }
 
-    /// What it stands for, as far as that is known.
+    /// The quantity that it stands for, as far as that is known.
     pub fn meaning(&self) -> Option<Quantity> {
         self.quantity.or(self.meanings.first().copied())
     }
 
-    /// How many numbers a material takes for it.
+    /// How many numbers of a material it takes.
     fn numbers(&self) -> usize {
         let known = self.meaning().map_or(1, |quantity| quantity.numbers());
         if self.is_rgb || self.is_split() {
@@ -154,7 +154,7 @@ pub fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
 /// Binds all arguments of a function.
 ///
 /// # Errors
-/// A value is given for what it does not take, or in the wrong count, or one is missing.
+/// A value is given for an unknown argument, has the wrong number of components, or is missing.
 pub fn bind(
     file: &str,
     function: FoundFunction,
@@ -168,7 +168,7 @@ pub fn bind(
     let mut values = Vec::new();
     let params = function.params.iter();
     let params = params.map(|param| (param, meanings(&param.name, &function)));
-    // The name of an input from outside says less (`k.x`, `bias`), so that its value is asked for.
+    // The name of an input from outside says less (`k.x`, `bias`), so its value is asked for.
     let inputs = hidden.iter().map(|param| (param, Vec::new()));
     for (param, meanings) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
@@ -241,7 +241,7 @@ fn bound_argument(
     }))
 }
 
-/// What the material has for a quantity, where the argument can take it.
+/// The material's value of a quantity, where the argument can take it.
 fn filled(quantity: Quantity, may_differ: bool, subject: &MaterialInMedium) -> Option<[f32; 3]> {
     let value = quantity.value(subject)?;
     (may_differ || same(&value)).then(|| value.map(|value| value as f32))
@@ -277,7 +277,7 @@ fn same(value: &[f64; 3]) -> bool {
     value[0] == value[1] && value[1] == value[2]
 }
 
-/// The place of the cosine and what it is, where all others have values.
+/// The index and the form of the cosine, if all other arguments have values.
 fn checked_cosine(
     file: &str,
     function: &FoundFunction,
@@ -333,7 +333,7 @@ fn checked_cosine(
     }
 }
 
-/// The argument without a value that the cosine may be: one that is a single number, and has no meaning else.
+/// The argument without a value that may be the cosine: a single number whose name has no other meaning.
 fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> MissingCosine {
     let is_one = |name: &str| {
         let mut params = function.params.iter();

@@ -1,6 +1,5 @@
-//! Which function of a file is audited.
-//!
-//! The verdict of every compiler of a language on a program around a user's text.
+//! The choice of the function of a file that is audited, and the verdict of every compiler of a language on a program around a
+//! user's text.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,10 +16,10 @@ use crate::language::targets::{Compiler, DXC, GLSLANG, WGSL};
 use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
 
-/// The function that is meant.
+/// The function that is audited.
 ///
 /// # Errors
-/// There is none of that name, or several where none is named, or it is no function of reflectance.
+/// There is none of that name, or several where none is named, or it cannot be a reflectance function.
 pub fn choose(
     file: &str,
     found: Vec<FoundFunction>,
@@ -89,7 +88,7 @@ fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFun
     }
 }
 
-/// Names of functions; those that several have with their lines and arguments with types.
+/// Names of functions. A name that several share comes with their lines and typed arguments.
 fn told_apart(functions: &[FoundFunction], language: Language) -> Vec<String> {
     let words = |one: &FoundFunction| {
         let is_other = |other: &&FoundFunction| other.path() == one.path();
@@ -106,7 +105,7 @@ fn told_apart(functions: &[FoundFunction], language: Language) -> Vec<String> {
     functions.iter().map(words).collect()
 }
 
-/// An argument as a head of this language has it.
+/// An argument in the form of this language's function heads.
 fn typed(param: &Parameter, language: Language) -> String {
     match language {
         Language::Wgsl => format!("{}: {}", param.name, param.ty),
@@ -114,7 +113,7 @@ fn typed(param: &Parameter, language: Language) -> String {
     }
 }
 
-/// Why a function cannot be one of reflectance.
+/// Why a function cannot be a reflectance function.
 fn unfit(file: &str, found: &FoundFunction) -> Error {
     let is_other = |shape: &NumberShape| matches!(shape, NumberShape::Other(_));
     let is_open = |param: &&Parameter| is_other(&param.shape) && param.default.is_none();
@@ -138,12 +137,12 @@ fn unfit(file: &str, found: &FoundFunction) -> Error {
     }
 }
 
-/// What compilers that run beside us say.
+/// What compilers that are programs of their own say.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Accepted {
-    /// Each with its verdict.
+    /// Each compiler with its verdict.
     pub verdicts: Vec<(String, Verdict)>,
-    /// What is run, where there is something to run; else why not.
+    /// The code to run, or why there is none.
     pub code: Result<ProgramCode, CompilerFault>,
 }
 
@@ -179,7 +178,7 @@ pub fn accepted(language: Language, precision: Precision, program: String) -> Ac
     }
 }
 
-/// Chrome's compiler, as the target knows it.
+/// The verdict of Tint, Chrome's compiler, with the options of the target.
 fn tint(program: &str) -> Option<(String, Verdict)> {
     let tint = WGSL
         .validators
@@ -190,7 +189,7 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
     Some((compiler.name.to_owned(), made.into()))
 }
 
-/// Both versions of the language: what either accepts is run, as the older one has it where both do. A text for one of them is no fault.
+/// The verdict of DXC with both versions of HLSL. A text may be for either one. If both accept it, the older one is run.
 fn hlsl(precision: Precision, program: &str) -> Accepted {
     let made = |version| hlsl_to_spirv_in(precision, program, ENTRY, version);
     let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
@@ -209,7 +208,7 @@ fn hlsl(precision: Precision, program: &str) -> Accepted {
     }
 }
 
-/// A shader as SPIR-V, as it is measured.
+/// The SPIR-V of a shader whose cost is measured.
 ///
 /// # Errors
 /// The compiler is not here, or refuses it.
@@ -225,7 +224,7 @@ pub fn module(
     }
 }
 
-/// How glslang makes SPIR-V of a compute shader.
+/// glslang's options for the SPIR-V of a compute shader.
 fn desktop_options() -> String {
     format!("-V --target-env vulkan1.1 -S comp -e {ENTRY} --source-entrypoint main -o OUT FILE")
 }

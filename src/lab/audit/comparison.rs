@@ -1,9 +1,9 @@
-//! Whether a method of ours has no larger error and costs no more than a user's function, and the sentence that says so.
+//! Comparison of a user's function with our methods: which of them dominate it, with no larger error and no higher cost, and
+//! which one it computes, with the same results at all angles for the same material.
 //!
-//! Which method of ours a user's function computes: where its results at all angles are those of the method, for the same material.
-//!
-//! Functions differ in conventions more than in formulas: an index is n_t / n_i or n_i / n_t, the colour at 82 degrees is itself or a
-//! tint. So where a function computes none of ours, its arguments are tried as the other quantities that their names may stand for.
+//! Functions differ in conventions more than in formulas: an index is n_t / n_i or n_i / n_t, the colour at 82 degrees is itself
+//! or a tint. So where a function computes none of ours, its arguments are tried as the other quantities that their names may
+//! stand for.
 
 use serde::Serialize;
 
@@ -21,20 +21,20 @@ pub struct Competitor {
     pub method: &'static str,
     /// `library` or `specialised`.
     pub form: &'static str,
-    /// How many numbers a material takes by it.
+    /// How many numbers describe a material in it.
     pub inputs: usize,
     /// Its cost on a GPU, and its largest error.
     pub point: CostAndError,
 }
 
-/// A user's function as it is compared.
+/// A user's function in a comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct Own {
-    /// How many numbers a material takes.
+    /// How many numbers describe a material.
     pub inputs: usize,
     /// Its cost on a GPU, and its largest error.
     pub point: CostAndError,
-    /// Whether a check fails: it is not fit for use then, wherever it stands.
+    /// Whether a check fails. It is then not fit for use, whatever its cost and error.
     pub fails: bool,
 }
 
@@ -45,24 +45,24 @@ pub struct Comparison {
     pub method: &'static str,
     /// `library` or `specialised`.
     pub form: &'static str,
-    /// How many numbers a material takes by it.
+    /// How many numbers describe a material in it.
     pub inputs: usize,
-    /// The user's cost and error over the method's, where a cost below the least that a compiler reports counts as the least.
+    /// The user's cost and error divided by the method's. A cost below the smallest that a compiler reports counts as the smallest.
     pub times: Multiples,
-    /// The user's cost, where the method costs nothing: there is no ratio then.
+    /// The user's cost where the method costs nothing, so that there is no ratio.
     cost_beside_none: Option<f64>,
 }
 
 impl Comparison {
-    /// The user's cost over the method's; none where that costs nothing.
+    /// The user's cost divided by the method's. None where the method costs nothing.
     pub fn cost_times(&self) -> Option<f64> {
         let has_ratio = self.cost_beside_none.is_none();
         has_ratio.then_some(self.times.cost)
     }
 }
 
-/// The methods that dominate a user's function: those that are far better first. Which take no more numbers than it does, and which
-/// take more: these buy what they gain, and dominate nothing.
+/// The methods that are no worse than a user's function, the best first. The first list takes no more numbers than the function
+/// does and dominates it. The second takes more, and so pays for its gain and dominates nothing.
 pub fn dominating(own: &Own, competitors: &[Competitor]) -> (Vec<Comparison>, Vec<Comparison>) {
     let all = competitors.iter().map(|other| compared(own, other));
     let mut found: Vec<Comparison> = all.filter(|other| other.times.is_dominated()).collect();
@@ -83,7 +83,7 @@ fn compared(own: &Own, competitor: &Competitor) -> Comparison {
     }
 }
 
-/// Which method dominates a user's function, or that none does; and which would with more inputs.
+/// A sentence: which method dominates a user's function, or that none does, and which would with more inputs.
 pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
     let (dominating, with_more) = dominating(own, competitors);
     let among_as_few = match dominating.first() {
@@ -104,7 +104,7 @@ pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
     among_as_few + &more.unwrap_or_default()
 }
 
-/// Where no method with as few inputs dominates it.
+/// The sentence where no method with as few inputs dominates it.
 fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
     let is_as_small = |other: &&Competitor| other.inputs <= own.inputs;
     let mut all = competitors
@@ -122,7 +122,7 @@ fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
     }
 }
 
-/// `9 times as much`, of errors and of costs; a cost stands alone where the other function has none.
+/// `9 times as much`, for errors and for costs. A cost stands alone where the other function costs nothing.
 fn multiples(other: &Comparison) -> (String, String) {
     let cost = match other.cost_beside_none {
         Some(cost) => format!("{cost}, where that costs nothing"),
@@ -148,15 +148,15 @@ fn times(share: f64) -> String {
 /// The angles that results are compared at.
 const POINTS: u16 = 64;
 
-/// Results that are nearer than this are the same: single precision, and forms that lose digits.
+/// Results that differ by less than this are the same. It allows for single precision and for forms that lose digits.
 const NEAR: f64 = 5e-5;
 
-/// An argument as another quantity, with which a function computes a method of ours.
+/// An argument bound to another quantity, with which a function computes one of our methods.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExactFit {
     /// The argument.
     pub argument: String,
-    /// What it is then.
+    /// The quantity that it is bound to.
     pub quantity: &'static str,
     /// The method that the function computes then.
     pub method: &'static str,
@@ -170,7 +170,7 @@ pub fn cosines() -> Vec<f32> {
     (1..=POINTS).map(part).collect()
 }
 
-/// The method of ours that gives these results at [`cosines`].
+/// Which of our methods gives these results at [`cosines`].
 pub fn recognised(
     results: &[[f32; 3]],
     bound: &Bound,
@@ -282,7 +282,7 @@ mod tests {
         );
     }
 
-    /// `constant_f0` costs nothing, and 44 is no multiple of that.
+    /// `constant_f0` costs nothing, so 44 is no multiple of it.
     #[test]
     fn beside_what_costs_nothing_a_cost_has_no_ratio() {
         let free = Competitor {
@@ -303,7 +303,7 @@ mod tests {
         assert_eq!(found[0].cost_times(), None);
     }
 
-    /// A function that gives no reflectance somewhere is recommended by no place on the frontier.
+    /// A place on the frontier does not recommend a function whose results are not all reflectances.
     #[test]
     fn the_frontier_says_that_a_check_fails() {
         let failing = Own {
@@ -325,7 +325,7 @@ mod tests {
         assert_eq!(names, ["fitted", "schlick"]);
     }
 
-    /// Two functions that differ in how much they are told of a material are no rivals.
+    /// Functions with different numbers of inputs are not compared as equals.
     #[test]
     fn what_takes_more_numbers_dominates_nothing_and_is_told() {
         let few = own(3, 0.09, 28.0);

@@ -17,7 +17,7 @@ pub struct Compilers {
 }
 
 impl Compilers {
-    /// Each step may take so long, however many compilers it asks.
+    /// Each step may take this long, however many compilers it asks.
     pub fn new(limit: Duration, surroundings: &Surroundings) -> Compilers {
         Compilers {
             limit,
@@ -39,7 +39,7 @@ impl Compilers {
         program: String,
     ) -> Result<Accepted, Error> {
         let request = AuditRequest::Accept(language, precision, program);
-        // No word about the text: the compiler or the machine may be at fault.
+        // This says nothing of the text: the compiler or the machine may be at fault.
         let silent = |words: String| Accepted {
             verdicts: vec![(
                 language.compiler().to_owned(),
@@ -54,7 +54,7 @@ impl Compilers {
         })
     }
 
-    /// A shader of a language as SPIR-V.
+    /// The SPIR-V of a shader in a language.
     ///
     /// # Errors
     /// No process can be started.

@@ -1,6 +1,5 @@
-//! The whole-number expressions behind `#if` and `#elif`, with macros in them.
-//!
-//! The languages that a user's function may be written in.
+//! The integer expressions after `#if` and `#elif`, with macros in them, and the languages that a user's function may be written
+//! in.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +11,10 @@ use crate::generator::emit::shader_words::{Hidden, Token, code_alone, tokens};
 use crate::language::ir::Ty;
 use crate::language::targets::{DXC, GLES, GLSL, GLSLANG, HLSL, Target, WGSL};
 
-/// What a macro stands for.
+/// A macro: its arguments and its body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Macro {
-    /// The names of its arguments; none where it takes none.
+    /// The names of its arguments. None for a macro without an argument list.
     pub params: Option<Vec<String>>,
     /// Its words.
     pub body: Vec<String>,
@@ -24,9 +23,9 @@ pub struct Macro {
 /// Macros by their names.
 pub type Macros = BTreeMap<String, Macro>;
 
-/// Signs of two characters.
+/// Operators of two characters.
 const PAIRS: [&str; 8] = ["&&", "||", "==", "!=", "<=", ">=", "<<", ">>"];
-/// Operators with two sides, the loosest first.
+/// Binary operators, the lowest precedence first.
 const LEVELS: [&[&str]; 10] = [
     &["||"],
     &["&&"],
@@ -39,12 +38,12 @@ const LEVELS: [&[&str]; 10] = [
     &["+", "-"],
     &["*", "/", "%"],
 ];
-/// How deep macros and brackets may go.
+/// The deepest nesting of macros and brackets.
 const DEPTH: usize = 64;
-/// How many words macros may grow to.
+/// The most words that macros may expand to.
 const MOST_WORDS: usize = 4096;
 
-/// The words of a line, with signs of two characters as one.
+/// The words of a line, with each operator of two characters as one word.
 pub fn words(line: &[Token]) -> Vec<String> {
     let (mut found, mut at) = (Vec::new(), 0);
     while let Some(token) = line.get(at) {
@@ -93,10 +92,10 @@ pub fn plain_macro(text: &str) -> Macro {
     }
 }
 
-/// What an expression comes to.
+/// The value of an expression.
 ///
 /// # Errors
-/// It is none, in words.
+/// It is not a valid expression; the error says why.
 pub fn condition_value(words: &[String], macros: &Macros) -> Result<i64, String> {
     let expanded = expanded(words, macros, &mut Vec::new())?;
     let mut expression = Expression {
@@ -155,7 +154,7 @@ fn expanded(
     }
 }
 
-/// The arguments in the bracket that opens here, and the place behind it.
+/// The arguments in the bracket that opens here, and the index after it.
 fn arguments(words: &[String], open: usize) -> Option<(Vec<Vec<String>>, usize)> {
     words.get(open).filter(|word| *word == "(")?;
     let (mut all, mut depth) = (vec![Vec::new()], 0usize);
@@ -187,7 +186,7 @@ fn substituted(body: &[String], params: &[String], arguments: &[Vec<String>]) ->
     all
 }
 
-/// Words that are read from left to right.
+/// A parser of words from left to right.
 struct Expression<'a> {
     words: &'a [String],
     at: usize,
@@ -256,7 +255,8 @@ impl Expression<'_> {
     }
 }
 
-/// What two numbers come to. GLSL's compilers compute in 32 bits and others in 64: where that could decide, nothing is decided.
+/// The result of a binary operator. GLSL's compilers compute in 32 bits and others in 64. Where that could change the result, it
+/// is an error.
 fn combined(operator: &str, a: i64, b: i64) -> Result<i64, String> {
     let is_wide = |x: i64| i32::try_from(x).is_err();
     let compares = ["<", ">", "<=", ">="].contains(&operator);
@@ -310,7 +310,7 @@ fn number(word: &str) -> Option<i64> {
     }
 }
 
-/// A language of functions that users bring.
+/// A language of users' functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Language {
     /// WGSL.
@@ -321,11 +321,11 @@ pub enum Language {
     Glsl,
     /// HLSL.
     Hlsl,
-    /// Slang, run as HLSL is.
+    /// Slang, run like HLSL.
     Slang,
 }
 
-/// Endings of files.
+/// File extensions.
 const ENDINGS: [(&str, Language); 20] = [
     ("wgsl", Language::Wgsl),
     ("glsl", Language::Gles),
@@ -350,7 +350,7 @@ const ENDINGS: [(&str, Language); 20] = [
 ];
 
 impl Language {
-    /// All of them by their names on the command line; one has two.
+    /// The languages by their names on the command line. `Gles` has two, and `Glsl` has none.
     pub const NAMED: [(&'static str, Language); 5] = [
         ("wgsl", Language::Wgsl),
         ("glsl", Language::Gles),
@@ -359,7 +359,7 @@ impl Language {
         ("slang", Language::Slang),
     ];
 
-    /// The compiler beside us that is asked about it.
+    /// The independent compiler that is asked about it.
     pub fn compiler(self) -> &'static str {
         match self {
             Language::Wgsl => "tint",
@@ -369,10 +369,10 @@ impl Language {
         }
     }
 
-    /// The language that the file's ending tells.
+    /// The language of a file, by its extension.
     ///
     /// # Errors
-    /// The ending tells nothing.
+    /// The extension is not that of a language.
     pub fn of_file(file: &str) -> Result<Language, Error> {
         let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
@@ -394,7 +394,7 @@ impl Language {
         }
     }
 
-    /// Its name in reports: that of its target, or its own.
+    /// Its name in reports: that of its target, or its own where it is no target.
     pub fn name(self) -> &'static str {
         match self {
             Language::Slang => "slang",
@@ -412,7 +412,7 @@ impl Language {
         self != Language::Wgsl
     }
 
-    /// How it writes one number, or three.
+    /// Its name for a type of one number or three.
     pub fn ty(self, ty: Ty) -> &'static str {
         match (self, ty == Ty::Rgb) {
             (Language::Wgsl, false) => "f32",
@@ -425,7 +425,7 @@ impl Language {
     }
 }
 
-/// The version of GLSL that a text states, where it is one of the desktop.
+/// The version of GLSL that a text states, where it is a desktop version.
 pub fn desktop_version(text: &str) -> Option<u32> {
     let code = bare(text, false);
     let line = code.lines().find(|line| !line.trim().is_empty())?;
@@ -435,8 +435,8 @@ pub fn desktop_version(text: &str) -> Option<u32> {
     (version != 100 && words.next() != Some("es")).then_some(version)
 }
 
-/// A user's text without comments, and without directives where those are to be passed over. A comment in a comment is passed
-/// over in every language: where its end is not clear the text is refused before.
+/// A user's text without comments, and without directives if `directives` says so. Nested comments are skipped in every language:
+/// where their end is not clear, the text has been refused already.
 pub fn bare(text: &str, directives: bool) -> String {
     let nests = true;
     code_alone(text, Hidden { directives, nests })
@@ -483,7 +483,7 @@ mod tests {
             let value = condition_value(&words(&tokens(text)), &Macros::new());
             assert!(value.is_err(), "{text}");
         }
-        // GLSL's compilers take the first for less than 0, and C's do not.
+        // To GLSL's compilers the first is less than 0, to C's it is not.
         for text in ["(1 << 31) < 0", "0x80000000 < 0", "65536 * 65536"] {
             let value = condition_value(&words(&tokens(text)), &Macros::new());
             assert!(value.unwrap_err().contains("beyond 32 bits"), "{text}");

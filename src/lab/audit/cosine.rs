@@ -1,13 +1,13 @@
-//! Which argument of a user's function is the cosine, or stands for it: the angle, a sine, a square.
+//! Finds which argument of a user's function is the cosine, or stands for it: the angle, a sine, a square.
 //!
-//! The function is run over cosines, and an argument that is another thing gets that of each cosine. A name tells what it is, and the
-//! function itself where it takes the cosine of it, or one minus it. What neither tells is asked for.
+//! The function is run over cosines. An argument of another form gets its value for each cosine. The form is known from the name,
+//! or from the body where that takes the argument's cosine, or one minus it. Where neither tells, the user is asked.
 
 use super::quantity::{meanings, plain};
 use super::scan::{FoundFunction, NumberShape, behind};
 use crate::generator::emit::shader_words::Token;
 
-/// What an argument is of the angle of incidence.
+/// The quantity of the angle of incidence that an argument takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CosineForm {
     /// Its cosine.
@@ -22,14 +22,14 @@ pub enum CosineForm {
     SineSquared,
     /// The angle itself.
     Angle,
-    /// The same in degrees.
+    /// The angle in degrees.
     Degrees,
 }
 
 use CosineForm::{Angle, Cosine, Degrees, OneMinus, Sine, SineSquared, Squared};
 
 impl CosineForm {
-    /// All of them, as `--arg` takes them.
+    /// All forms by the names that `--arg` takes.
     pub const NAMED: [(&'static str, CosineForm); 7] = [
         ("cos", Cosine),
         ("1-cos", OneMinus),
@@ -40,7 +40,7 @@ impl CosineForm {
         ("degrees", Degrees),
     ];
 
-    /// That of a name.
+    /// The form of this name.
     pub fn find(name: &str) -> Option<CosineForm> {
         let found = CosineForm::NAMED.iter().find(|(own, _)| *own == name);
         found.map(|(_, form)| *form)
@@ -52,7 +52,7 @@ impl CosineForm {
         found.map_or("", |(name, _)| name)
     }
 
-    /// In words, behind `taken as`.
+    /// In words, to follow `taken as`.
     pub fn words(self) -> &'static str {
         match self {
             Cosine => "the cosine",
@@ -65,7 +65,7 @@ impl CosineForm {
         }
     }
 
-    /// What it is for a cosine. What lies above 1 has no angle, so that only cosines themselves go beyond.
+    /// The value of this form for a cosine. A cosine above 1 has no angle, so only cosines themselves exceed 1.
     pub fn value_at(self, cosine: f32) -> f32 {
         if self == Cosine {
             return cosine;
@@ -84,7 +84,7 @@ impl CosineForm {
     }
 }
 
-/// Names that mean the cosine, in small letters without `_`.
+/// Names that mean the cosine, in lower case without `_`.
 const COSINES: [&str; 48] = [
     "costheta",
     "costhetai",
@@ -139,7 +139,7 @@ const COSINES: [&str; 48] = [
 /// Names that mean the sine.
 const SINES: [&str; 6] = ["sin", "sine", "sini", "sinth", "sintheta", "sinthetai"];
 
-/// Names that say an angle. Many call a cosine so too.
+/// Names that mean an angle. Many authors give them to a cosine too.
 const ANGLES: [&str; 20] = [
     "theta",
     "thetai",
@@ -163,14 +163,14 @@ const ANGLES: [&str; 20] = [
     "alphai",
 ];
 
-/// Ends of names of squares.
+/// Suffixes of names of squares.
 const SQUARES: [&str; 5] = ["2", "sq", "sqr", "sqrd", "squared"];
 
-/// What a name says of an argument.
+/// The meaning of an argument's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NameMeaning {
     Is(CosineForm),
-    /// An angle, or what is called one.
+    /// An angle, or a cosine that is called one.
     AnAngle,
 }
 
@@ -210,16 +210,16 @@ fn name_meaning(name: &str) -> Option<NameMeaning> {
     }
 }
 
-/// Whether a name says what the argument is of the angle.
+/// Whether a name says that the argument is a quantity of the angle.
 pub fn is_named(name: &str) -> bool {
     name_meaning(name).is_some()
 }
 
-/// What a function's body tells of an argument: it takes the cosine of it, or one minus it.
+/// What a function's body shows of an argument: it takes its cosine, or one minus it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Use {
     As(CosineForm),
-    /// The cosine of what is computed from it: in degrees, or of another angle.
+    /// The body takes the cosine of something computed from it: an angle in degrees, or another angle.
     Unclear,
 }
 
@@ -270,16 +270,16 @@ fn used_as(name: &str, body: &[Token]) -> Option<Use> {
 /// The argument that is the cosine, or stands for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CosineArgument {
-    /// Its place.
+    /// Its index.
     pub place: usize,
-    /// What it is; none where that is not clear.
+    /// Its form. None where that is not clear.
     pub form: Option<CosineForm>,
-    /// Whether nothing but its being left says so.
+    /// Whether it was chosen only because no other argument is left.
     pub is_alone: bool,
 }
 
 impl CosineArgument {
-    /// What an argument of this name is taken as, where the name does not say so.
+    /// What an argument of this name is taken as, in words, where the name does not say so.
     pub fn words(&self, form: CosineForm, name: &str) -> Option<String> {
         let says = form == Cosine && !self.is_alone && is_named(name);
         let alone = if self.is_alone {
@@ -291,7 +291,7 @@ impl CosineArgument {
     }
 }
 
-/// The cosine among the arguments that have no value: by its name, or what alone is left. None where it is not clear which it is.
+/// The cosine among the arguments that have no value: found by its name, or the only one left. None where that is not clear.
 pub fn cosine(
     function: &FoundFunction,
     has_value: &[bool],
@@ -300,7 +300,7 @@ pub fn cosine(
     let is_open =
         |place: &usize| !has_value[*place] && function.params[*place].shape == NumberShape::Scalar;
     let meaning = |place: &usize| name_meaning(&function.params[*place].name);
-    // What is named as something else of the material is asked for.
+    // An argument whose name means a quantity of the material is asked for.
     let may_be = |place: &usize| {
         meaning(place).is_some() || meanings(&function.params[*place].name, function).is_empty()
     };
@@ -316,7 +316,7 @@ pub fn cosine(
     };
     let used = used_as(&function.params[place].name, body);
     let form = match (meaning(&place), used) {
-        // The name says a cosine, and the function takes the cosine of it.
+        // The name means a cosine, but the function takes the cosine of it.
         (Some(NameMeaning::Is(Cosine)), Some(Use::As(Angle | Degrees))) => None,
         (Some(NameMeaning::Is(form)), _) => Some(form),
         (_, Some(Use::As(form))) => Some(form),

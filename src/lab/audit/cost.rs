@@ -1,7 +1,5 @@
-//! What a user's function costs by the compilers of GPUs, measured as for our functions: what further evaluations in a chain
-//! add, less what they add for the empty function.
-//!
-//! What a user's function costs on a family of GPUs, as the report has it.
+//! The cost of a user's function by the compilers of GPUs, and its form in the report. It is measured as for our functions: what
+//! further evaluations in a chain add, less what they add for the empty function.
 
 use core::time::Duration;
 
@@ -22,7 +20,7 @@ use crate::lab::verify::naga_translation;
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
 
-/// Asks the compiler of a family.
+/// Measures the cost of a program with the compiler of a family.
 ///
 /// # Errors
 /// No process can be started.
@@ -69,7 +67,7 @@ fn absent(family: &Family, surroundings: &Surroundings) -> String {
     }
 }
 
-/// The shaders with both chains of the function and of the empty one, as the worker takes them.
+/// The shaders with the short and the long chain of the function and of the empty one, in the form that the worker takes.
 fn shaders(
     program: &AuditProgram,
     dialect: Dialect,
@@ -98,9 +96,9 @@ fn shaders(
 
 /// A shader that is measured.
 enum MeasuredShader {
-    /// As the worker takes it.
+    /// In the form that the worker takes.
     Ready(FragmentShader),
-    /// As a compiler makes a module of it.
+    /// A text from which a compiler makes a module.
     Foreign(Language, String),
 }
 
@@ -117,7 +115,7 @@ fn module(made: Result<Vec<u8>, CompilerFault>) -> Result<FragmentShader, String
     Ok(FragmentShader::Module(module))
 }
 
-/// What stands before GLSL ES that may leave precision to the program around it.
+/// Precedes GLSL ES that may leave its precision to the program around it.
 const PRECISION: &str = "precision highp float;\n";
 
 fn shader(
@@ -166,7 +164,7 @@ fn shader(
     }
 }
 
-/// What the chain itself costs: around the empty function with a result of as many channels.
+/// The chain around the empty function with a result of as many channels, for the cost of the chain itself.
 fn empty(
     program: &AuditProgram,
     dialect: Dialect,
@@ -218,7 +216,7 @@ fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<MeasuredS
     }
 }
 
-/// Arguments as our own shaders have them: naga puts them in a block, which is read from memory.
+/// Moves arguments out of the block in which naga puts them, which is read from memory, into the form of our own shaders.
 fn unblocked(text: &str) -> String {
     let line = |line: &str| {
         let inside = line
@@ -231,7 +229,7 @@ fn unblocked(text: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What a function costs on a family of GPUs, or why that is not known.
+/// The cost of a function on a family of GPUs, or why it is not known.
 #[derive(Clone, Debug, Serialize)]
 #[serde(into = "AuditCostJson")]
 pub struct AuditCost {
@@ -239,7 +237,7 @@ pub struct AuditCost {
     pub family: &'static Family,
     /// The compiler with its version, where one was asked.
     pub compiler: Option<String>,
-    /// What is known, or why nothing is.
+    /// The figures, or why there are none.
     pub figures: Result<CostFigures, String>,
 }
 

@@ -1,13 +1,13 @@
-//! The preprocessor in a user's text: which directives it may hold, and which macros. What could read another file, or give the
-//! audited function another meaning, is refused before any compiler sees it.
+//! Checks the directives and macros of a user's text. Those that could read another file, or give the audited function another
+//! meaning, are refused before any compiler sees them.
 //!
-//! Comments are passed over before this, and lines that go on behind their end are refused before it. So a directive is what
-//! begins a line with `#`, and a `#` anywhere else is refused.
+//! Comments have been removed by then, and continued lines have been refused. So a directive is a line that begins with `#`, and
+//! a `#` anywhere else is refused.
 
 use super::condition::bare;
 use crate::generator::emit::shader_words::{Token, tokens};
 
-/// Directives that read no file. Includes, imports, embeds and what else a compiler knows are not among them.
+/// Directives that read no file. Includes, imports, embeds and any others of a compiler are not among them.
 const ALLOWED: [&str; 13] = [
     "define",
     "undef",
@@ -24,7 +24,7 @@ const ALLOWED: [&str; 13] = [
     "extension",
 ];
 
-/// Pragmas that read no file and run nothing: of GLSL, and of HLSL.
+/// Pragmas of GLSL and HLSL that read no file and run nothing.
 const PRAGMAS: [&str; 8] = [
     "optimize",
     "debug",
@@ -36,7 +36,7 @@ const PRAGMAS: [&str; 8] = [
     "def",
 ];
 
-/// A fault in a text: line, column, what.
+/// A fault in a text: line, column, message.
 pub type TextFault = (usize, usize, String);
 
 /// The first thing in a text that could read another file, or be read in two ways.
@@ -46,7 +46,7 @@ pub fn fault(text: &str) -> Option<TextFault> {
     each_line(&tokens).find_map(|line| directive(line).or_else(|| line.windows(2).find_map(pair)))
 }
 
-/// The directive that gives or takes a meaning of this name.
+/// The directive that defines or undefines this name.
 pub fn redefinition(text: &str, name: &str) -> Option<TextFault> {
     let code = bare(text, false);
     let tokens = tokens(&code);
@@ -123,7 +123,8 @@ fn directive(line: &[Token]) -> Option<TextFault> {
     }
 }
 
-/// What is wrong with two neighbours, or with the first of them: signs that compilers read as others, and questions about files.
+/// What is wrong with two neighbouring tokens, or with the first of them: characters that compilers read as others, and tests for
+/// files.
 fn pair(pair: &[Token]) -> Option<TextFault> {
     let [first, second] = pair else { return None };
     let together = first.column + first.text.chars().count() == second.column;

@@ -1,4 +1,4 @@
-//! Where functions of reflectance fail first: the ends of the domain, their neighbours, and what lies beyond.
+//! The cosines at which reflectance functions fail first: the ends of the domain, their neighbours, and values beyond.
 
 use core::cell::RefCell;
 
@@ -9,11 +9,11 @@ use crate::lab::stability::Failure;
 /// A cosine that occurs in rendering, if only by rounding.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
-    /// In reports.
+    /// Its name in reports.
     pub name: &'static str,
-    /// Its bits.
+    /// Its bits as f32.
     bits: u32,
-    /// Whether a result that is no reflectance is a finding. Outside the domain, failures are reported but not counted.
+    /// Whether a result that is not a reflectance is a finding. Outside the domain failures are reported but not counted.
     counts: bool,
 }
 
@@ -21,7 +21,7 @@ const fn edge(name: &'static str, bits: u32, counts: bool) -> Edge {
     Edge { name, bits, counts }
 }
 
-/// All of them.
+/// All edges.
 pub const EDGES: [Edge; 12] = [
     edge("0", 0, true),
     edge("-0", 0x8000_0000, true),
@@ -40,12 +40,12 @@ pub const EDGES: [Edge; 12] = [
 /// How far beyond [0, 1] rounding may bring a result.
 const ROUNDING: f32 = 1e-6;
 
-/// What is wrong with a result as a reflectance; nothing where it is one.
+/// Why a result is not a reflectance. None where it is one.
 fn fault(rgb: [f32; 3], most: [f32; 3]) -> Option<&'static str> {
     Failure::of_result(rgb, most, ROUNDING)?.predicate()
 }
 
-/// Three numbers for people; a sign of zero is told.
+/// Three numbers for people. The sign of a zero is shown.
 pub fn shown([r, g, b]: [f32; 3]) -> String {
     if r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits() {
         format!("{r:?}")
@@ -54,12 +54,12 @@ pub fn shown([r, g, b]: [f32; 3]) -> String {
     }
 }
 
-/// What came at an edge.
+/// The result at an edge.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct EdgeRow {
     /// The cosine, in words.
     pub cos_theta: &'static str,
-    /// Each channel; none where it is not finite.
+    /// The result in each channel. None where it is not finite.
     pub result: [Option<f64>; 3],
     /// Whether a fault there is a finding.
     pub counts: bool,
@@ -67,14 +67,14 @@ pub struct EdgeRow {
     pub fault: Option<&'static str>,
 }
 
-/// The edges as they came out.
+/// The results at the edges.
 #[derive(Clone, Debug, Default)]
 pub struct Edges {
-    /// A row each.
+    /// A row for each edge.
     pub rows: Vec<EdgeRow>,
-    /// What is wrong.
+    /// The faults within the domain.
     pub findings: Vec<String>,
-    /// What lies beyond the domain, where it is no reflectance.
+    /// The faults beyond the domain.
     pub remarks: Vec<String>,
 }
 
@@ -83,7 +83,7 @@ pub fn cosines() -> Vec<f32> {
     EDGES.iter().map(|edge| f32::from_bits(edge.bits)).collect()
 }
 
-/// Looks at the results of all edges.
+/// Judges the results at all edges.
 pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
     let mut edges = Edges::default();
     for (edge, rgb) in EDGES.iter().zip(results) {
@@ -108,14 +108,14 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
     edges
 }
 
-/// The first result between the edges that is no reflectance, and how many there are.
+/// The first result between the edges that is not a reflectance, and how many there are.
 #[derive(Debug)]
 pub struct FaultBetweenEdges {
     most: [f32; 3],
     first: RefCell<Option<FirstFault>>,
 }
 
-/// The first of its kind.
+/// The first fault, with the number of all.
 #[derive(Clone, Copy, Debug)]
 struct FirstFault {
     cosine: f32,
@@ -125,7 +125,7 @@ struct FirstFault {
 }
 
 impl FaultBetweenEdges {
-    /// Nothing is seen yet.
+    /// A search that has seen no results yet.
     pub fn new(most: [f32; 3]) -> FaultBetweenEdges {
         FaultBetweenEdges {
             most,
@@ -133,7 +133,7 @@ impl FaultBetweenEdges {
         }
     }
 
-    /// Looks at results. The ends are edges, and told there.
+    /// Checks results. The ends are skipped, since they are edges.
     pub fn look(&self, cosines: &[f32], results: &[[f32; 3]]) {
         let mut first = self.first.borrow_mut();
         for (cosine, rgb) in cosines.iter().zip(results) {
@@ -151,7 +151,7 @@ impl FaultBetweenEdges {
         }
     }
 
-    /// What was seen, for people.
+    /// The finding, in words.
     pub fn finding(&self) -> Option<String> {
         let FirstFault {
             cosine,

@@ -1,6 +1,5 @@
-//! Why a user's function cannot be audited: each message names the file or the flag, the fault, and what is allowed.
-//!
-//! Messages of compilers, with the place in the user's file before them.
+//! Why a user's function cannot be audited, and compilers' messages with the place in the user's file before them. Each error
+//! names the file or the flag, the fault, and what is allowed.
 
 use thiserror::Error;
 
@@ -25,7 +24,7 @@ pub enum Error {
     /// A function of ours cannot be written.
     #[error(transparent)]
     Emit(#[from] emit::Error),
-    /// The ending of the file's name is none of a language's.
+    /// The file's extension is not that of a language.
     #[error(
         "{}: its ending does not tell a language; say --language wgsl, glsl, hlsl or slang",
         Foreign(file)
@@ -34,7 +33,7 @@ pub enum Error {
         /// The file.
         file: String,
     },
-    /// A value that is not of the form that values have.
+    /// A value in the wrong form.
     #[error(
         "--arg {}: {fault}; it is name=number, name=number,number,number, name=quantity, or name=cos for the cosine{}",
         Foreign(word),
@@ -63,7 +62,7 @@ pub enum Error {
         /// The file.
         file: String,
     },
-    /// None of its functions can be one of reflectance.
+    /// None of its functions can be a reflectance function.
     #[error(
         "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out; --function NAME says of one why",
         Foreign(file)
@@ -72,7 +71,7 @@ pub enum Error {
         /// The file.
         file: String,
     },
-    /// Several of its functions can be one of reflectance, and none is named, or several have the name.
+    /// Several of its functions can be reflectance functions and none is named, or several have the name.
     #[error("{}: it holds {} functions; say which with --function: {}", Foreign(file), names.len(), one_line(&names.join(", ")))]
     SeveralFunctions {
         /// The file.
@@ -80,7 +79,7 @@ pub enum Error {
         /// Their names.
         names: Vec<String>,
     },
-    /// The line behind the function's name is another.
+    /// The line given after the function's name holds no function of that name.
     #[error(
         "{}: there is no function `{}` in line `{}`; there are {}",
         Foreign(file),
@@ -104,10 +103,10 @@ pub enum Error {
         Foreign(word)
     )]
     Define {
-        /// The word behind the flag.
+        /// The word after the flag.
         word: String,
     },
-    /// The function reads something that no value can be given for.
+    /// The function reads something for which no value can be given.
     #[error("{place}: line {line}: {}", one_line(why))]
     Unread {
         /// The function, with its place in the file.
@@ -117,7 +116,7 @@ pub enum Error {
         /// What it reads.
         why: String,
     },
-    /// The named function cannot be one of reflectance.
+    /// The named function cannot be a reflectance function.
     #[error(
         "{place}: {}; arguments and result are one number or three (float, vec3), the cosine is one",
         one_line(why)
@@ -142,7 +141,7 @@ pub enum Error {
         /// The argument.
         argument: String,
     },
-    /// What is to be the cosine is no single number.
+    /// The argument given as the cosine is not a single number.
     #[error(
         "{place}: --arg {}={form}: it is no argument of one number",
         Foreign(argument)
@@ -152,10 +151,10 @@ pub enum Error {
         place: FunctionPlace,
         /// The argument.
         argument: String,
-        /// What it is to be.
+        /// The form that it was given.
         form: &'static str,
     },
-    /// It is a member of a type, and not a static one.
+    /// The function is a member of a type, and not static.
     #[error(
         "{place}: it is a function of objects of `{}`, which a cosine does not make: let it be `static`, or write a function that makes the object and calls it",
         Foreign(ty)
@@ -184,7 +183,7 @@ pub enum Error {
         /// Which argument is the cosine.
         cosine: MissingCosine,
     },
-    /// Something in the text that no program can be made of.
+    /// The text holds something that prevents making a program of it.
     #[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
     Text {
         /// The file.
@@ -201,7 +200,7 @@ pub enum Error {
 /// What is wrong with a value.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ValueFault {
-    /// Nothing tells the name from the value.
+    /// There is no `=` between a name and a value.
     #[error("it has no `=`")]
     NoName,
     /// A number cannot be read.
@@ -215,14 +214,14 @@ pub enum ValueFault {
     Count(usize),
 }
 
-/// Which argument is the cosine, where others have no value.
+/// Which argument is the cosine, when others have no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MissingCosine {
     /// It is known.
     Known,
-    /// It may be the one of this place among those without a value.
+    /// It may be the one with this index among those without a value.
     Likely(u32),
-    /// None can be.
+    /// No argument can be.
     Absent,
 }
 
@@ -235,7 +234,7 @@ pub struct MissingArgument {
     pub quantity: Option<&'static str>,
     /// Whether the material has three values for it, and it takes one.
     pub is_one_of_three: bool,
-    /// The line of its declaration, where it is no argument and is read from outside of the function.
+    /// The line of its declaration, where it is not an argument but is read from outside of the function.
     pub line: Option<usize>,
 }
 
@@ -270,7 +269,7 @@ pub struct FunctionPlace {
 }
 
 impl Error {
-    /// Whether the machine lacks something; otherwise the user's words or text are at fault.
+    /// Whether the machine lacks something. Otherwise the user's flags or text are at fault.
     pub fn is_lacking(&self) -> bool {
         matches!(self, Error::Process(error) if error.is_lacking())
     }
@@ -290,7 +289,7 @@ fn lines_words(name: &str, lines: &[String]) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-/// What `--arg` takes for an argument that stands for the cosine.
+/// The other forms that `--arg` takes for the cosine's argument.
 fn other_forms() -> String {
     let names = CosineForm::NAMED[1..].iter().map(|(name, _)| *name);
     names.collect::<Vec<_>>().join(", ")
@@ -333,7 +332,7 @@ pub fn placed(file: &str, lines: usize, words: &str) -> String {
         return format!("{file}: {}", words.trim_end());
     };
     let all: Vec<&str> = words.lines().collect();
-    // naga says what is wrong in the line before the place.
+    // naga puts the message in the line before the place.
     let is_arrow = all[i].contains("┌─") || all[i].trim_start().starts_with("-->");
     let said = if is_arrow && i > 0 {
         all[i - 1]
@@ -343,13 +342,13 @@ pub fn placed(file: &str, lines: usize, words: &str) -> String {
     let said = message(said);
     let column = column.map_or(String::new(), |column| format!("{column}:"));
     if line > lines {
-        // What is open at the end is noticed in what stands behind it.
+        // What is unclosed at the end is reported in the code after it.
         return format!("{file}:{}: at the end of the file: {said}", lines.max(1));
     }
     format!("{file}:{line}:{column} {said}")
 }
 
-/// Whether a compiler's words name a place in the text: others may be about the compiler, or the machine.
+/// Whether a compiler's message names a place in the text. Others may be about the compiler or the machine.
 pub fn names_place(words: &str) -> bool {
     words.lines().any(|line| place(line).is_some())
 }
@@ -385,7 +384,7 @@ fn number(text: &str) -> Option<usize> {
     text[..end.unwrap_or(text.len())].parse().ok()
 }
 
-/// What is wrong, without the place before it.
+/// A compiler's message without the place before it.
 fn message(line: &str) -> &str {
     let heads = ["error:", "ERROR:"];
     let found = heads

@@ -1,5 +1,5 @@
-//! What a function takes that is no argument: uniforms, members of blocks, variables that the shader's other stages or its host set.
-//! Each number among them needs a value, as an argument does; what no number stands for is named and refused.
+//! The inputs of a function that are not arguments: uniforms, members of blocks, and variables set by other shader stages or the
+//! host. Each number among them needs a value, as an argument does. An input that is not made of numbers is named and refused.
 
 use std::collections::BTreeMap;
 
@@ -13,20 +13,20 @@ use crate::generator::emit::shader_words::tokens;
 /// A number, or three, that a function reads from outside of itself.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct HiddenInput {
-    /// How the text names it: `water.bias`, `params.x`.
+    /// Its name in the text: `water.bias`, `params.x`.
     pub path: String,
     /// The line where it is declared.
     pub line: usize,
     /// Whether it is three numbers.
     pub is_rgb: bool,
-    /// The type that a number is converted to, where it is none of a real number.
+    /// The type that the number is converted to, where that is not a floating-point type.
     pub cast: Option<String>,
     /// The namespaces that it stands in.
     pub scope: Vec<String>,
 }
 
 impl HiddenInput {
-    /// How many numbers it is.
+    /// Its shape: one number or three.
     pub fn shape(&self) -> NumberShape {
         if self.is_rgb {
             NumberShape::Rgb
@@ -35,7 +35,7 @@ impl HiddenInput {
         }
     }
 
-    /// The places that it is assigned to, with the channel of the value that goes there.
+    /// The variables that it is assigned to, each with the channel of the value.
     pub fn places(&self) -> Vec<(String, &'static str)> {
         let around = self.scope.iter().filter(|name| !name.is_empty());
         let around: String = around.map(|name| format!("{name}::")).collect();
@@ -48,7 +48,7 @@ impl HiddenInput {
     }
 }
 
-/// Why there is no number for what is read, with the line of that.
+/// The line of a read, and why no number can stand for it.
 pub type UnreadFault = (usize, String);
 
 /// The types that a text declares.
@@ -59,7 +59,7 @@ pub struct DeclaredTypes<'a> {
 }
 
 impl<'a> DeclaredTypes<'a> {
-    /// Those among parts.
+    /// The types among these parts.
     pub fn new(parts: &'a [Part], names: &'a TypeNames) -> DeclaredTypes<'a> {
         let types = parts.iter().filter_map(|part| match &part.kind {
             PartKind::Type(name, members, _) if !members.is_empty() => {
@@ -73,10 +73,10 @@ impl<'a> DeclaredTypes<'a> {
         }
     }
 
-    /// The numbers of a variable that a use of it takes.
+    /// The numbers of a variable that a use of it reads.
     ///
     /// # Errors
-    /// What it takes is no number.
+    /// It reads something that is not a number.
     pub fn numbers(
         &self,
         variable: &Variable,
@@ -92,10 +92,10 @@ impl<'a> DeclaredTypes<'a> {
         Ok(found)
     }
 
-    /// The numbers of the members of a block that is read by a name.
+    /// The numbers that a use reads of the members of a named block.
     ///
     /// # Errors
-    /// What is read is no number.
+    /// It reads something that is not a number.
     pub fn numbers_of_members(
         &self,
         members: &[Variable],
@@ -182,7 +182,7 @@ impl<'a> DeclaredTypes<'a> {
         }
     }
 
-    /// A type without its precision, and what numbers it is.
+    /// A type without its precision, and its numbers.
     fn number_type(&self, written: &str) -> (String, Option<NumberType>) {
         let written = tokens(held(written));
         let words = self.names.replaced(&written);
@@ -210,7 +210,7 @@ impl<'a> DeclaredTypes<'a> {
     }
 }
 
-/// What a type of a buffer holds: `ConstantBuffer < T >`.
+/// The type that a buffer's type holds: `T` of `ConstantBuffer < T >`.
 pub fn held(ty: &str) -> &str {
     let inside = ["ConstantBuffer", "ParameterBlock"]
         .iter()
@@ -220,22 +220,22 @@ pub fn held(ty: &str) -> &str {
     inside.map_or(ty, str::trim)
 }
 
-/// Longer names of members than this are those of types that hold themselves.
+/// A longer name of a member means that a type contains itself.
 const LONGEST: usize = 400;
 
-/// A variable on the way to its numbers.
+/// A variable whose numbers are being collected.
 struct Walk<'a> {
     root: &'a Variable,
     line: usize,
     is_indexed: bool,
 }
 
-/// What numbers a type is.
+/// The numbers of a type.
 enum NumberType {
-    /// One; with the type that it is converted to.
+    /// One, with the type that it is converted to.
     One(Option<String>),
     Three,
-    /// Two or four, each by itself; the first three of four may be a colour.
+    /// Two or four separate numbers. The first three of four may be a colour.
     Components(usize),
 }
 
@@ -254,7 +254,7 @@ fn components(count: usize, swizzle: Option<&str>) -> Vec<&'static str> {
     }
 }
 
-/// Numbers in order, each once: a colour stands for its components.
+/// Numbers in order, each once. A colour stands for its components.
 pub fn distinct(mut all: Vec<HiddenInput>) -> Vec<HiddenInput> {
     all.sort_by(|a, b| (a.line, &a.path).cmp(&(b.line, &b.path)));
     all.dedup();

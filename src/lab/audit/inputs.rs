@@ -1,6 +1,5 @@
-//! The inputs of a function from outside: which need a value, and the text in which they are variables that our function sets.
-//!
-//! What arguments are given before the material is asked: by the user with `--arg`, or by the text as a default.
+//! The inputs of a function: those from outside, and the values given to arguments before the material is asked, by the user with
+//! `--arg` or by the text as a default. Inputs from outside that need a value become variables that our function sets.
 
 use std::collections::BTreeSet;
 
@@ -30,13 +29,13 @@ pub struct Initialised {
 }
 
 impl Initialised {
-    /// For people.
+    /// In words, for people.
     pub fn words(&self) -> String {
         format!("{} = {} (line {})", self.name, self.value, self.line)
     }
 }
 
-/// The inputs of what is reached.
+/// What the inputs of a function are found from.
 pub struct Inputs<'a> {
     /// The language.
     pub language: Language,
@@ -48,9 +47,9 @@ pub struct Inputs<'a> {
     pub words: &'a [Token<'a>],
     /// Its parts.
     pub parts: &'a [Part],
-    /// What the function needs.
+    /// The parts that the function needs.
     pub reached: &'a Reached,
-    /// The names that values are given for.
+    /// The names with given values.
     pub given: &'a [&'a str],
 }
 
@@ -74,7 +73,7 @@ impl Inputs<'_> {
         }
     }
 
-    /// Whether a variable is set before anything reads it: by each function that reads it, or by the audited one.
+    /// Whether a variable is set before it is read, either by each function that reads it or by the audited one.
     fn is_set_first(&self, variable: &Variable) -> bool {
         let (uses, start) = (&self.reached.uses, self.reached.start);
         let is_it = |one: &&Use| one.name == variable.name;
@@ -94,7 +93,7 @@ impl Inputs<'_> {
             }
             readers.extend(callers);
         }
-        // Its head has its own name.
+        // A function's head holds its own name.
         let is_read = readers.remove(&start);
         let mut own = uses.iter().filter(|one| one.part == start);
         !is_read
@@ -106,7 +105,7 @@ impl Inputs<'_> {
     /// The numbers that are read and have no value.
     ///
     /// # Errors
-    /// No number stands for what is read.
+    /// Something that is read is not made of numbers.
     pub fn numbers(&self) -> Result<Vec<HiddenInput>, UnreadFault> {
         let types = DeclaredTypes::new(self.parts, self.names);
         let mut all = Vec::new();
@@ -136,7 +135,7 @@ impl Inputs<'_> {
         Ok(distinct(all))
     }
 
-    /// Refuses a variable that is computed from an input before our function has set it.
+    /// Refuses a global variable that is computed from an input before our function has set that input.
     fn check_order(&self, used: &Use) -> Result<(), UnreadFault> {
         let Some(place) = used.by_global else {
             return Ok(());
@@ -151,7 +150,7 @@ impl Inputs<'_> {
         ))
     }
 
-    /// The text of all that is reached, and the inputs whose values the text gives.
+    /// The text of all parts that are reached, and the inputs whose values the text gives.
     pub fn pieces(&self, numbers: &[HiddenInput]) -> (Vec<Piece>, Vec<Initialised>) {
         let (mut pieces, mut initialised) = (Vec::new(), Vec::new());
         for place in &self.reached.parts {
@@ -175,7 +174,7 @@ impl Inputs<'_> {
                     let members: String = members.iter().map(member).collect();
                     format!("struct {name} {{ {members}}}; {name} {instance};")
                 }
-                // It names a namespace of which nothing else may be left.
+                // It names a namespace that may be empty by now.
                 PartKind::Setting if first.text == "using" => {
                     let words = &self.words[part.start + 2..part.end];
                     let names = words.iter().filter(|word| word.is_word());
@@ -198,7 +197,7 @@ impl Inputs<'_> {
         self.reached.uses.iter().any(|one| one.name == name)
     }
 
-    /// Whether its declaration is not left as it stands: something else sets it, or a value is given for it.
+    /// Whether its declaration is rewritten, because something else sets it or a value is given for it.
     fn is_rewritten(&self, variable: &Variable) -> bool {
         let is_given = variable.value.is_some() && self.is_open(variable);
         variable.storage == Storage::Input || is_given
@@ -221,7 +220,7 @@ impl Inputs<'_> {
         })
     }
 
-    /// An input as a variable that the text keeps.
+    /// The declaration of an input as an ordinary variable of the text.
     fn declaration(&self, variable: &Variable) -> String {
         let Variable { ty, name, .. } = variable;
         let value = variable.value.filter(|_| !self.is_open(variable));
@@ -271,7 +270,7 @@ impl Inputs<'_> {
     }
 }
 
-/// A text in the namespaces that it stands in.
+/// A text enclosed in its namespaces.
 fn scoped(scope: &[String], text: String) -> String {
     let within = |text, name: &String| format!("namespace {name} {{ {text} }}");
     scope.iter().rev().fold(text, within)
@@ -286,7 +285,7 @@ fn flat(text: &str) -> String {
 pub struct Given {
     /// The argument's name.
     pub name: String,
-    /// What it is to be.
+    /// Its value.
     pub(super) value: GivenValue,
 }
 
@@ -295,14 +294,14 @@ pub struct Given {
 pub enum GivenValue {
     /// One number, or three.
     Numbers(Vec<f32>),
-    /// What the material has.
+    /// The material's value of a quantity.
     Quantity(Quantity),
-    /// What it is of the angle of incidence.
+    /// A form of the angle of incidence.
     Cosine(CosineForm),
 }
 
 impl Given {
-    /// Reads one.
+    /// Parses the word after `--arg`.
     ///
     /// # Errors
     /// It is not of that form.
@@ -344,17 +343,18 @@ impl Given {
     }
 }
 
-/// Whether a word is meant as the name of a quantity and is none: it holds a letter and is no number, not even one that is not finite.
+/// Whether a word looks like the name of a quantity and is not one: it holds a letter, and does not parse as a number such as
+/// `inf`.
 fn is_word(text: &str) -> bool {
     let word = text.trim();
     let is_number = word.parse::<f32>().is_ok();
     word.contains(char::is_alphabetic) && !is_number && quantity::find(word).is_none()
 }
 
-/// An argument that has the value that the text gives it where a call gives none.
+/// An argument that keeps its default value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DefaultArgument {
-    /// Its place.
+    /// Its index.
     pub place: usize,
     /// Its name.
     pub name: String,
@@ -364,10 +364,10 @@ pub struct DefaultArgument {
     pub value: String,
 }
 
-/// The argument that the user says to be the cosine, or to stand for it.
+/// The argument that the user declares to be the cosine, or to stand for it.
 ///
 /// # Errors
-/// It is no single number.
+/// It is not a single number.
 pub fn given_cosine(
     file: &str,
     function: &FoundFunction,
@@ -395,7 +395,7 @@ pub fn given_cosine(
     }))
 }
 
-/// The arguments whose values the text gives. One that is named as a cosine is run over, whatever stands there.
+/// The arguments that keep their default values. One that is named as a cosine is run over cosines, whatever its default.
 pub fn defaults(function: &FoundFunction, given: &[Given]) -> Vec<DefaultArgument> {
     let params = function.params.iter().enumerate();
     let is_given = |name: &str| given.iter().any(|given| given.name == name);

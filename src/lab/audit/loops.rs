@@ -1,8 +1,9 @@
-//! Adds a counter to the loops of a user's text: it counts iterations, so that an infinite loop terminates and is reported. A device
-//! could hang in one, and a software driver leaves it after a number of iterations without a message, with a result that means nothing.
+//! Loops and branches of a user's text. Loops get a counter of iterations, so that an infinite loop terminates and is reported. A
+//! device could hang in one. A software driver leaves it after some number of iterations, without a message and with a
+//! meaningless result.
 //!
-//! Whether a function branches. Compilers count code behind a branch in their own ways: RADV's inverse throughput discounts it, and
-//! instruction counts count both sides. So the cost of a function that branches is not comparable with that of ours, which do not.
+//! The cost of a function that branches is not comparable with that of ours, which do not. Compilers count code behind a branch
+//! in their own ways: RADV's inverse throughput discounts it, and instruction counts count both sides.
 //!
 //! A choice by `?:`, `select` or `mix` is no branch: both values are computed.
 
@@ -13,12 +14,12 @@ use super::scan;
 use super::type_names::TypeNames;
 use crate::generator::emit::shader_words::{Token, tokens};
 
-/// Turns that all loops of one evaluation may take together.
+/// The most iterations of all loops together in one evaluation.
 pub const TURNS: usize = 10_000;
-/// What our function gives where they took more: no reflectance is near it.
+/// The result of our function where loops took more. No reflectance is near it.
 pub const MARK: f32 = 1e30;
 
-/// The text with loops that count, where it holds any. Its lines keep their numbers.
+/// The text with counted loops, where it holds any. Lines keep their numbers.
 pub fn counted(text: &str, language: Language) -> Option<String> {
     let code = bare(text, language.has_preprocessor());
     let tokens = tokens(&code);
@@ -35,7 +36,7 @@ pub fn counted(text: &str, language: Language) -> Option<String> {
     Some(inserted(text, &marks))
 }
 
-/// Whether a macro holds a loop, or makes words that might be one: no turn of it is counted.
+/// Whether a macro holds a loop, or pastes words that might form one. Its iterations could not be counted.
 pub fn is_in_macro(text: &str) -> bool {
     let count = |text: &str| {
         let words = ["for", "while", "do", "loop"];
@@ -47,7 +48,7 @@ pub fn is_in_macro(text: &str) -> bool {
     count(&whole) > count(&code) || whole.contains("##")
 }
 
-/// The counter, and what counts: before the text where the language wants it declared before it is used.
+/// The declarations of the counter and of the function that counts. They precede the text in languages that declare before use.
 pub fn counter(language: Language) -> String {
     match language {
         Language::Wgsl => "var<private> fg_turns: i32;\n".to_owned(),
@@ -75,7 +76,7 @@ fn in_body<'a>(tokens: &[Token], at: usize) -> Option<(usize, usize, &'a str)> {
     Some((body.line, body.column + 1, IN_BODY))
 }
 
-/// `while (fg_turn(…))`, `for (…; fg_turn(…); …)`. What is to be unrolled has an end, or is refused.
+/// `while (fg_turn(…))`, `for (…; fg_turn(…); …)`. A loop that is to be unrolled terminates, or compilers refuse it.
 fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'a str)>> {
     let is_for = tokens[at].text == "for";
     let mut before = tokens[..at].iter().rev();
@@ -121,7 +122,7 @@ fn closing(tokens: &[Token], open: usize) -> Option<usize> {
     None
 }
 
-/// A text with words put in before these places.
+/// A text with words inserted before these places.
 fn inserted(text: &str, marks: &[(usize, usize, &str)]) -> String {
     let mut lines: Vec<Vec<char>> = text
         .split('\n')
@@ -152,7 +153,7 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Why costs are not compared, in a sentence without its full stop.
+    /// Why costs are not compared: a sentence without its full stop.
     pub fn reason(&self) -> String {
         format!(
             "not compared with ours: it branches (`{}` in line {}), and compilers count code behind a branch differently",
@@ -176,7 +177,7 @@ pub fn branch(text: &str, language: Language, function: &str) -> Option<Branch> 
     first_branch(&parts, function, &mut BTreeSet::new())
 }
 
-/// A macro with what it stands for.
+/// The name and the body of a macro.
 fn macro_body<'t, 'a>(line: &'t [Token<'a>]) -> Option<(String, &'t [Token<'a>])> {
     match line {
         [hash, define, name, body @ ..] if hash.text == "#" && define.text == "define" => {

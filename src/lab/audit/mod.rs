@@ -1,9 +1,9 @@
 //! Audit: a user's own function compared with the reference reflectance of a material, and with our methods.
 //!
-//! This room decides the conditions of the text (`preprocess`), cuts out the function and what it needs (`slice`), and names what that
-//! reads from outside (`hidden`). Compilers read what is left. A program of ours goes around the user's function (`program`). It runs in a
-//! worker (`runner`, `serve`), so that a function that hangs or crashes a driver is a line of the report. Compilers run in workers too
-//! (`compile`).
+//! This room decides the conditions of the text (`preprocess`), cuts out the function and what it needs (`slice`), and names its
+//! inputs from outside (`hidden`). Compilers see only that part. A program of ours around the user's function (`program`) runs in
+//! a worker (`runner`), so that a function that hangs or crashes a driver is only a line of the report. Compilers run in workers
+//! too (`compile`).
 
 mod admission;
 mod auditor;
@@ -52,7 +52,7 @@ pub use preprocess::Define;
 pub use row::{ArgumentValue, AuditRow, Checked, ConditionRow, Dominating, PerceivedFigures};
 pub use runner::serve;
 
-/// What is audited.
+/// A request for an audit.
 #[derive(Clone, Debug)]
 pub struct Audit {
     /// The file's name, for messages.
@@ -61,25 +61,25 @@ pub struct Audit {
     pub text: String,
     /// Its language.
     pub language: Language,
-    /// The function; where none is named the file holds one.
+    /// The name of the function. If none is given, the file must hold one only.
     pub function: Option<String>,
     /// Names that are defined for the preprocessor.
     pub defines: Vec<Define>,
     /// Values of its arguments.
     pub given: Vec<Given>,
-    /// The space of colours, for errors as they are seen.
+    /// The colour space, for errors under viewing conditions.
     pub space: Space,
-    /// The largest error that is no finding.
+    /// The largest error that is not a finding.
     pub max_error: Option<f64>,
-    /// How many numbers of a material methods of ours may take that it is compared with.
+    /// The most numbers of a material that a compared method of ours may take.
     pub max_inputs: Option<usize>,
     /// The GPUs whose compilers are asked.
     pub families: Vec<&'static Family>,
-    /// The folder of compilers that the user names.
+    /// The user's folder of compilers.
     pub tools: Option<PathBuf>,
     /// Seconds that one step may take.
     pub seconds: u64,
-    /// Processes at once.
+    /// Processes that run at once.
     pub workers: usize,
 }
 
@@ -93,7 +93,7 @@ pub struct AuditRows {
 }
 
 impl Audit {
-    /// A row for each material. Of several materials those that have no value for an argument are skipped.
+    /// A row for each material. If there are several, those without a value for an argument are skipped.
     ///
     /// # Errors
     /// The file does not hold the function, or its arguments are not bound for any material.
@@ -116,7 +116,7 @@ impl Audit {
         if self.text.contains("#version") || !found.rows.iter().all(is_refused) {
             return Ok(found);
         }
-        // Many files of the desktop leave their version to what includes them.
+        // Many desktop files leave their version to the file that includes them.
         let mut desktop = self.on_the_desktop(450).rows_in(subjects, progress)?;
         for row in &mut desktop.rows {
             row.language_remark = Some(
@@ -131,7 +131,7 @@ impl Audit {
         })
     }
 
-    /// The same with the constants that Godot's shaders have, where it is one of them.
+    /// This audit with the constants of Godot's shaders, if the text is one of them.
     fn in_godot(&self) -> Option<Audit> {
         let constants = [("PI", "3.1415926535897932"), ("TAU", "6.2831853071795864")];
         let is_of_godot = self.file.ends_with(".gdshader") || self.file.ends_with(".gdshaderinc");
@@ -149,7 +149,7 @@ impl Audit {
         })
     }
 
-    /// The same as GLSL of the desktop, of the version that its text states.
+    /// This audit with the text as desktop GLSL of this version.
     fn on_the_desktop(&self, version: u32) -> Audit {
         let mut audit = self.clone();
         audit.language = Language::Glsl;

@@ -25,7 +25,7 @@ pub struct Ours {
 }
 
 impl Ours {
-    /// As it stands against a function on the family of this place.
+    /// As a competitor of a user's function, on the family with this index.
     pub fn competitor(&self, place: usize) -> Option<Competitor> {
         let (cost, error) = (self.costs[place]?, self.error);
         Some(Competitor {
@@ -39,18 +39,18 @@ impl Ours {
 
 /// The methods that can replace a user's function, with their costs, for all materials.
 ///
-/// Methods that read a texture are left out, because counts do not include the fetch; so are those for one polarisation,
+/// Methods that read a texture are left out, because counts do not include the fetch. Those for one polarisation are left out too,
 /// because they compute something else.
 #[derive(Debug)]
 pub struct CostedMethods {
     form: FunctionForm,
     functions: Vec<CostedFunction>,
-    /// For each family the cost of each function that was asked for.
+    /// The cost of each requested function on each family.
     costs: Vec<Vec<Option<f64>>>,
 }
 
 impl CostedMethods {
-    /// Their functions of this form; those that are specialised, to these materials.
+    /// The methods' functions of this form. Specialised ones are specialised to these materials.
     ///
     /// # Errors
     /// No process can be started.
@@ -85,7 +85,7 @@ impl CostedMethods {
         })
     }
 
-    /// Those for a material that take so many numbers at most.
+    /// The methods for a material that take at most so many numbers.
     pub fn for_material(&self, subject: &MaterialInMedium, max_inputs: Option<usize>) -> Vec<Ours> {
         let is_of = |function: &CostedFunction| match &function.material {
             Some(material) => *material == subject.argument,
@@ -106,7 +106,7 @@ impl CostedMethods {
     }
 }
 
-/// How many numbers a call takes: of a specialised function none.
+/// How many numbers a call takes. A specialised function takes none.
 fn inputs(function: &CostedFunction) -> usize {
     match function.form {
         FunctionForm::Specialised => 0,
@@ -118,7 +118,7 @@ fn can_replace(method: &&'static Method) -> bool {
     method.light == Light::Unpolarised && method.contract == Contract::Kept && !method.is_textured()
 }
 
-/// The cost of each function that was asked for, in order.
+/// The cost of each requested function, in order.
 fn costs(
     family: &'static Family,
     answers: Option<&FamilyAnswers>,
@@ -129,7 +129,7 @@ fn costs(
     rows.into_iter().map(|row| cost(row.figures)).collect()
 }
 
-/// The largest error in single precision, as a user's function has it. A form of one channel is evaluated for each.
+/// The largest error in single precision, measured as for a user's function. A form of one channel is evaluated for each channel.
 fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
     let method = function.method;
     let (graph, others): (Checked, Vec<Value<f32>>) = match function.form {

@@ -1,5 +1,5 @@
-//! A user's text as parts that stand outside of all others: functions, structs, variables, blocks of inputs. What stands in bodies is for
-//! compilers to judge.
+//! The top-level parts of a user's text: functions, structs, variables, blocks of inputs. The contents of bodies are left to
+//! compilers.
 
 use super::condition::Language;
 use super::scan::{FoundFunction, behind, function, parts_between_commas};
@@ -7,44 +7,45 @@ use super::type_names::TypeNames;
 use super::variables::{Variable, c_variables, wgsl_member, wgsl_variable};
 use crate::generator::emit::shader_words::Token;
 
-/// A part, by places of words.
+/// A part, by indices of words.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Where it begins.
+    /// The index of its first word.
     pub start: usize,
-    /// Where its body begins, or the sign that ends it.
+    /// The index at which its body begins, or of the character that ends it.
     pub head_end: usize,
-    /// The place behind it.
+    /// The index after it.
     pub end: usize,
-    /// What it is.
+    /// Its kind.
     pub kind: PartKind,
     /// The namespaces around it.
     pub scope: Vec<String>,
 }
 
-/// What a part is.
+/// The kind of a part.
 #[derive(Clone, Debug)]
 pub enum PartKind {
     /// A function with its body.
     Function(FoundFunction),
     /// The head of a function whose body stands elsewhere.
     Prototype(FoundFunction),
-    /// A type: its name, its members, and constants in the same declaration: `K` of `const struct T { … } K = …;`, the names of an `enum`.
+    /// A type: its name, its members, and the constants in its declaration, such as `K` of `const struct T { … } K = …;` or the
+    /// names of an `enum`.
     Type(String, Vec<Variable>, Vec<String>),
-    /// Variables: one declaration may have several.
+    /// The variables of one declaration.
     Variables(Vec<Variable>),
-    /// Inputs in a block of this name: its members, and the name that they are read by, where there is one.
+    /// A block of inputs: its name, its members, and the instance name that they are read by, where there is one.
     Block(String, Vec<Variable>, Option<String>),
-    /// What holds for all that follows: `precision highp float;`, `enable f16;`.
+    /// A setting for all that follows: `precision highp float;`, `enable f16;`.
     Setting,
-    /// A macro's name with what it is given: it may stand for functions and variables.
+    /// A call of a macro, which may stand for functions and variables: its words.
     MacroCall(Vec<String>),
     /// Something else.
     Other,
 }
 
 impl Part {
-    /// The names that it gives a meaning.
+    /// The names that it declares.
     pub fn names(&self) -> Vec<&str> {
         match &self.kind {
             PartKind::Function(found) | PartKind::Prototype(found) => vec![found.name.as_str()],
@@ -66,7 +67,7 @@ impl Part {
 /// The parts of a text in order.
 pub fn parts(tokens: &[Token], names: &TypeNames, language: Language) -> Vec<Part> {
     let mut found: Vec<Part> = Vec::new();
-    // The namespaces that are open: where each closes, and its names.
+    // The open namespaces: where each closes, and its names.
     let mut open: Vec<(usize, Vec<String>)> = Vec::new();
     let mut at = 0;
     while at < tokens.len() {
@@ -91,7 +92,7 @@ pub fn parts(tokens: &[Token], names: &TypeNames, language: Language) -> Vec<Par
     found
 }
 
-/// A namespace that begins here: the place behind its brace, and its names.
+/// A namespace that begins here: the index after its brace, and its names.
 fn namespace(tokens: &[Token], at: usize, language: Language) -> Option<(usize, Vec<String>)> {
     let has_namespaces = matches!(language, Language::Hlsl | Language::Slang);
     let is_inline = usize::from(tokens[at].text == "inline");
@@ -144,7 +145,7 @@ pub fn functions_of(
     }
 }
 
-/// The place behind words of engines that no declaration needs: `CBUFFER_START(UnityPerMaterial)`, `CBUFFER_END`.
+/// The index after words of engines that no declaration needs: `CBUFFER_START(UnityPerMaterial)`, `CBUFFER_END`.
 fn behind_marks(tokens: &[Token], start: usize) -> usize {
     let marks = ["CBUFFER_", "UNITY_INSTANCING_BUFFER_", "GLOBAL_CBUFFER_"];
     let mut at = start;
@@ -160,7 +161,7 @@ fn behind_marks(tokens: &[Token], start: usize) -> usize {
     at
 }
 
-/// `NAME(a, b)` with a declaration or `;` behind it, which no language but a macro's has: its words, and the place behind it.
+/// `NAME(a, b)` with a declaration or `;` after it, which can only be a macro: its words, and the index after it.
 fn macro_call(tokens: &[Token], start: usize, language: Language) -> Option<(Vec<String>, usize)> {
     let has_macros = language.has_preprocessor();
     let name = tokens
@@ -232,7 +233,7 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
     }
 }
 
-/// The end of what has a body and is no function: `struct S { … } s;`, `float a[2] = { … };`.
+/// The end of a part that has a body and is not a function: `struct S { … } s;`, `float a[2] = { … };`.
 fn tail(tokens: &[Token], start: usize, head_end: usize, end: usize, language: Language) -> usize {
     let head = &tokens[start..head_end];
     let has = |word: &str| head.iter().any(|token| token.text == word);
@@ -256,7 +257,7 @@ fn tail(tokens: &[Token], start: usize, head_end: usize, end: usize, language: L
     }
 }
 
-/// What a part is that is no function.
+/// The kind of a part that is not a function.
 fn other_kind(
     tokens: &[Token],
     (start, head_end, end): (usize, usize, usize),
@@ -264,7 +265,7 @@ fn other_kind(
 ) -> PartKind {
     let head = &tokens[start..head_end];
     let first = head.first().map_or("", |token| token.text);
-    // DXC knows no such line.
+    // DXC does not know such a line.
     let is_using =
         language == Language::Slang && first == "using" && word_at(head, 1) == "namespace";
     if is_using || ["precision", "enable", "requires", "diagnostic"].contains(&first) {
@@ -326,8 +327,8 @@ fn with_body(
     }
 }
 
-/// The constants in the declaration of a type: the names of an `enum`, unless it is one of its own scope, and what has a value behind
-/// the body. Of HLSL's constants that are not static a pipeline sets the value.
+/// The constants in the declaration of a type: the names of an unscoped `enum`, and variables with a value after the body. HLSL's
+/// constants that are not static are left out, since a pipeline sets them.
 fn constants(
     tokens: &[Token],
     (head_end, end): (usize, usize),

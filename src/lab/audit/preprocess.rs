@@ -1,8 +1,8 @@
-//! Which parts of a user's text a compiler sees: conditions are decided here, and what they drop becomes blank, so that lines keep
-//! their numbers. Macros stay for compilers to replace.
+//! Decides the conditions of a user's text. Lines that they drop become blank, so that lines keep their numbers. Macros stay for
+//! compilers to replace.
 //!
-//! Other files are not read, so a name that nothing defines counts as not defined; `-D` defines it. WGSL has no preprocessor;
-//! lines that begin with `#` are read as those of naga_oil, which Bevy uses.
+//! Other files are not read, so an unknown name counts as undefined unless `-D` defines it. WGSL has no preprocessor. Its lines
+//! that begin with `#` are read as those of naga_oil, which Bevy uses.
 
 use super::condition::{Language, Macros, condition_value, definition, plain_macro, words};
 use super::directives::{self, TextFault};
@@ -15,12 +15,12 @@ use crate::physics::foreign::Foreign;
 pub struct Define {
     /// The name.
     pub name: String,
-    /// What it stands for.
+    /// Its replacement.
     pub value: String,
 }
 
 impl Define {
-    /// A name that stands for a number.
+    /// A name defined as a number.
     pub fn of(name: &str, value: u32) -> Define {
         Define {
             name: name.to_owned(),
@@ -28,7 +28,7 @@ impl Define {
         }
     }
 
-    /// Reads `NAME=VALUE`, or `NAME`, which stands for 1.
+    /// Parses `NAME=VALUE`, or `NAME`, whose value is 1.
     ///
     /// # Errors
     /// It is not of that form.
@@ -59,22 +59,22 @@ pub struct Condition {
     pub line: usize,
     /// The line of its `#endif`.
     pub end: usize,
-    /// Itself.
+    /// Its text.
     pub text: String,
-    /// Whether the lines behind it are taken.
+    /// Whether the lines after it are taken.
     pub is_taken: bool,
 }
 
-/// A text without what conditions drop.
+/// A text without the lines that conditions drop.
 #[derive(Clone, Debug)]
 pub struct Preprocessed {
-    /// The text, comments and dropped lines blank.
+    /// The text, with comments and dropped lines blank.
     pub text: String,
     /// Its conditions, without those in dropped lines.
     pub conditions: Vec<Condition>,
 }
 
-/// The names that a language defines by itself, as the text is run.
+/// The names that a language predefines in the version that is run.
 fn predefined(language: Language) -> &'static [(&'static str, &'static str)] {
     match language {
         Language::Wgsl => &[("true", "1")],
@@ -83,7 +83,7 @@ fn predefined(language: Language) -> &'static [(&'static str, &'static str)] {
             ("__VERSION__", "300"),
             ("GL_FRAGMENT_PRECISION_HIGH", "1"),
         ],
-        // Its version is what the text states.
+        // The version comes from the text.
         Language::Glsl => &[("GL_core_profile", "1")],
         Language::Hlsl => &[
             ("__hlsl_dx_compiler", "1"),
@@ -100,7 +100,7 @@ fn predefined(language: Language) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-/// Lines that go on behind their end as one line, with empty lines behind it.
+/// Joins continued lines into one line, followed by empty lines.
 pub fn joined_lines(text: &str) -> String {
     let (mut out, mut owed) = (String::with_capacity(text.len()), 0);
     for line in text.split_inclusive('\n') {
@@ -121,8 +121,8 @@ pub fn joined_lines(text: &str) -> String {
     out
 }
 
-/// A comment that goes on over lines of a directive stands in one line, with empty lines behind it: a compiler takes out comments before it
-/// looks where a directive ends.
+/// Joins a comment that extends a directive over several lines into one line, followed by empty lines. Compilers remove comments
+/// before they look where a directive ends.
 pub fn joined_comments(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut lines = text.split_inclusive('\n');
@@ -140,7 +140,7 @@ pub fn joined_comments(text: &str) -> String {
     out
 }
 
-/// Whether a comment begins in a line that does not end in it.
+/// Whether a comment begins in a line and does not end in it.
 fn has_open_comment(line: &str) -> bool {
     let mut rest = line;
     loop {
@@ -182,10 +182,10 @@ pub fn preprocessed(
     }
 }
 
-/// A condition that is not at its end.
+/// A condition without its `#endif` yet.
 struct Open {
     line: usize,
-    /// Whether what stands around it is taken.
+    /// Whether the code around it is taken.
     is_around_taken: bool,
     /// Whether one of its branches was taken.
     is_decided: bool,
@@ -197,7 +197,7 @@ struct Reader {
     macros: Macros,
     open: Vec<Open>,
     is_taken: bool,
-    /// Whether a list of imports goes on.
+    /// Whether a list of imports continues.
     in_import: bool,
     line: usize,
     conditions: Vec<Condition>,
@@ -220,7 +220,7 @@ impl Reader {
         }
     }
 
-    /// A line as it is kept; nothing where it is dropped.
+    /// A line as it is kept. None where it is dropped.
     fn kept(&mut self, line: &str) -> Result<Option<String>, TextFault> {
         if self.in_import {
             self.in_import = !line.contains('}');
@@ -254,7 +254,7 @@ impl Reader {
         Ok(None)
     }
 
-    /// A line of naga_oil that is no condition.
+    /// A directive of naga_oil that is not a condition.
     fn oil(&mut self, line: &str, word: &str, tokens: &[Token]) -> Result<(), TextFault> {
         match word {
             "define" => self.macros.extend(definition(tokens).map(|(name, known)| {
@@ -269,7 +269,7 @@ impl Reader {
         Ok(())
     }
 
-    /// A line of WGSL with the values of names that naga_oil puts in for `#{NAME}`.
+    /// A line of WGSL with values in place of `#{NAME}`, as naga_oil does it.
     fn replaced(&self, line: &str) -> String {
         if self.language != Language::Wgsl || !line.contains("#{") {
             return line.to_owned();
@@ -284,7 +284,7 @@ impl Reader {
         (self.line, 1, what.to_owned())
     }
 
-    /// What a condition comes to: `if …`, `ifdef NAME`, `ifndef NAME`, `elif …`.
+    /// Whether a condition holds: `if …`, `ifdef NAME`, `ifndef NAME`, `elif …`.
     fn decided(&self, line: &str, condition: &[Token]) -> Result<bool, TextFault> {
         if let Some((_, column, what)) = directives::fault(line) {
             return Err((self.line, column, what));

@@ -1,4 +1,4 @@
-//! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
+//! Makes a program of a user's text: a function of ours wraps theirs, so that all later steps know one kind of call.
 
 use super::bind::{Bound, BoundArgument};
 use super::condition::Language;
@@ -12,32 +12,32 @@ use crate::lab::verify::harness::{self, Call};
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
 
-/// What our function around theirs is called: as [`crate::lab::cost::Probe`] calls what it measures.
+/// The name of our function around theirs, which is the one that [`crate::lab::cost::Probe`] measures.
 pub const NAME: &str = "fg_measured";
-/// Names of the program around it that GLSL cannot keep apart: theirs are renamed while their text is read.
+/// Names of the program around the text that would collide in GLSL. The user's are renamed within their text.
 const RENAMED: [&str; 3] = ["main", "cos_theta", "reflectance"];
-/// What goes before them.
+/// The prefix of renamed names.
 const THEIRS: &str = "fg_their_";
 
-/// A text with our function behind it.
+/// A user's text followed by our function.
 #[derive(Clone, Debug)]
 pub struct AuditProgram {
     /// Its language.
     pub language: Language,
     /// The text. The lines of theirs keep their numbers.
     pub text: String,
-    /// What our function takes, the cosine first.
+    /// The arguments of our function, the cosine first.
     pub params: Vec<Param>,
-    /// The values of the others.
+    /// The values of the arguments after the cosine.
     pub values: Vec<[f32; 3]>,
-    /// Whether our function gives one number.
+    /// Whether our function returns one number.
     pub is_scalar: bool,
-    /// What `half` computes in.
+    /// The precision of `half`.
     pub precision: Precision,
 }
 
 impl AuditProgram {
-    /// The program of a text, and the one that is run: its loops count their turns.
+    /// The program of a text, and the one that is run, whose loops count their iterations.
     pub fn pair(language: Language, slice: &Slice, bound: &Bound) -> (AuditProgram, AuditProgram) {
         let plain = AuditProgram::new(language, slice, bound, false);
         let run = match counted(&slice.text, language) {
@@ -53,7 +53,7 @@ impl AuditProgram {
         (plain, run)
     }
 
-    /// The program whose cost is counted: a function of one channel is called once, for one channel.
+    /// The program whose cost is measured. A function of one channel is called once, for one channel.
     pub fn measured(language: Language, slice: &Slice, bound: &Bound) -> AuditProgram {
         if bound.is_one_channel() {
             let wrapper = |params: &[Param]| one_channel(language, bound, params);
@@ -71,7 +71,7 @@ impl AuditProgram {
         AuditProgram::around(language, slice, bound, counts, wrapper)
     }
 
-    /// The text with a function of ours behind it.
+    /// The text followed by a function of ours.
     fn around(
         language: Language,
         slice: &Slice,
@@ -133,7 +133,7 @@ impl AuditProgram {
             .expect("users' languages are run as text")
     }
 
-    /// The arguments as the harness binds them.
+    /// The arguments in the form that the harness binds.
     pub fn uniforms(&self) -> Vec<Uniform> {
         let harness = self.language.target().stack.harness();
         let named = harness.map_or("{name}", |harness| harness.uniform);
@@ -149,7 +149,7 @@ impl AuditProgram {
     }
 }
 
-/// The values that the text gives arguments, while its macros mean what they mean.
+/// The default values of arguments, declared where the text's macros are still defined.
 fn defaults(bound: &Bound) -> String {
     let value = |one: &DefaultArgument| {
         format!(
@@ -167,12 +167,12 @@ fn param(name: &str, ty: Ty) -> Param {
     }
 }
 
-/// Their text in GLSL: names that the program around it has are theirs under other names.
+/// Their text in GLSL, with names renamed that the program around it uses.
 fn framed(slice: &Slice, wrapper: &str, language: Language) -> String {
     let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
     let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
     let undefine = each(|name| format!("#undef {name}\n"));
-    // On the desktop they mean nothing, and in Vulkan they do.
+    // They mean nothing on the desktop, but something in Vulkan.
     let (define, undefine) = match language {
         Language::Glsl => (
             define + "#define mediump highp\n#define lowp highp\n",
@@ -184,7 +184,7 @@ fn framed(slice: &Slice, wrapper: &str, language: Language) -> String {
     format!("{define}{before}#line 1\n{text}\n{wrapper}{undefine}")
 }
 
-/// Words of compilers, with their names as they wrote them.
+/// A compiler's message with the user's names as they wrote them.
 pub fn own_names(words: &str) -> String {
     words.replace(THEIRS, "")
 }
@@ -202,7 +202,7 @@ fn declared(language: Language, params: &[Param]) -> String {
     list.join(", ")
 }
 
-/// Our function around theirs: the cosine, then all others in order; one number out.
+/// Our function around theirs: it takes the cosine, then all others in order, and returns one number.
 fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
     let (list, ty) = (declared(language, params), language.ty(Ty::Scalar));
     let called = called(language, &bound.first_channel(), "x");
@@ -213,7 +213,7 @@ fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
     }
 }
 
-/// The same with three numbers out.
+/// As [`one_channel`], but it returns three numbers.
 fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
     let list = declared(language, params);
     let rgb = language.ty(Ty::Rgb);
@@ -227,7 +227,7 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) ->
                 format!("{constructor}({})", calls.join(", ")),
             )
         } else {
-            // What it reads from outside is set anew before each call.
+            // Inputs from outside are set again before each call.
             let kept = calls.iter().zip(["x", "y", "z"]).map(|(call, channel)| {
                 let kept = variable(language, Ty::Scalar, &format!("fg_{channel}"));
                 format!("{}{kept} = {}; ", call.before, call.value)
@@ -274,9 +274,9 @@ fn variable(language: Language, ty: Ty, name: &str) -> String {
 
 /// A call of theirs.
 struct CallText {
-    /// What stands before it.
+    /// The statements before it.
     before: String,
-    /// What it gives.
+    /// Its result.
     value: String,
 }
 
@@ -339,7 +339,7 @@ fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
     CallText { before, value }
 }
 
-/// Takes their macros away before our text goes on: it means what it says, whatever they are named.
+/// Undefines their macros before our text follows, so that no macro changes its meaning.
 fn without_macros(slice: &Slice, language: Language) -> String {
     if !language.has_preprocessor() {
         return String::new();

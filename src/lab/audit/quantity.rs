@@ -1,5 +1,5 @@
-//! What an argument of a user's function may stand for: an input of our methods, or a quantity that follows from one; and the names that
-//! engines and papers give to these.
+//! The quantities that an argument of a user's function may stand for, and the names that engines and papers give them. A
+//! quantity is an input of our methods, or follows from one.
 
 use std::collections::BTreeSet;
 
@@ -18,7 +18,7 @@ pub struct Quantity {
     pub name: &'static str,
     /// The input that it follows from.
     pub input: &'static Input,
-    /// How it follows.
+    /// Its value, computed from that of the input.
     derived: fn(f64) -> f64,
 }
 
@@ -28,10 +28,10 @@ impl PartialEq for Quantity {
     }
 }
 
-/// A quantity's name, its input's, and how it follows.
+/// A quantity's name, its input's name, and the function from one value to the other.
 type Derived = (&'static str, &'static str, fn(f64) -> f64);
 
-/// Quantities that functions of others take, and none of ours.
+/// Quantities that users' functions take and ours do not.
 const DERIVED: [Derived; 6] = [
     ("1/eta", "eta", |eta| 1.0 / eta),
     ("1/n", "n", |n| 1.0 / n),
@@ -41,7 +41,7 @@ const DERIVED: [Derived; 6] = [
     ("f82_tint", "tint", |tint| tint),
 ];
 
-/// Names in small letters without `_`, and the quantities that they stand for: the first is bound, the others are tried.
+/// Names in lower case without `_`, and the quantities that they may stand for. The first is bound, the others are tried.
 #[derive(Clone, Copy)]
 struct Alias {
     names: &'static [&'static str],
@@ -149,7 +149,7 @@ const ALIASES: [Alias; 8] = [
     alias(&["tint", "f82tint", "tint82"], &["f82_tint", "f82"]),
 ];
 
-/// A name as aliases are written. A letter alone keeps its case: N may be a vector of the scene.
+/// A name in the form of aliases. A single letter keeps its case, since N may be the normal.
 pub fn plain(name: &str) -> String {
     match name.len() {
         1 => name.to_owned(),
@@ -157,7 +157,7 @@ pub fn plain(name: &str) -> String {
     }
 }
 
-/// What an argument of a function may stand for by its name: the first is bound, the others are tried.
+/// The quantities that an argument of a function may stand for by its name. The first is bound, the others are tried.
 pub fn meanings(name: &str, function: &FoundFunction) -> Vec<Quantity> {
     let plain_name = plain(name);
     let is_among = |names: &[&str]| names.contains(&plain_name.as_str());
@@ -235,13 +235,13 @@ pub fn unknown(name: &str) -> UnknownName {
 }
 
 impl Quantity {
-    /// What the material has for it: the same value that our methods take.
+    /// The material's value, which is the one that our methods take.
     pub fn value(&self, subject: &MaterialInMedium) -> Option<[f64; 3]> {
         let value = input_value(subject, self.input.name)?;
         Some(each_channel(|i| (self.derived)(value[i])))
     }
 
-    /// How many numbers a material takes for it.
+    /// How many numbers of a material it takes.
     pub fn numbers(&self) -> usize {
         match self.input.ty {
             Ty::Rgb => 3,
@@ -250,7 +250,7 @@ impl Quantity {
     }
 }
 
-/// Inputs that follow from an index, also in a method that replaces colours by those of one.
+/// Inputs that follow from an index, even in a method that replaces colours by those of an index.
 const OF_INDEX: [&str; 2] = ["reflectivity", "edge_tint"];
 
 fn input_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
@@ -269,7 +269,7 @@ fn input_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
     values_for_material(subject, method).get(name).copied()
 }
 
-/// Whether a material's value of an input is the one that the method was given: others replace colours by those of an index.
+/// Whether a method takes a material's own value of an input. Others replace colours by those of an index.
 fn is_given(method: &Method) -> bool {
     method.replacement.is_none() || method.class == Class::Dielectric
 }
@@ -309,7 +309,7 @@ mod tests {
         check("float u, vec3 F0, vec3 F82", "F82", &["f82", "f82_tint"]);
     }
 
-    /// `edge_tint` is Gulbrandsen's beside a reflectivity, and else a tint at 82 degrees.
+    /// Beside a reflectivity `edge_tint` is Gulbrandsen's. Otherwise it is a tint at 82 degrees.
     #[test]
     fn the_other_arguments_tell_what_an_edge_tint_is() {
         let head = "float u, vec3 reflectivity, vec3 edge_tint";

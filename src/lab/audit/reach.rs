@@ -1,4 +1,5 @@
-//! What a function needs of its text: the parts and macros that it names, and what these name; and which variables all of them read.
+//! What a function needs of its text: the parts and macros that it names, directly or through others, and the variables that they
+//! read.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,21 +7,21 @@ use super::condition::Language;
 use super::parts::{Part, PartKind};
 use crate::generator::emit::shader_words::Token;
 
-/// The words of a macro's definitions; its arguments are not among them.
+/// The words of each macro's definitions, without its arguments.
 pub type MacroBodies<'t, 'a> = BTreeMap<&'a str, Vec<Vec<&'t Token<'a>>>>;
 
 /// What is reached.
 #[derive(Debug, Default)]
 pub struct Reached {
-    /// The part that all is reached from.
+    /// The index of the part that all is reached from.
     pub start: usize,
-    /// The parts, by their places.
+    /// The parts, by their indices.
     pub parts: BTreeSet<usize>,
     /// The macros.
     pub macros: BTreeSet<String>,
     /// The variables that are read or written.
     pub uses: Vec<Use>,
-    /// Other names, which the language or nobody knows, with their lines.
+    /// Names that the text does not declare, with their lines.
     pub foreign: Vec<(String, usize)>,
 }
 
@@ -29,21 +30,21 @@ pub struct Reached {
 pub struct Use {
     /// Its name.
     pub name: String,
-    /// The members behind it: `.a.b`.
+    /// The members that follow: `.a.b`.
     pub path: Vec<String>,
     /// The line.
     pub line: usize,
     /// Whether an element of an array follows.
     pub is_indexed: bool,
-    /// Whether all of it gets a value there, whatever holds.
+    /// Whether it is assigned there as a whole and unconditionally.
     pub is_set: bool,
-    /// The part that it stands in.
+    /// The index of the part that it stands in.
     pub part: usize,
-    /// The part outside of functions that reads it, where one does.
+    /// The index of the part outside of functions that reads it, where one does.
     pub by_global: Option<usize>,
 }
 
-/// What the part of this place reaches.
+/// What the part with this index reaches.
 pub fn reached(
     start: usize,
     tokens: &[Token],
@@ -53,7 +54,7 @@ pub fn reached(
 ) -> Reached {
     let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (place, part) in parts.iter().enumerate() {
-        // A macro of an engine, which this text does not define, is none of its parts.
+        // A macro of an engine that this text does not define is left out.
         let is_macro = matches!(part.kind, PartKind::MacroCall(_));
         if is_macro && !macros.contains_key(tokens[part.start].text) {
             continue;
@@ -75,7 +76,7 @@ pub fn reached(
         }
         let part = &parts[place];
         let words: Vec<&Token> = tokens[part.start..part.end].iter().collect();
-        // A type has functions among its members, but in GLSL and WGSL.
+        // Types have functions among their members, except in GLSL and WGSL.
         let has_members = matches!(language, Language::Hlsl | Language::Slang);
         let has_code = match &part.kind {
             PartKind::Function(_) | PartKind::MacroCall(_) => true,
@@ -104,7 +105,7 @@ pub fn reached(
 /// Where words stand.
 #[derive(Clone, Copy)]
 struct Context<'a> {
-    /// Names that mean something else there.
+    /// Names that are shadowed there.
     own: &'a [Own<'a>],
     part: usize,
     by_global: Option<usize>,
@@ -159,7 +160,7 @@ fn use_of(words: &[&Token], at: usize, context: &Context) -> Use {
     }
     let sign = |at: usize| words.get(at).map_or("", |token| token.text);
     let is_assigned = sign(next) == "=" && sign(next + 1) != "=" && path.is_empty();
-    // A statement of the body itself, behind no condition.
+    // An unconditional statement at the top level of the body.
     let depth: i32 = words[..at].iter().map(|word| step(word)).sum();
     let begins = at > 0 && ["{", ";", "}"].contains(&words[at - 1].text);
     Use {
@@ -173,10 +174,10 @@ fn use_of(words: &[&Token], at: usize, context: &Context) -> Use {
     }
 }
 
-/// A name that means something else than outside, and the words between which it does.
+/// A name that shadows an outer one, and the words between which it does.
 struct Own<'a> {
     name: &'a str,
-    /// Its declaration.
+    /// The index of its declaration.
     at: usize,
     from: usize,
     to: usize,
@@ -214,7 +215,7 @@ impl<'a> Own<'a> {
     }
 }
 
-/// The names that a function gives a meaning of its own: its arguments, and its variables.
+/// The names that a function declares: its arguments and its variables.
 fn locals<'a>(words: &[&Token<'a>], language: Language) -> Vec<Own<'a>> {
     let mut found = Vec::new();
     let text = |at: usize| words.get(at).map_or("", |token| token.text);
@@ -247,7 +248,7 @@ fn locals<'a>(words: &[&Token<'a>], language: Language) -> Vec<Own<'a>> {
     found
 }
 
-/// How much deeper in brackets a word leads.
+/// By how much a word changes the depth of brackets.
 fn step(token: &Token) -> i32 {
     match token.text {
         "(" | "[" | "{" => 1,
@@ -256,7 +257,7 @@ fn step(token: &Token) -> i32 {
     }
 }
 
-/// The place behind the value of what is declared here: its own `,` or `;`, or the bracket that closes around it.
+/// The index of the end of the value declared here: its `,` or `;`, or the bracket that closes around it.
 fn value_end(words: &[&Token], at: usize) -> usize {
     let mut depth = 0;
     for (place, token) in words.iter().enumerate().skip(at) {
@@ -268,8 +269,8 @@ fn value_end(words: &[&Token], at: usize) -> usize {
     words.len()
 }
 
-/// The place at which a name that is declared here loses its meaning: the end of its block; of an argument, or a variable in the head of
-/// a loop, the end of what follows the head.
+/// The index at which the scope of a name declared here ends: the end of its block. For an argument, or a variable in the head of
+/// a loop, it is the end of what follows the head.
 fn scope_end(words: &[&Token], at: usize) -> usize {
     let (mut depth, mut is_in_head) = (0, false);
     for (place, token) in words.iter().enumerate().skip(at) {
@@ -284,7 +285,7 @@ fn scope_end(words: &[&Token], at: usize) -> usize {
     words.len()
 }
 
-/// The places of the names behind the first of a declaration: `= 1.0, b, c;`.
+/// The indices of the names after the first in a declaration: `= 1.0, b, c;`.
 fn further(words: &[&Token], from: usize) -> Vec<usize> {
     let (mut found, mut depth) = (Vec::new(), 0i32);
     for (at, token) in words.iter().enumerate().skip(from) {
@@ -292,7 +293,7 @@ fn further(words: &[&Token], from: usize) -> Vec<usize> {
         if depth < 0 || token.text == ";" && depth == 0 {
             break;
         }
-        // A type and a name are another argument.
+        // A type and a name form another argument.
         let is_name = |at: usize| words.get(at).is_some_and(|word| word.is_word());
         let is_next = is_name(at + 1) && !is_name(at + 2);
         if is_next && token.text == "," && depth == 0 {

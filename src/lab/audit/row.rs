@@ -1,6 +1,5 @@
-//! The row of the report: a user's function for a material.
-//!
-//! What was checked of a function, and how it came out. A check that was not made is not passed.
+//! The row of the report for a user's function and a material, with the checks and their results. A check that was not made is not
+//! passed.
 
 use serde::Serialize;
 
@@ -21,18 +20,18 @@ use crate::lab::verify::compilers::Verdict;
 use crate::lab::verify::{Answer, Status, as_object};
 use crate::physics::foreign::Foreign;
 
-/// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
+/// A user's function with the values of a material: which compilers accept it, its error against the law, and its cost.
 #[derive(Clone, Debug, Serialize)]
 pub struct AuditRow {
-    /// The target of its language, or the language where it is no target.
+    /// The target of its language, or the language where that is no target.
     pub target: &'static str,
-    /// The function, where rows of our own have a method.
+    /// The function's name, where rows of our functions have the method.
     pub method: String,
     /// The material, as a user types it.
     pub material: String,
     /// Always `user`.
     pub form: &'static str,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: &'static str,
     /// The function.
     pub function: String,
@@ -40,68 +39,68 @@ pub struct AuditRow {
     pub line: usize,
     /// The argument that is the cosine.
     pub cosine: String,
-    /// What that argument is of the angle of incidence, as `--arg` takes it: `cos`, `angle` …
+    /// The form of that argument, as `--arg` takes it: `cos`, `angle` …
     pub cosine_is: &'static str,
-    /// The same in words, where its name does not say so.
+    /// The form in words, where the argument's name does not say it.
     pub cosine_words: Option<String>,
-    /// As which version of its language it is run, where the file does not say.
+    /// The version of its language that it is run as, where the file does not say.
     pub language_remark: Option<String>,
     /// The conditions that it depends on, and how they were decided.
     pub conditions: Vec<ConditionRow>,
     /// Its file, without folders.
     pub file: String,
-    /// How many channels a call gives.
+    /// How many channels a call returns.
     pub channels: usize,
-    /// How many numbers a material takes.
+    /// How many numbers describe a material.
     pub input_numbers: usize,
     /// Its arguments, in order.
     #[serde(serialize_with = "as_object")]
     pub arguments: Vec<(String, ArgumentValue)>,
     /// The arguments that have the material's values, in words.
     pub filled: Vec<String>,
-    /// What it reads from outside and has the value that the file gives it, in words.
+    /// The inputs and arguments that keep the values in the file, in words.
     pub initialised: Vec<String>,
-    /// On what it ran.
+    /// The device that it ran on.
     pub device: Option<String>,
-    /// At how many cosines.
+    /// The number of cosines.
     pub points: Option<usize>,
     /// Always none.
     pub code_error: Option<f64>,
     /// Why there is no code error.
     pub code_error_reason: &'static str,
-    /// Its distance from the law.
+    /// Its error against the law.
     pub model_error: Option<ModelError>,
-    /// The same as it is seen.
+    /// That error under viewing conditions.
     pub perceived: Option<PerceivedFigures>,
-    /// The method of ours that it computes, where there is one.
+    /// Which of our methods it computes, if any.
     pub computes: Option<&'static str>,
-    /// An argument as another quantity, with which it computes a method of ours, where it computes none as it is bound.
+    /// The other quantity for an argument with which it would compute one of our methods, where it computes none as bound.
     pub fits_exactly_with: Option<ExactFit>,
     /// What each compiler says of the file.
     #[serde(serialize_with = "as_object")]
     pub accepts: Vec<(String, Answer)>,
-    /// What came at the ends of the domain.
+    /// The results at the ends of the domain.
     pub edges: Option<Vec<EdgeRow>>,
-    /// What came beyond the domain, where it is no reflectance, in words.
+    /// The results beyond the domain that are not reflectances, in words.
     pub beyond: Option<Vec<String>>,
-    /// What it costs on each GPU.
+    /// Its cost on each GPU.
     pub cost: Vec<AuditCost>,
     /// Whether these costs are compared with ours.
     pub is_cost_comparable: bool,
     /// Why they are not.
     pub cost_remark: Option<String>,
-    /// The methods that dominate it, and take no more numbers of a material.
+    /// The methods that dominate it and take no more numbers of a material.
     pub dominated_by: Vec<Dominating>,
-    /// The methods that are as accurate and as cheap, and better in one, but take more numbers of a material.
+    /// The methods that are no worse in error and cost and better in one of them, but take more numbers of a material.
     pub better_with_more_inputs: Vec<Dominating>,
-    /// For each GPU whether a method dominates it, in words; none where the methods are not known there.
+    /// For each GPU whether a method dominates it, in words. None where the methods' costs are not known there.
     #[serde(serialize_with = "as_object")]
     pub says: Vec<(String, Option<String>)>,
     /// What was checked.
     pub checked: Checked,
-    /// Whether all that was checked is as it should be.
+    /// The status by all checks.
     pub status: Status,
-    /// Why it is not.
+    /// Why it is not a pass.
     pub reason: Option<String>,
 }
 
@@ -110,16 +109,16 @@ pub struct AuditRow {
 pub struct ConditionRow {
     /// Its line.
     pub line: usize,
-    /// Itself.
+    /// Its text.
     pub text: String,
-    /// Whether what stands behind it is taken.
+    /// Whether the code after it is taken.
     pub is_taken: bool,
 }
 
 /// The value of an argument.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArgumentValue {
-    /// That of each channel.
+    /// The value of each channel.
     pub value: [f64; 3],
     /// `material`, or `--arg` where numbers were given.
     pub from: &'static str,
@@ -127,62 +126,62 @@ pub struct ArgumentValue {
     pub quantity: Option<&'static str>,
 }
 
-/// An error as it is seen.
+/// An error under viewing conditions.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct PerceivedFigures {
-    /// Of luminance.
+    /// The error of luminance.
     pub luminance: f64,
-    /// CIEDE2000.
+    /// The colour difference CIEDE2000.
     pub de2000: f64,
 }
 
-/// A method of ours that errs no more and costs no more on a GPU.
+/// A method of ours with no larger error and no higher cost on a GPU.
 #[derive(Clone, Debug, Serialize)]
 pub struct Dominating {
     /// The method.
     pub method: &'static str,
     /// `library`, `scalar` or `specialised`.
     pub form: &'static str,
-    /// How many numbers a material takes by it.
+    /// How many numbers describe a material in it.
     pub input_numbers: usize,
-    /// The user's error over the method's.
+    /// The user's error divided by the method's.
     pub error_times: f64,
-    /// The user's cost over the method's; none where that costs nothing.
+    /// The user's cost divided by the method's. None where the method costs nothing.
     pub cost_times: Option<f64>,
     /// The family of GPUs.
     pub gpu: &'static str,
 }
 
 impl AuditRow {
-    /// What is said of its cost on a GPU.
+    /// The sentence about its cost on a GPU.
     pub fn sentence_on(&self, gpu: &str) -> Option<&str> {
         let (_, sentence) = self.says.iter().find(|(name, _)| name == gpu)?;
         sentence.as_deref()
     }
 }
 
-/// What came of running a function.
+/// The result of running a function.
 #[derive(Clone, Debug)]
 pub struct Ran {
-    /// On what.
+    /// The device that it ran on.
     pub device: String,
-    /// At how many cosines.
+    /// The number of cosines.
     pub points: usize,
-    /// The ends of the domain.
+    /// The results at the ends of the domain.
     pub edges: Edges,
-    /// Against the reference.
+    /// The error against the reference.
     pub error: ModelError,
-    /// The same, as it is seen.
+    /// That error under viewing conditions.
     pub perceived: Perceived,
-    /// The method of ours that it computes.
+    /// Which of our methods it computes.
     pub computes: Option<&'static str>,
-    /// What makes it compute one.
+    /// The other quantity for an argument with which it would compute one.
     pub exact_fit: Option<ExactFit>,
 }
 
 /// What is known of a function for a material.
 pub struct Audited<'a> {
-    /// What was asked.
+    /// The request.
     pub audit: &'a Audit,
     /// What compilers see of the text.
     pub slice: &'a Slice,
@@ -192,9 +191,9 @@ pub struct Audited<'a> {
     pub subject: &'a MaterialInMedium,
     /// What compilers say.
     pub verdicts: &'a [(String, Verdict)],
-    /// What came of running it.
+    /// The result of running it.
     pub ran: &'a Result<Ran, Trouble>,
-    /// What it costs.
+    /// Its costs.
     pub costs: &'a [AuditCost],
     /// Our methods.
     pub ours: &'a [Ours],
@@ -259,7 +258,7 @@ impl Audited<'_> {
         }
     }
 
-    /// What has the value that the text gives it: inputs from outside, and arguments.
+    /// The inputs from outside and the arguments that keep the text's values, in words.
     fn initialised(&self) -> Vec<String> {
         let inputs = self.slice.initialised.iter().map(Initialised::words);
         let default = |one: &DefaultArgument| format!("{} = {} (its default)", one.name, one.value);
@@ -268,7 +267,7 @@ impl Audited<'_> {
             .collect()
     }
 
-    /// What to think of it, and why.
+    /// The status, and the reasons for it.
     fn judged(&self) -> (Status, Vec<String>) {
         let (file, name) = (Foreign(&self.audit.file), &self.bound.function.name);
         let place = format!("{file}: {name}");
@@ -309,7 +308,7 @@ impl Audited<'_> {
         (status, reasons)
     }
 
-    /// Why an error is larger than it may be.
+    /// Why an error is larger than allowed.
     fn above_limit(&self, error: &ModelError) -> Option<String> {
         let most = self
             .audit
@@ -322,7 +321,7 @@ impl Audited<'_> {
         ))
     }
 
-    /// Our methods on the family of this place; none where costs are not compared.
+    /// Our methods on the family with this index. Empty where costs are not compared.
     fn competitors(&self, place: usize) -> Vec<Competitor> {
         if self.cost_remark.is_some() {
             return Vec::new();
@@ -331,7 +330,7 @@ impl Audited<'_> {
         each.filter_map(|ours| ours.competitor(place)).collect()
     }
 
-    /// The cost on the family of this place and the error, where both are known.
+    /// The cost on a family and the error, where both are known.
     fn point(&self, cost: &AuditCost) -> Option<Own> {
         Some(Own {
             inputs: self.bound.input_numbers(),
@@ -343,7 +342,7 @@ impl Audited<'_> {
         })
     }
 
-    /// The methods that are nowhere worse on a GPU: with no more inputs, and with more.
+    /// The methods that are no worse in error and cost on a GPU: those with no more inputs, and those with more.
     fn dominating(&self) -> (Vec<Dominating>, Vec<Dominating>) {
         let (mut as_few, mut more) = (Vec::new(), Vec::new());
         for (place, cost) in self.costs.iter().enumerate() {
@@ -365,7 +364,7 @@ impl Audited<'_> {
         (as_few, more)
     }
 
-    /// For each GPU whether a method of ours dominates the function, or why that is not asked.
+    /// For each GPU a sentence: whether one of our methods dominates the function, or why they are not compared.
     fn sentences(&self) -> Vec<(String, Option<String>)> {
         let each = self.costs.iter().enumerate().filter_map(|(place, cost)| {
             let own = self.point(cost)?;
@@ -398,16 +397,16 @@ fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
     (argument.name.clone(), value)
 }
 
-/// The checks; none where one was not made.
+/// The results of the checks. None where one was not made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Checked {
     /// Whether compilers accept it.
     pub accepted: Option<bool>,
     /// Whether its results are reflectances: numbers from 0 to 1, or to an F0 above 1.
     pub within_range: Option<bool>,
-    /// The error that it may have.
+    /// The allowed error.
     pub max_error: Option<f64>,
-    /// Whether its error is no larger.
+    /// Whether its error is within that.
     pub within_max_error: Option<bool>,
 }
 
@@ -476,7 +475,7 @@ impl Checked {
     }
 }
 
-/// Whether an error is no larger than it may be. One that is no number is.
+/// Whether an error is within the allowed one. A NaN is not.
 pub fn is_within(error: &ModelError, most: f64) -> bool {
     error.max_abs <= most
 }
@@ -518,7 +517,7 @@ mod tests {
         );
     }
 
-    /// What never ran has no word about its results or its error.
+    /// A function that never ran has no statement about its results or its error.
     #[test]
     fn what_was_not_checked_is_not_said() {
         let refused = Checked {

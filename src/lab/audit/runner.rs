@@ -1,8 +1,5 @@
-//! A user's function run in a process of its own, within a time.
-//!
-//! What a worker is asked about a user's function, and what it answers. Numbers go as bits: what is run may give NaN.
-//!
-//! A worker: compiles the program that it is handed, and runs it. A driver that crashes ends only this process.
+//! Runs a user's function in a worker process within a time limit: the supervisor's side, the requests and responses, and the
+//! worker's loop. Numbers are sent as bits, since a function may return NaN. A driver that crashes ends only the worker.
 
 use core::cell::{Cell, OnceCell, RefCell};
 use core::time::Duration;
@@ -26,29 +23,29 @@ use crate::language::ir::{Column, Value};
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::Space;
 
-/// What sees cosines, and the result at each.
+/// A callback that sees cosines and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
 
 /// Why there are no results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trouble {
-    /// Something is missing here.
+    /// Something is missing on this machine.
     Absent(String),
-    /// It is not accepted: by whom, and in which words.
+    /// A compiler or driver refuses it: its name, and its message.
     Refused(String, String),
-    /// It does not end, or took its process down.
+    /// It timed out, or crashed its process.
     Failed(String),
 }
 
-/// A process that has the function compiled.
+/// A process that has compiled the function.
 pub struct Runner {
     worker: RefCell<Worker>,
     limit: Duration,
-    /// What the function takes for a cosine.
+    /// The form in which the function takes a cosine.
     form: CosineForm,
-    /// On what it runs.
+    /// The device that it runs on.
     pub device: String,
-    /// At how many cosines it has run.
+    /// The number of cosines that it has run at.
     pub points: Cell<usize>,
 }
 
@@ -102,7 +99,7 @@ impl Runner {
                 points: Cell::new(0),
             }),
             Ok(response) => Err(trouble(response)),
-            // Nothing of the function has run: its compiler, its driver or the machine may be at fault.
+            // The function has not run yet: its compiler, the driver or the machine may be at fault.
             Err(silence) => Err(Trouble::Absent(unprepared(&silence, limit))),
         })
     }
@@ -112,7 +109,7 @@ impl Runner {
         self.run_as(self.form, cosines)
     }
 
-    /// The same where the function takes this for a cosine.
+    /// The results at these cosines if the function takes them in this form.
     pub fn run_as(&self, form: CosineForm, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
         let taken = cosines.iter().map(|c| form.value_at(*c).to_bits());
         let request = AuditRequest::Run(taken.collect());
@@ -133,7 +130,7 @@ impl Runner {
         self.measured(self.form, look, |values| error_of(reference, values))
     }
 
-    /// The same where the function takes this for a cosine.
+    /// The error against the reference if the function takes the cosine in this form.
     pub fn error_as(
         &self,
         form: CosineForm,
@@ -142,7 +139,7 @@ impl Runner {
         self.measured(form, &|_, _| {}, |values| error_of(reference, values))
     }
 
-    /// The error as it is seen.
+    /// The error under viewing conditions.
     pub fn perceived(
         &self,
         reference: &ReferenceCurve,
@@ -153,7 +150,7 @@ impl Runner {
         })
     }
 
-    /// What is measured of its values.
+    /// A measurement of its values.
     fn measured<T>(
         &self,
         form: CosineForm,
@@ -164,7 +161,7 @@ impl Runner {
         let measured = measure(&|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
             let nothing = || vec![[f32::NAN; 3]; single.len()];
-            // What has failed once is not asked again: each wait takes its time.
+            // After a failure it is not asked again, since each timeout costs time.
             let got = match failed.get() {
                 Some(_) => nothing(),
                 None => self.run_as(form, &single).unwrap_or_else(|trouble| {
@@ -183,7 +180,7 @@ impl Runner {
     }
 }
 
-/// The results, unless a loop has not ended at one of them.
+/// The results, unless a loop did not end at one of them.
 fn ended(cosines: &[f32], results: Vec<[f32; 3]>) -> Result<Vec<[f32; 3]>, Trouble> {
     let endless = results.iter().position(|rgb| *rgb == [MARK; 3]);
     endless.map_or(Ok(results), |at| {
@@ -202,10 +199,10 @@ fn trouble(response: AuditResponse) -> Trouble {
     }
 }
 
-/// What a worker is asked.
+/// A request to a worker.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum AuditRequest {
-    /// To ask the compilers of a language about a whole program whose `half` computes in this.
+    /// To ask the compilers of a language about a whole program, with this precision of `half`.
     Accept(Language, Precision, String),
     /// To make SPIR-V of a shader.
     Module(Language, Precision, String),
@@ -215,16 +212,16 @@ pub enum AuditRequest {
     Run(Vec<u32>),
 }
 
-/// What a worker answers.
+/// A worker's answer.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum AuditResponse {
     /// What the compilers say.
     Accepted(Accepted),
-    /// What the compiler has made, or why it has not.
+    /// The compiler's output, or why there is none.
     Module(Result<Vec<u8>, CompilerFault>),
     /// It is compiled, for this device.
     Ready(String),
-    /// Something is missing here.
+    /// Something is missing on this machine.
     Absent(String),
     /// A compiler refused it, or the device failed: its name, and its message.
     Refused(String, String),
@@ -239,7 +236,7 @@ pub enum ProgramCode {
     Wgsl(String),
     /// In GLSL ES 3.00.
     Gles(String),
-    /// A module that DXC or slangc has made.
+    /// A module that an external compiler has made.
     Spirv(Vec<u8>),
 }
 
@@ -252,7 +249,7 @@ pub struct UniformBits {
 }
 
 impl UniformBits {
-    /// As it is sent.
+    /// The form that is sent.
     pub fn new(uniform: &Uniform) -> UniformBits {
         let (is_rgb, value) = match uniform.value {
             Argument::Rgb(value) => (true, value),
@@ -265,7 +262,7 @@ impl UniformBits {
         }
     }
 
-    /// As it is bound.
+    /// The form that is bound.
     pub fn uniform(&self) -> Uniform {
         let value = self.bits.map(f32::from_bits);
         Uniform {

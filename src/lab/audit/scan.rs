@@ -1,11 +1,11 @@
-//! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
+//! Finds the functions of a user's file by their heads. Their bodies are left to compilers.
 
 use super::condition::Language;
 use super::parts::{functions_of, parts};
 use super::type_names::TypeNames;
 use crate::generator::emit::shader_words::Token;
 
-/// A function as its head tells.
+/// A function as its head declares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FoundFunction {
     /// Its name.
@@ -14,11 +14,11 @@ pub struct FoundFunction {
     pub line: usize,
     /// The column of its name, from 1.
     pub column: usize,
-    /// What it takes.
+    /// Its arguments, without an `out` one.
     pub params: Vec<Parameter>,
-    /// What it gives.
+    /// The shape of its result.
     pub result: NumberShape,
-    /// The argument that it gives its result in, where it returns nothing.
+    /// The `out` argument that receives the result, where it returns nothing.
     pub out: Option<OutArgument>,
     /// The namespaces and types around it.
     pub scope: Vec<String>,
@@ -26,25 +26,25 @@ pub struct FoundFunction {
     pub needs_object: bool,
 }
 
-/// An argument that a function gives its result in: `out float3 Out`.
+/// An argument that receives a function's result: `out float3 Out`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutArgument {
-    /// Its place among all arguments.
+    /// Its index among all arguments.
     pub place: usize,
     /// Its type, as it is written.
     pub ty: String,
 }
 
-/// What a function takes.
+/// An argument of a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// Its type.
+    /// The shape of its type.
     pub shape: NumberShape,
-    /// The same as it is written.
+    /// Its type as it is written.
     pub ty: String,
-    /// The value that the text gives it where a call gives none.
+    /// Its default value.
     pub default: Option<String>,
 }
 
@@ -60,7 +60,7 @@ pub enum NumberShape {
 }
 
 impl NumberShape {
-    /// For messages.
+    /// In words, for messages.
     pub fn words(&self) -> &str {
         match self {
             NumberShape::Scalar => "one number",
@@ -72,14 +72,14 @@ impl NumberShape {
 }
 
 impl FoundFunction {
-    /// Its name with what stands around it: `brdf::schlick`.
+    /// Its name with the scopes around it: `brdf::schlick`.
     pub fn path(&self) -> String {
         let around = self.scope.iter().filter(|name| !name.is_empty());
         let around: String = around.map(|name| format!("{name}::")).collect();
         around + &self.name
     }
 
-    /// Whether it can be one of reflectance: numbers in, numbers out, one of them the cosine.
+    /// Whether it can be a reflectance function: numbers in, one of them the cosine, and numbers out.
     pub fn is_candidate(&self) -> bool {
         let known = |shape: &NumberShape| !matches!(shape, NumberShape::Other(_));
         let scalar = |param: &Parameter| param.shape == NumberShape::Scalar;
@@ -107,7 +107,7 @@ pub fn bodies<'t, 'a>(
     })
 }
 
-/// The place behind the bracket that closes the one here.
+/// The index after the bracket that closes the one here.
 pub(super) fn behind(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate().skip(open) {
@@ -161,7 +161,7 @@ pub(super) fn function(head: &[Token], language: Language) -> Option<FoundFuncti
     })
 }
 
-/// The argument that a function without a result gives it in, taken from among the others.
+/// Removes from the arguments the one that receives the result of a function that returns nothing.
 fn out_argument(params: &mut Vec<Parameter>, result: &mut NumberShape) -> Option<OutArgument> {
     let written = |param: &Parameter| match &param.shape {
         NumberShape::Other(written) => written.strip_prefix(OUT).map(str::to_owned),
@@ -179,7 +179,7 @@ fn out_argument(params: &mut Vec<Parameter>, result: &mut NumberShape) -> Option
     Some(OutArgument { place, ty })
 }
 
-/// What goes before the type of an argument that is given back.
+/// Precedes the type of an output argument.
 const OUT: &str = "out ";
 
 /// A head without `[numthreads(1, 1, 1)]` before it.
@@ -191,7 +191,7 @@ fn without_attributes<'t, 'a>(head: &'t [Token<'a>]) -> &'t [Token<'a>] {
     &head[at..]
 }
 
-/// The place of a function's name in the languages of C's family: before the first parenthesis, behind a type.
+/// The index of a function's name in C-like languages: before the first parenthesis, after a type.
 fn c_name(head: &[Token]) -> Option<usize> {
     let open = head.iter().position(|token| token.text == "(")?;
     // `t[] = f(`, `cbuffer B : register(`
@@ -200,7 +200,7 @@ fn c_name(head: &[Token]) -> Option<usize> {
     is_head.then(|| open - 1)
 }
 
-/// What stands between commas that are in no brackets.
+/// Splits tokens at commas outside of brackets.
 pub(super) fn parts_between_commas<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
     let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
     for (at, token) in tokens.iter().enumerate() {
@@ -243,7 +243,7 @@ fn wgsl_result(after: &[Token]) -> NumberShape {
     shape(&joined(written))
 }
 
-/// `type name`, qualifiers before it, a meaning or a value behind it.
+/// `type name`, qualifiers before it, a semantic or a value after it.
 fn c_parameter(part: &[Token]) -> Parameter {
     let end = part.iter().position(|t| [":", "="].contains(&t.text));
     let equals = part.iter().position(|token| token.text == "=");
@@ -269,7 +269,7 @@ fn c_parameter(part: &[Token]) -> Parameter {
     }
 }
 
-/// Words as they stand: a space where two would become one.
+/// The text of tokens, with a space where two would merge.
 fn spaced(tokens: &[Token]) -> String {
     let mut all = String::new();
     for (at, token) in tokens.iter().enumerate() {
@@ -282,7 +282,7 @@ fn spaced(tokens: &[Token]) -> String {
     all
 }
 
-/// Words that say nothing of a type.
+/// Qualifiers, which say nothing of a type.
 const QUALIFIERS: [&str; 18] = [
     "const",
     "in",
@@ -309,10 +309,10 @@ fn without_qualifiers(tokens: &[Token]) -> String {
     kept.filter(|word| !QUALIFIERS.contains(word)).collect()
 }
 
-/// What words of types and qualifiers say: a type that is known, or qualifiers alone.
+/// The type among words of types and qualifiers. None where there are only qualifiers.
 pub type TypeShape = Option<NumberShape>;
 
-/// What words say as a type; none where one of them is no word of a type.
+/// The type that words stand for. None where one of them is neither a type nor a qualifier.
 pub fn type_shape(words: &[&str]) -> Option<TypeShape> {
     let kept = words.iter().filter(|word| !QUALIFIERS.contains(word));
     let written: String = kept.copied().collect();

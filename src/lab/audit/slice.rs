@@ -1,5 +1,5 @@
-//! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers. Inputs
-//! from outside become variables that our function sets.
+//! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers.
+//! Inputs from outside become variables that our function sets.
 
 use super::condition::{Language, bare, definition};
 use super::hidden::{HiddenInput, UnreadFault};
@@ -15,19 +15,19 @@ use crate::generator::emit::shader_words::{Token, tokens};
 /// What compilers see of a text.
 #[derive(Clone, Debug, Default)]
 pub struct Slice {
-    /// Definitions of the user's that stand before the first line.
+    /// The user's definitions, which stand before the first line.
     pub before: String,
     /// The text.
     pub text: String,
     /// The audited function's own text.
     pub body: String,
-    /// What it reads from outside and has no value for.
+    /// The inputs from outside that have no value.
     pub hidden: Vec<HiddenInput>,
-    /// What it reads from outside that has a value in the text.
+    /// The inputs from outside that have a value in the text.
     pub initialised: Vec<Initialised>,
-    /// The conditions that what is kept depends on.
+    /// The conditions that the kept lines depend on.
     pub conditions: Vec<Condition>,
-    /// Whether it computes in 16 bits: the word that says so.
+    /// The word by which it computes in 16 bits, if it does.
     pub half: Option<String>,
 }
 
@@ -41,7 +41,7 @@ pub struct SlicedText<'a> {
 }
 
 impl<'a> SlicedText<'a> {
-    /// A text behind the preprocessor.
+    /// The functions of a preprocessed text.
     pub fn new(
         language: Language,
         preprocessed: &'a Preprocessed,
@@ -75,7 +75,7 @@ impl<'a> SlicedText<'a> {
         let functions = functions
             .flat_map(|part| functions_of(part, &tokens, &self.names, self.language))
             .map(|mut found| {
-                // HLSL lets the head that stands before the function say its defaults.
+                // In HLSL a prototype before the function may state its defaults.
                 let is_head = |head: &&&FoundFunction| {
                     let types = |one: &FoundFunction| {
                         let each = one.params.iter();
@@ -93,10 +93,10 @@ impl<'a> SlicedText<'a> {
         functions.collect()
     }
 
-    /// What compilers see where this function is audited and these inputs are given values.
+    /// What compilers see if this function is audited and these inputs are given values.
     ///
     /// # Errors
-    /// It needs what no number stands for.
+    /// It needs an input that is not made of numbers.
     pub fn around(&self, function: &FoundFunction, given: &[&str]) -> Result<Slice, UnreadFault> {
         let words = tokens(&self.code);
         let parts = parts(&words, &self.names, self.language);
@@ -158,7 +158,7 @@ impl<'a> SlicedText<'a> {
         })
     }
 
-    /// The lines that define the macros that are reached, and take them away.
+    /// The lines that define or undefine the macros that are reached.
     fn macro_lines(&self, reached: &Reached) -> Vec<Piece> {
         let lines = self.preprocessed.text.lines().enumerate();
         let kept = lines.filter(|(_, line)| match tokens(line).as_slice() {
@@ -203,7 +203,7 @@ fn definitions(defines: &[Define]) -> String {
     defines.iter().map(line).collect()
 }
 
-/// The words of macros, of the command line and of the text.
+/// The words of the macros of the command line and of the text.
 fn macro_bodies<'t, 'a>(theirs: &'t [Token<'a>], own: &'t [Token<'a>]) -> MacroBodies<'t, 'a> {
     let mut found = MacroBodies::new();
     for line in theirs
@@ -225,7 +225,7 @@ fn on_one_line(a: &Token, b: &Token) -> bool {
     a.line == b.line
 }
 
-/// The first and last lines of what is kept.
+/// The first and last lines of the parts that are kept.
 fn lines_of(reached: &Reached, parts: &[Part], words: &[Token]) -> Vec<(usize, usize)> {
     let part = |place: &usize| {
         let part = &parts[*place];
@@ -240,7 +240,7 @@ fn lines_of(reached: &Reached, parts: &[Part], words: &[Token]) -> Vec<(usize, u
         .collect()
 }
 
-/// Words for what only a pixel beside others has.
+/// Words that only a pixel in a picture has: derivatives, and `discard`.
 const PIXEL_WORDS: [&str; 16] = [
     "fwidth",
     "dFdx",
@@ -271,7 +271,7 @@ fn check_pixel_words(reached: &Reached) -> Result<(), UnreadFault> {
     })
 }
 
-/// DXC makes another number of an enumeration's name in SPIR-V, which is what runs here: `float(E)` with E = 5 is 7e-45.
+/// Refuses enumerations where DXC compiles them wrongly. In SPIR-V, which is what runs here, `float(E)` with E = 5 is 7e-45.
 fn check_enumerations(
     language: Language,
     reached: &Reached,

@@ -1,5 +1,5 @@
-//! Names that a text gives to types: `#define real float`, `typedef float real;`, `alias real = f32;`. Heads of functions are read with
-//! the types in their place.
+//! A text's own names of types: `#define real float`, `typedef float real;`, `alias real = f32;`. Heads of functions are read
+//! with the types in their place.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,17 @@ use super::condition::{Language, bare};
 use super::scan::{TypeShape, type_shape};
 use crate::generator::emit::shader_words::{Token, tokens};
 
-/// A name may stand for a name that stands for a name; one that stands for itself ends here.
+/// The longest chain of names that stand for each other. It stops a name that stands for itself.
 const DEPTH: usize = 8;
 
-/// The names with what each stands for: one meaning for each definition, since `#if` may choose among several.
+/// The names with their meanings, one for each definition, since `#if` may choose among several.
 #[derive(Debug, Default)]
 pub struct TypeNames {
     meanings: BTreeMap<String, Vec<Vec<String>>>,
 }
 
 impl TypeNames {
-    /// Those of a text.
+    /// The names of a text.
     pub fn of_text(text: &str, language: Language) -> TypeNames {
         let mut names = TypeNames::default();
         let code = bare(text, false);
@@ -41,7 +41,7 @@ impl TypeNames {
         }
     }
 
-    /// Words with the types in place of their names. A name stays whose definitions say different things, or no type.
+    /// Words with the types in place of their names. A name whose definitions differ, or are not types, stays.
     pub fn replaced<'t>(&'t self, words: &[Token<'t>]) -> Vec<Token<'t>> {
         let mut all = Vec::new();
         for word in words {

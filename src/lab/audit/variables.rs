@@ -1,6 +1,5 @@
-//! Declarations of variables and of members, in all languages.
-//!
-//! Remarks of hosts in HLSL, which no compiler of ours reads.
+//! Declarations of variables and of members, in all languages. Annotations in HLSL, which are for hosts, are removed, since none
+//! of our compilers reads them.
 
 use super::condition::Language;
 use super::scan::{behind, parts_between_commas};
@@ -13,13 +12,13 @@ pub struct Variable {
     pub name: String,
     /// Its line.
     pub line: usize,
-    /// Its type with what is said of its precision, as it is written.
+    /// Its type with its precision, as it is written.
     pub ty: String,
     /// Whether it is an array.
     pub is_array: bool,
-    /// The words of its name, and of how many it is.
+    /// The range of words of its name and array size.
     pub declarator: (usize, usize),
-    /// The words of its value, where it has one.
+    /// The range of words of its value, where it has one.
     pub value: Option<(usize, usize)>,
     /// Where its value comes from.
     pub storage: Storage,
@@ -30,9 +29,9 @@ pub struct Variable {
 pub enum Storage {
     /// It never changes.
     Constant,
-    /// The text keeps it.
+    /// It is a variable of the text itself.
     Own,
-    /// What runs the shader sets it.
+    /// The host or another shader stage sets it.
     Input,
 }
 
@@ -78,7 +77,7 @@ pub fn wgsl_variable(part: &[Token], start: usize) -> Option<Variable> {
     })
 }
 
-/// Words before a type that say where a value comes from, or how it is read.
+/// Words before a type that say where a value comes from or how it is interpolated.
 const STORAGES: [&str; 23] = [
     "uniform",
     "const",
@@ -186,7 +185,7 @@ fn c_storage(qualifiers: &[&str], language: Language) -> Storage {
             _ => Storage::Own,
         };
     }
-    // Without `static` a variable of HLSL is set from outside, whatever value stands there.
+    // Without `static` a variable of HLSL is set from outside, whatever its initial value.
     match (
         qualifiers.contains(&"static"),
         qualifiers.contains(&"const"),
@@ -198,8 +197,8 @@ fn c_storage(qualifiers: &[&str], language: Language) -> Storage {
     }
 }
 
-/// A text of HLSL without the remarks that hosts put behind variables: `float a < string label = "A"; > = 0.5;`. No expression holds a
-/// semicolon between these signs.
+/// HLSL without the annotations after variables: `float a < string label = "A"; > = 0.5;`. No expression holds a semicolon
+/// between `<` and `>`.
 pub fn without_annotations(code: &str) -> String {
     let found = tokens(code);
     let mut spans: Vec<((usize, usize), (usize, usize))> = Vec::new();

@@ -1,10 +1,8 @@
-//! The fragment shader around a measured function, in any language: a chain of evaluations `r0 = f(c0)`,
-//! `c1 = r0.x * r0.y - r0.z + w.z`, `r1 = f(c1)`, and so on.
+//! The fragment shader around a measured function, in any language: a chain of evaluations `r0 = f(c0)`, `c1 = r0.x * r0.y - r0.z
+//! + w.z`, `r1 = f(c1)`, and so on. Also the shape of a text: the text with a mark in place of each number.
 //!
-//! Location 0 holds the weights `w` and the first number. The function is called [`MEASURED`]; it takes its cosine first. Where its first
-//! argument is a vector, it is `w * c0`, `w * c1`, and so on.
-//!
-//! The shape of a text: the text with a mark in the place of each number.
+//! Location 0 holds the weights `w` and the first number. The function is called [`MEASURED`], and takes its cosine first. Where
+//! its first argument is a vector, it is `w * c0`, `w * c1`, and so on.
 
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::Spelling;
@@ -14,25 +12,25 @@ pub(super) const MEASURED: &str = "fg_measured";
 
 /// How a language writes the shader. The shader declares arguments for [`BLOCKS`](super::BLOCKS) evaluations.
 pub(super) struct ChainLanguage<'a> {
-    /// How types are named.
+    /// The names of types.
     pub spelling: &'a Spelling,
     /// The declaration of a run-time argument: `{type}`, `{name}`.
     pub member: &'a str,
     /// The block of all `{members}`, where there are any.
     pub block: &'a str,
-    /// A run-time argument in evaluation `{i}`: `{name}`, and `{parts}` of a vector of four.
+    /// A run-time argument in evaluation `{i}`: `{name}`, and the `{parts}` of a vector of four.
     pub argument: &'static str,
     /// The declaration of a texture, where the function reads one.
     pub texture: &'static str,
-    /// The declaration of a cube of textures.
+    /// The declaration of a cube map.
     pub cube: &'a str,
-    /// The texture or the cube as an argument.
+    /// The texture or the cube map as an argument.
     pub texture_argument: &'static str,
     /// The declaration of a local: `{type}`, `{name}`, `{value}`.
     pub local: &'static str,
     /// An input `{value}` as a `{type}`.
     pub input: &'static str,
-    /// What the names of locals begin with.
+    /// The prefix of the names of locals.
     pub prefix: &'static str,
     /// The shader: `{function}`, `{arguments}`, `{chain}`, and the `{last}` result.
     pub shader: &'a str,
@@ -42,9 +40,9 @@ pub(super) struct ChainLanguage<'a> {
 pub(super) struct Chain<'a> {
     /// Its text.
     pub function: &'a str,
-    /// Its arguments; the first comes from the chain.
+    /// Its arguments. The first comes from the chain.
     pub params: &'a [Param],
-    /// Whether it gives one number.
+    /// Whether it returns one number.
     pub is_scalar: bool,
     /// How often it is evaluated.
     pub evaluations: usize,
@@ -141,16 +139,16 @@ impl Chain<'_> {
     }
 }
 
-/// The arguments that come from uniforms: all after the first but textures.
+/// The arguments that come from uniforms: all but the first one and textures.
 pub(super) fn uniforms(params: &[Param]) -> impl Iterator<Item = &Param> {
     let params = params.iter().skip(1);
     params.filter(|param| !matches!(param.ty, Ty::Texture | Ty::Cube))
 }
 
-/// What stands in the place of a number.
+/// Replaces a number.
 const MARK: char = '#';
 
-/// A text of any of our languages with [`MARK`] in the place of each number, its sign included. Digits in names stay.
+/// A text of any of our languages with [`MARK`] in place of each number, its sign included. Digits in names stay.
 pub(super) fn without_numbers(text: &str) -> String {
     let mut shape = String::with_capacity(text.len());
     let mut rest = text;
@@ -172,7 +170,7 @@ pub(super) fn without_numbers(text: &str) -> String {
     shape
 }
 
-/// How many bytes at the beginning are such characters.
+/// The length in bytes of the leading run of such characters.
 fn length(text: &str, is_such: impl Fn(char) -> bool) -> usize {
     text.find(|c| !is_such(c)).unwrap_or(text.len())
 }
@@ -193,7 +191,7 @@ fn number_length(text: &str) -> usize {
     plain + exponent
 }
 
-/// Whether the sign at the end takes away from what stands before it.
+/// Whether the minus at the end is a subtraction, not a sign.
 fn follows_operand(shape: &str) -> bool {
     let before = shape[..shape.len() - 1].trim_end();
     let is_operand = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | ')' | ']' | MARK);

@@ -1,4 +1,4 @@
-//! The compilers of families asked about functions, each in processes of its own.
+//! Asks the compilers of families about functions, each compiler in processes of its own.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +7,12 @@ use super::function::CostedFunction;
 use super::session::{CompilerFigures, CompilerSession, launch, told};
 use crate::lab::process::{Error, Launch, Pool, Surroundings, Task, Worker};
 
-/// What came of asking a family's compiler.
+/// The answers of a family's compiler.
 #[derive(Clone, Debug)]
 pub enum FamilyAnswers {
-    /// It is here: its name and version, and an answer for each function.
+    /// The compiler's name and version, and an answer for each function.
     Fresh(String, Vec<CompilerFigures>),
-    /// It is not, and why.
+    /// The compiler is not here, and why.
     Absent(String),
 }
 
@@ -23,20 +23,20 @@ struct Job {
     functions: std::ops::Range<usize>,
 }
 
-/// What is asked of whom.
+/// The functions, and the families whose compilers are asked about them.
 struct Questions<'a> {
     families: &'a [&'static Family],
     functions: &'a [&'a CostedFunction],
 }
 
-/// Functions of one job: enough that starting a process, which takes as long as ten functions, does not count, and few
-/// enough that all workers have some.
+/// The number of functions in a job: enough that the start of a process, which takes as long as ten functions, does not matter,
+/// and few enough that all workers have some.
 fn job_size(functions: usize, workers: usize) -> usize {
     functions.div_ceil(workers.max(1)).clamp(60, 400)
 }
 
-/// Asks the compilers of families about functions; nothing comes of a family that has none. `progress` hears how many answers
-/// are there.
+/// Asks the compilers of families about functions. None for a family without a compiler. `progress` is told how many answers have
+/// come, of how many, and for which family.
 ///
 /// # Errors
 /// No process can be started.
@@ -115,7 +115,7 @@ impl Questions<'_> {
     }
 }
 
-/// Functions whose shaders are different, and for each function which of them is its own.
+/// The functions with distinct shaders, and for each function the index of the one that has its shader.
 fn once_each(functions: &[CostedFunction]) -> (Vec<&CostedFunction>, Vec<usize>) {
     let mut known: BTreeMap<&str, usize> = BTreeMap::new();
     let mut different = Vec::new();
@@ -133,7 +133,7 @@ fn once_each(functions: &[CostedFunction]) -> (Vec<&CostedFunction>, Vec<usize>)
 }
 
 impl FamilyAnswers {
-    /// The same with the answers of these places.
+    /// The answers with these indices.
     fn at(self, places: &[usize]) -> FamilyAnswers {
         match self {
             FamilyAnswers::Fresh(compiler, answers) => {
@@ -160,8 +160,8 @@ fn jobs(launches: &[Result<Launch, String>], functions: usize, size: usize) -> V
     started.flat_map(parts).collect()
 }
 
-/// The answers of each family, in the functions' order. Where one process could not start and others could, the functions
-/// of that one have its reason.
+/// The answers of each family, in the functions' order. If one process could not start and others could, the functions of that
+/// one get its reason.
 fn gathered(
     launches: &[Result<Launch, String>],
     count: usize,

@@ -7,39 +7,39 @@ use super::figures::StatisticNames;
 pub struct Family {
     /// Its name on the command line and in reports.
     pub name: &'static str,
-    /// Who makes it.
+    /// Its vendor.
     pub vendor: &'static str,
-    /// The part that stands for it.
+    /// The GPU that stands for it.
     pub gpu: &'static str,
-    /// Who compiles for it.
+    /// Its compiler.
     pub compiler: GpuCompiler,
-    /// Under which names the compiler tells its figures.
+    /// The compiler's names of its figures.
     pub columns: StatisticNames,
-    /// Whether it computes in 16 bits where a text says so; in OpenGL ES that is left to the driver.
+    /// Whether it computes in 16 bits where a text says so. In OpenGL ES that is left to the driver.
     pub half: bool,
 }
 
-/// Who compiles.
+/// The compiler of a family.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GpuCompiler {
-    /// Nobody: the operations of the function are counted.
+    /// No compiler: the operations of the function are counted.
     Operations,
-    /// Mesa's driver for AMD's cards, as distributions package it, playing this family.
+    /// RADV, Mesa's driver for AMD GPUs, as distributions package it, told to emulate this family.
     Radv(&'static str),
     /// A compiler of Mesa's that tests/mesa-compilers builds.
     Mesa {
-        /// The stand-in for the kernel's driver.
+        /// The library that stands in for the kernel driver.
         shim: &'static str,
-        /// What tells it which GPU to play, and to say what shaders become.
+        /// Variables that select the GPU, and make the compiler report statistics.
         environment: &'static [(&'static str, &'static str)],
-        /// What it takes.
+        /// Its input language.
         dialect: Dialect,
     },
-    /// None that can be had, and why.
+    /// No compiler is available, and why.
     None(&'static str),
 }
 
-/// The language that a compiler is given.
+/// The input language of a compiler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
     /// SPIR-V from WGSL.
@@ -51,8 +51,8 @@ pub enum Dialect {
 }
 
 impl Dialect {
-    /// How many evaluations stand in the shorter chain and in the longer one: the GPUs of OpenGL ES 2.0 have programs of
-    /// a few hundred instructions at most.
+    /// The number of evaluations in the shorter chain and in the longer one. GPUs of OpenGL ES 2.0 take programs of a few hundred
+    /// instructions at most.
     pub fn chains(self) -> [usize; 2] {
         match self {
             Dialect::Wgsl | Dialect::Es300 => [4, 8],
@@ -62,7 +62,7 @@ impl Dialect {
 }
 
 impl GpuCompiler {
-    /// The language that it is given, where there is one to give to.
+    /// The compiler's input language, where there is a compiler.
     pub fn dialect(self) -> Option<Dialect> {
         match self {
             GpuCompiler::Radv(_) => Some(Dialect::Wgsl),
@@ -117,7 +117,7 @@ const fn mesa(
     }
 }
 
-/// What every driver of Mesa's tells.
+/// The statistics that all of Mesa's drivers report.
 const INSTRUCTIONS: StatisticNames = StatisticNames {
     instructions: "inst",
     latency: None,

@@ -1,8 +1,8 @@
-//! What compilers say of shaders, and what follows for one evaluation of a function.
+//! The statistics that compilers report of shaders, and the cost of one evaluation of a function that follows from them.
 
 use std::collections::BTreeMap;
 
-/// What a compiler says of a shader, under its own names.
+/// A compiler's statistics of a shader, under its own names.
 pub type Statistics = BTreeMap<String, f64>;
 
 /// The names of the reported quantities among a compiler's statistics.
@@ -12,16 +12,16 @@ pub struct StatisticNames {
     pub instructions: &'static str,
     /// Cycles from the first instruction to the last.
     pub latency: Option<&'static str>,
-    /// Cycles that a unit is busy with it: what it costs where many run. Of several units the busiest counts, each net of
-    /// what the empty chain asks of it.
+    /// Cycles that a unit is busy: the cost where many invocations run. Of several units the busiest counts, each net of the
+    /// empty chain.
     pub inverse_throughput: &'static [&'static str],
-    /// Registers of a lane.
+    /// Registers per lane.
     pub registers: Option<&'static str>,
-    /// What the main figure is: the inverse throughput in the compiler's own words, or its instructions.
+    /// The unit of the main figure, in the compiler's own words: of the inverse throughput, or else of instructions.
     pub measure: &'static str,
 }
 
-/// The counts of a shader, or of an evaluation.
+/// The counts of a shader or of one evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     /// Instructions.
@@ -32,19 +32,19 @@ pub struct Counts {
     pub inverse_throughput: Option<f64>,
 }
 
-/// What is known of a function on a GPU.
+/// The cost of a function on a GPU.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CostFigures {
-    /// The fragment shader with the shorter chain of it.
+    /// The counts of the fragment shader with its shorter chain.
     pub shader: Counts,
     /// Registers of that shader.
     pub registers: Option<f64>,
-    /// One evaluation, net of the chain.
+    /// The counts of one evaluation, net of the chain.
     pub net: Counts,
 }
 
 impl CostFigures {
-    /// All of them, for a message.
+    /// All figures, for a message.
     pub fn text(&self) -> String {
         let shown = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
         format!(
@@ -57,8 +57,8 @@ impl CostFigures {
         )
     }
 
-    /// The same of a function that computes nothing: it costs nothing. Nothing in its chain depends on the cosine, so that compilers
-    /// leave the chain out, and its measured net would be below 0 by what the chain itself costs.
+    /// These figures for a function that computes nothing, whose net cost is 0. Nothing in its chain depends on the cosine, so
+    /// compilers remove the chain, and its measured net cost would be negative.
     pub fn of_nothing(self) -> CostFigures {
         let none = |cycles: Option<f64>| cycles.map(|_| 0.0);
         CostFigures {
@@ -77,7 +77,7 @@ impl CostFigures {
     }
 }
 
-/// The counts among a compiler's statistics; none without a count of instructions.
+/// The counts among a compiler's statistics. None without a count of instructions.
 fn counts(names: &StatisticNames, statistics: &Statistics) -> Option<Counts> {
     let value = |name: Option<&str>| name.and_then(|name| statistics.get(name).copied());
     Some(Counts {
@@ -92,8 +92,8 @@ fn counts(names: &StatisticNames, statistics: &Statistics) -> Option<Counts> {
     })
 }
 
-/// The figures of a function, from the statistics of its shorter and its longer chain, and of both chains of the empty
-/// function. `lengths`: the evaluations in each chain.
+/// The figures of a function, from the statistics of its shorter and its longer chain and of both chains of the empty function.
+/// `lengths` are the numbers of evaluations in each chain.
 pub fn figures(
     names: &StatisticNames,
     lengths: [usize; 2],
@@ -126,7 +126,7 @@ pub fn figures(
     })
 }
 
-/// The cost of one evaluation: the difference of two chains, divided by how many evaluations the longer one has more.
+/// The cost of one evaluation: the difference of two chains, divided by the difference of their numbers of evaluations.
 fn slope(short: Counts, long: Counts, more: f64) -> Counts {
     let difference = less(long, short);
     Counts {
@@ -155,14 +155,15 @@ fn less(counts: Counts, other: Counts) -> Counts {
     }
 }
 
-/// What a driver of OpenGL remarked of the fragment shader: `FRAG shader: 30 inst, 4 nops, …` or `type: 4, inst: 30, …`.
+/// The statistics in an OpenGL driver's debug messages about the fragment shader: `FRAG shader: 30 inst, 4 nops, …` or
+/// `type: 4, inst: 30, …`.
 pub fn remarked(remarks: &[String]) -> Option<Statistics> {
     let of_fragment = remarks.iter().rev().filter_map(|remark| {
         let parts = remark.split_once("shader:");
         let (head, list) = parts.unwrap_or(("", remark));
         let head = head.to_lowercase();
         let is_fragment = ["frag", "fs"].iter().any(|word| head.contains(word));
-        // NVIDIA's says the stage as a number; Intel's speaks of each width, of which every shader has the first.
+        // NVIDIA's gives the stage as a number. Intel's reports each SIMD width, of which every shader has the first.
         let is_numbered = parts.is_none() && remark.starts_with("type: 4,");
         let is_wide = head.contains("simd") && !head.contains("simd8");
         ((is_fragment && !is_wide) || is_numbered).then(|| pairs(list))

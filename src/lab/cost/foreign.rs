@@ -1,7 +1,7 @@
-//! The shader that is measured around a function of a user's in HLSL or GLSL: as [`Probe`](super::Probe) has it in WGSL, for
-//! compilers that make SPIR-V of those languages.
+//! The measured shader around a user's function in HLSL or GLSL, for compilers that make SPIR-V of those languages. It is the
+//! shader that [`Probe`](super::Probe) makes in WGSL.
 //!
-//! The function is `fg_measured`, with its cosine first and one channel or three out.
+//! The function is `fg_measured`. It takes its cosine first and returns one channel or three.
 
 use super::chain::{Chain, ChainLanguage};
 use super::probe::{BLOCKS, ENTRY};
@@ -9,21 +9,21 @@ use crate::language::ir::Param;
 use crate::language::targets::{GLES, HLSL};
 use crate::physics::num::Precision;
 
-/// A function that gives its cosine: what a chain costs where nothing is evaluated in it.
+/// The empty function in HLSL, which returns its cosine. Its chain costs what a chain costs without evaluations.
 pub const EMPTY_HLSL: &str = "float3 fg_measured(float c) { return float3(c, c, c); }\n";
-/// The same in GLSL.
+/// The empty function in GLSL.
 pub const EMPTY_GLSL: &str = "vec3 fg_measured(float c) { return vec3(c); }\n";
-/// The same of one channel, in both.
+/// The empty function of one channel, in both languages.
 pub const EMPTY_SCALAR: &str = "float fg_measured(float c) { return c; }\n";
 
-/// A function as it is measured.
+/// A measured function.
 #[derive(Clone, Copy, Debug)]
 pub struct ForeignFunction<'a> {
     /// Its text.
     pub text: &'a str,
-    /// What it takes, the cosine first.
+    /// Its arguments, the cosine first.
     pub params: &'a [Param],
-    /// Whether it gives one number.
+    /// Whether it returns one number.
     pub is_scalar: bool,
 }
 
@@ -73,8 +73,8 @@ layout(location = 0) out vec4 fg_colour;
     chain(function, evaluations).shader(&language)
 }
 
-/// What HLSL and GLSL share. No function of a user's reads a texture. Locals have a prefix, because the text may define names
-/// of its own.
+/// What HLSL and GLSL share. No user's function reads a texture. Locals have a prefix, because the text may define names of its
+/// own.
 const C_LIKE: ChainLanguage = ChainLanguage {
     spelling: &HLSL.spelling,
     member: "",

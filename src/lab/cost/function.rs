@@ -1,6 +1,5 @@
-//! What is measured: library functions with arguments from uniforms, specialised ones with their constants folded in.
-//!
-//! How many numbers a material takes by a method: what an engine stores for it, and hands to each call.
+//! The measured functions: library functions with arguments from uniforms, and specialised ones with their constants folded in.
+//! Also how many numbers describe a material in a method, which an engine stores and passes to each call.
 
 use std::sync::OnceLock;
 
@@ -15,30 +14,30 @@ use crate::language::ir::{Checked, Ty};
 use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
 
-/// A function as it is measured.
+/// A measured function.
 #[derive(Clone, Debug)]
 pub struct CostedFunction {
-    /// Whether it was asked for, or is here as the reference only.
+    /// Whether it was requested, or is measured only as the reference.
     pub is_asked: bool,
-    /// The function of an effect that it is.
+    /// The effect's function, if it is one.
     pub effect: Option<&'static EffectFunction>,
     /// The material that it is specialised to.
     pub material: Option<String>,
-    /// Its method; of a function of an effect the one that R is by.
+    /// Its method. For a function of an effect, the one that computes R.
     pub method: &'static Method,
-    /// What it takes and gives.
+    /// Its form.
     pub form: FunctionForm,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
-    /// The graph.
+    /// Its graph.
     pub graph: Checked,
     probe: Probe,
-    /// The hash for each language, once it was asked for.
+    /// The hash for each language, computed when first needed.
     hashes: [OnceLock<String>; 3],
 }
 
-/// The functions of these methods: library and scalar forms, and specialised ones for each material that they describe,
-/// in each precision that they are written in.
+/// The functions of these methods, in each precision that they are written in: library and scalar forms, and specialised ones for
+/// each material that they describe.
 ///
 /// # Errors
 /// A function cannot be made.
@@ -84,7 +83,7 @@ pub fn functions(
     Ok(found)
 }
 
-/// The functions of an effect for any material, with R by a method: all, or by an unusual method those that ask for R.
+/// The functions of an effect for any material, with R by a method. If that is not the usual method, only those that need R.
 ///
 /// # Errors
 /// A function cannot be made.
@@ -105,7 +104,7 @@ pub fn functions_of_effect(
     Ok(functions.into_iter().map(costed).collect())
 }
 
-/// The function with which others are compared, where nobody asked for it.
+/// The reference function, where it was not requested.
 fn reference() -> Result<CostedFunction, Error> {
     let method = methods::find(REFERENCE).expect("a test asks for its cost");
     let functions = library_functions(method, &Naming::default())?;
@@ -148,7 +147,7 @@ impl CostedFunction {
         }
     }
 
-    /// The function with which others are compared: the exact law for dielectrics, its arguments from uniforms.
+    /// Whether it is the reference that others are compared with: the exact law for dielectrics, with arguments from uniforms.
     pub fn is_reference(&self) -> bool {
         self.effect.is_none()
             && self.method.name == REFERENCE
@@ -156,12 +155,12 @@ impl CostedFunction {
             && !self.precision.is_half()
     }
 
-    /// How many channels it gives.
+    /// How many channels it returns.
     pub fn channels(&self) -> usize {
         if self.is_scalar() { 1 } else { 3 }
     }
 
-    /// Whether it gives one channel.
+    /// Whether it returns one channel.
     pub fn is_scalar(&self) -> bool {
         self.graph.ty() == Ty::Scalar
     }
@@ -180,12 +179,12 @@ impl CostedFunction {
         has_method.then_some(self.method.name)
     }
 
-    /// The shader of the longer chain by its hash: what a record belongs to.
+    /// The hash of the shader with the longer chain, which is the key of a record.
     pub fn hash(&self, dialect: Dialect) -> &str {
         self.hashes[dialect as usize].get_or_init(|| self.probe.hash(dialect))
     }
 
-    /// The shape of that shader by its hash.
+    /// The hash of that shader's shape.
     pub fn shape(&self, dialect: Dialect) -> String {
         self.probe.shape(dialect)
     }
@@ -197,7 +196,7 @@ impl CostedFunction {
             .map(|evaluations| self.probe.text(evaluations, dialect))
     }
 
-    /// The same of the empty function in its place.
+    /// The fragment shaders of both chains of the empty function.
     pub fn empty_chains(&self, dialect: Dialect) -> [String; 2] {
         let (first, result) = self.ends();
         let probe = Probe::empty(first, result, self.precision);
@@ -207,7 +206,8 @@ impl CostedFunction {
     }
 }
 
-/// The numbers that a call of a method's library function takes beside the cosine: three of each colour or index. A texture is none.
+/// How many numbers a call of a method's library function takes beside the cosine: three for each colour or index, none for a
+/// texture.
 pub fn input_numbers(method: &Method) -> usize {
     let numbers = |ty| match ty {
         Ty::Rgb => 3,

@@ -1,4 +1,4 @@
-//! Cost: what a function costs by the compilers of GPUs, asked here or recorded, and what a method costs beside its error.
+//! The cost of a function by the compilers of GPUs, asked here or recorded, and the trade-off of a method's cost against its error.
 
 mod chain;
 mod compilers;
@@ -28,5 +28,5 @@ pub use shapes::{
     ChoiceRow, ChosenShape, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow,
 };
 
-/// The method that others' costs and times are shares of, in its library form of three channels.
+/// The method, in its library form of three channels, to which other costs and times are relative.
 pub const REFERENCE: &str = "dielectric_exact";

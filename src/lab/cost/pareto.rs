@@ -1,37 +1,37 @@
-//! Error against cost: which functions nothing beats in both, and by how much one beats another.
+//! Error against cost: the Pareto frontier of functions, and by how much one function beats another.
 
 use std::cmp::Ordering;
 
-/// What a function costs, and how far it is from the law.
+/// The cost of a function, and its error against the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostAndError {
-    /// What an evaluation costs, in any one unit.
+    /// The cost of an evaluation, in any unit.
     pub cost: f64,
-    /// Its error, by any one measure.
+    /// Its error, in any measure.
     pub error: f64,
 }
 
-/// Smaller relative differences count as ties: compilers and single precision differ by as much.
+/// Smaller relative differences count as ties. Compilers and single precision differ by as much.
 pub const TIE: f64 = 0.01;
-/// Errors below this are those of single precision, and count as none.
+/// Smaller errors count as this one: they are those of single precision.
 const LEAST_ERROR: f64 = 1e-6;
-/// Cheaper functions count as this dear: a count is the least that a compiler reports.
+/// Smaller costs count as this one: one instruction is the least that a compiler reports.
 const LEAST_COST: f64 = 1.0;
 
 impl CostAndError {
-    /// Cheaper first; of equal costs the smaller error first.
+    /// The cheaper first, then the smaller error.
     pub fn by_cost(&self, other: &CostAndError) -> Ordering {
         let errors = || self.error.total_cmp(&other.error);
         self.cost.total_cmp(&other.cost).then_with(errors)
     }
 
-    /// The smaller error first; of equal errors the cheaper first.
+    /// The smaller error first, then the cheaper.
     pub fn by_error(&self, other: &CostAndError) -> Ordering {
         let costs = || self.cost.total_cmp(&other.cost);
         self.error.total_cmp(&other.error).then_with(costs)
     }
 
-    /// Whether it costs less than the least that a compiler reports: nothing is a multiple of that.
+    /// Whether it costs less than the least that a compiler reports, so that ratios to it mean nothing.
     pub fn costs_nothing(&self) -> bool {
         self.cost < LEAST_COST
     }
@@ -46,17 +46,17 @@ impl CostAndError {
     }
 }
 
-/// How many times another function's cost and error.
+/// A function's cost and error as multiples of another's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Multiples {
-    /// Times the cost.
+    /// Its cost divided by the other's.
     pub cost: f64,
-    /// Times the error.
+    /// Its error divided by the other's.
     pub error: f64,
 }
 
 impl Multiples {
-    /// Whether the other function is nowhere worse, and better in cost or error.
+    /// Whether the other function is no worse in both, and better in cost or error.
     pub fn is_dominated(&self) -> bool {
         self.error >= 1.0 - TIE && self.cost >= 1.0 - TIE && !self.is_tie()
     }
@@ -68,8 +68,8 @@ impl Multiples {
     }
 }
 
-/// The places of the functions that nothing beats, found by a walk from the cheapest: each has a smaller error than all before it,
-/// by more than a tie. Two of the same cost and error are both on the frontier. What is not known takes no part.
+/// The indices of the functions on the frontier. From the cheapest on, each has a smaller error than all before it, by more than
+/// a tie. Two of the same cost and error are both on the frontier. Unknown points are left out.
 pub fn pareto_frontier(points: &[Option<CostAndError>]) -> Vec<usize> {
     let places = points.iter().enumerate();
     let mut known: Vec<(usize, CostAndError)> = places
@@ -105,17 +105,17 @@ mod tests {
             (&[], &[]),
             (&[None], &[]),
             (&[at(1.0, 1.0)], &[0]),
-            // A staircase, and one behind it.
+            // A staircase, and one point behind it.
             (
                 &[at(1.0, 3.0), at(2.0, 2.0), at(3.0, 1.0), at(3.0, 2.5)],
                 &[0, 1, 2],
             ),
-            // As dear and as wrong: both stand.
+            // Equal cost and error: both stay.
             (&[at(1.0, 1.0), at(1.0, 1.0)], &[0, 1]),
-            // As dear and less wrong, or as wrong and cheaper, is enough.
+            // A smaller error at equal cost, or a lower cost at equal error, is enough.
             (&[at(1.0, 1.0), at(1.0, 0.5)], &[1]),
             (&[at(2.0, 0.5), at(1.0, 0.5)], &[1]),
-            // Less wrong by nothing that counts is not worth a higher price; at the same price it is.
+            // An error that is smaller by less than a tie is not worth a higher cost, but wins at the same cost.
             (&[at(2.0, 0.999), at(1.0, 1.0)], &[1]),
             (&[at(1.0, 0.999), at(1.0, 1.0)], &[0]),
             // Small steps add up.
@@ -123,7 +123,7 @@ mod tests {
                 &[at(1.0, 1.0), at(2.0, 0.993), at(3.0, 0.987), at(4.0, 0.98)],
                 &[0, 2],
             ),
-            // One that is not known beats nothing.
+            // An unknown point beats nothing.
             (&[at(2.0, 1.0), None, at(1.0, 2.0)], &[0, 2]),
         ];
         for (points, wanted) in CASES {

@@ -1,11 +1,12 @@
-//! The shaders that are measured: a function in a fragment shader, evaluated once or several times in a chain.
+//! The measured shaders: a function in a fragment shader, evaluated once or several times in a chain.
 //!
-//! Each evaluation takes its first argument from the result before it, `r g - b` and what comes from the vertices, so that no channel
-//! can be left out, no compiler can make it simpler, and cosines stay spread where the shader is run; and each has arguments of its own, so that nothing computed from
-//! arguments is shared. The chain's own price is that of the [empty](Probe::empty) function in it.
+//! Each evaluation takes its first argument from the result before it, as `r g - b` plus an interpolated input. So no channel can
+//! be left out, no compiler can simplify it, and cosines stay spread where the shader is run. Each evaluation has arguments of
+//! its own, so that nothing computed from arguments is shared. The cost of the chain itself is that of the [empty](Probe::empty)
+//! function in it.
 //!
-//! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
-//! evaluation, [`BLOCKS`] or more in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
+//! Interface: location 0 holds weights and the first cosine. Group 0 has the arguments at binding 0 (one block for each evaluation,
+//! [`BLOCKS`] or more in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
 use super::chain::{Chain, ChainLanguage, MEASURED, uniforms, without_numbers};
 use super::family::Dialect;
@@ -15,24 +16,24 @@ use crate::language::targets::{GLES, Target, WGSL};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
 
-/// Blocks of arguments in a shader of no more evaluations; a longer chain has one for each.
+/// Blocks of arguments in a shader of at most as many evaluations. A longer chain has one block for each.
 pub const BLOCKS: usize = 8;
 /// The entry point of the fragment shader.
 pub const ENTRY: &str = "fg_main";
 /// The entry point of the vertex shader.
 pub const VERTEX: &str = "fg_vertex";
 
-/// A function as it is measured.
+/// A measured function.
 #[derive(Clone, Debug)]
 pub struct Probe {
     params: Vec<Param>,
     is_scalar: bool,
     precision: Precision,
-    /// In WGSL and in GLSL ES.
+    /// Its text in WGSL and in GLSL ES.
     texts: [String; 2],
 }
 
-/// A full-screen triangle in WGSL whose location 0 runs over (0, 1) and is no constant.
+/// A full-screen triangle in WGSL whose location 0 varies over (0, 1).
 pub const WGSL_VERTEX: &str = "
 struct FgVertex {
     @builtin(position) fg_position: vec4<f32>,
@@ -46,7 +47,7 @@ fn fg_vertex(@builtin(vertex_index) i: u32) -> FgVertex {
 ";
 
 impl Probe {
-    /// A function with its arguments, if it has any, from uniforms.
+    /// A function whose arguments, if it has any, come from uniforms.
     pub fn new(function: &Checked, precision: Precision) -> Probe {
         let text = |target: &Target| bare(function, MEASURED, target.spelling_in(precision));
         Probe {
@@ -57,8 +58,8 @@ impl Probe {
         }
     }
 
-    /// A function that is there as text, under the name `fg_measured`: in WGSL, and in GLSL ES, as far as it is known. It gives
-    /// one channel, or three.
+    /// A function given as text in WGSL and in GLSL ES, as far as it is known, under the name `fg_measured`. It returns one
+    /// channel or three.
     pub fn of_text(params: Vec<Param>, is_scalar: bool, [wgsl, gles]: [String; 2]) -> Probe {
         Probe {
             params,
@@ -68,7 +69,7 @@ impl Probe {
         }
     }
 
-    /// What a chain costs where nothing is evaluated in it: of functions with such a first argument and such a result.
+    /// The empty function with these types of its first argument and its result. It measures the cost of the chain itself.
     pub fn empty(first: Ty, result: Ty, precision: Precision) -> Probe {
         let text = |target: &Target| {
             let spelling = target.spelling_in(precision);
@@ -116,13 +117,13 @@ impl Probe {
         }
     }
 
-    /// The shader of the longer chain by its hash: what a record belongs to.
+    /// The hash of the shader with the longer chain, which is the key of a record.
     pub fn hash(&self, dialect: Dialect) -> String {
         let text = self.text(dialect.chains()[1], dialect);
         sha256(text.as_bytes())[..16].to_owned()
     }
 
-    /// The hash of the same text with a mark in the place of each number: what functions share that differ in constants alone.
+    /// The hash of the same text with a mark in place of each number, shared by functions that differ in constants alone.
     pub fn shape(&self, dialect: Dialect) -> String {
         let text = self.text(dialect.chains()[1], dialect);
         sha256(without_numbers(&text).as_bytes())[..16].to_owned()
@@ -138,7 +139,7 @@ impl Probe {
         };
         let language = ChainLanguage {
             spelling,
-            // Elements of an array in uniforms lie 16 bytes apart, or a multiple of it.
+            // The stride of a uniform array is a multiple of 16 bytes.
             member: "    @align(16) {name}: {type},\n",
             block: &format!(
                 "struct FgArguments {{\n{{members}}}}\n@group(0) @binding(0) var<uniform> fg_arguments: array<FgArguments, {}>;\n",
@@ -162,7 +163,7 @@ impl Probe {
         self.chain(0, evaluations).shader(&language)
     }
 
-    /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for compilers that support no other: only names differ.
+    /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for compilers that support no other. Only names differ.
     fn gles(&self, evaluations: usize, is_old: bool) -> String {
         let spelling = GLES.spelling_in(self.precision);
         let uniform = spelling
@@ -228,7 +229,7 @@ const NEW_HEAD: &str = "#version 300 es
 in highp vec4 fg_in;
 out highp vec4 fg_colour;
 ";
-/// Without a level there is only the base one: what is read here has no other.
+/// Reads without a level of detail: the textures here have only the base level.
 const OLD_HEAD: &str = "#version 100
 varying highp vec4 fg_in;
 #define textureLod(table, at, level) texture2D(table, at)

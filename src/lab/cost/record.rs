@@ -1,7 +1,5 @@
-//! What compilers said, kept in `data/records/costs/`, a file for each family, keyed by the hash of the shader: it serves
-//! where a compiler is absent.
-//!
-//! What is known of a function's cost without a compiler: by the record, by its shape, or because it computes nothing.
+//! Recorded costs, and the cost of a function as it is known without a compiler: by its record, by its shape, or because it
+//! computes nothing. Records lie in `data/records/costs/`, a file for each family, keyed by the hash of the shader.
 
 use core::fmt;
 use std::collections::BTreeMap;
@@ -21,33 +19,33 @@ use crate::physics::records;
 
 static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
 
-/// What was recorded of a family.
+/// The record of a family.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CostRecord {
     /// The compiler with its version.
     pub compiler: String,
     /// The figures of each shader by its hash.
     pub figures: BTreeMap<String, CostFigures>,
-    /// The hash of each function's shader, to tell a shader that changed from one that was never measured.
+    /// The hash of each function's shader. It distinguishes a shader that changed from one that was never measured.
     pub functions: BTreeMap<FunctionKey, String>,
-    /// Of functions whose shaders differ in numbers alone the largest cost, by the hash of the shader without its numbers.
+    /// The largest cost among functions whose shaders differ in numbers alone, by the hash of the shader without its numbers.
     pub shapes: BTreeMap<String, f64>,
 }
 
-/// Which function a row of a record is about.
+/// The function of a row of a record.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FunctionKey {
-    /// The function of an effect by its name after the prefix; empty for methods.
+    /// The function of an effect, by its name after the prefix. Empty for methods.
     pub effect: String,
-    /// The method; empty for a function of an effect that asks for no R.
+    /// The method. Empty for a function of an effect that needs no R.
     pub method: String,
-    /// The material that it is specialised to; empty for the library.
+    /// The material that it is specialised to. Empty for the library.
     pub material: String,
-    /// What it takes and gives.
+    /// Its form.
     pub form: FunctionForm,
-    /// How many channels it gives.
+    /// How many channels it returns.
     pub channels: usize,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
 }
 
@@ -84,7 +82,7 @@ impl fmt::Display for FunctionKey {
 }
 
 impl CostRecord {
-    /// What was recorded of a library function of three channels in single precision.
+    /// The record of a library function of three channels in single precision.
     pub fn library(&self, method: &str) -> Option<CostFigures> {
         self.of(&FunctionKey::library(
             method,
@@ -93,12 +91,12 @@ impl CostRecord {
         ))
     }
 
-    /// What was recorded of a function.
+    /// The record of a function.
     pub fn of(&self, key: &FunctionKey) -> Option<CostFigures> {
         self.figures.get(self.functions.get(key)?).copied()
     }
 
-    /// What was recorded of a function of an effect, with three channels of R by the usual method where it asks for R.
+    /// The record of a function of an effect. Where it needs R, that has three channels and is by the usual method.
     pub fn effect(&self, function: &str) -> Option<CostFigures> {
         let is_it = |key: &&FunctionKey| {
             let is_usual = key.method.is_empty() || key.method == USUAL_METHOD;
@@ -109,7 +107,7 @@ impl CostRecord {
     }
 }
 
-/// What stands before the compiler's name.
+/// Precedes the compiler's name.
 const COMPILER: &str = "# compiler: ";
 
 /// A row of a file.
@@ -139,7 +137,7 @@ pub fn records(family: &str) -> CostRecord {
     text.map(parse).unwrap_or_default()
 }
 
-/// A file as [`CostRecord`].
+/// Parses the text of a record.
 fn parse(text: &str) -> CostRecord {
     let compiler = text.lines().find_map(|line| line.strip_prefix(COMPILER));
     let mut record = CostRecord {
@@ -187,7 +185,7 @@ impl RecordedCost {
     }
 }
 
-/// What an evaluation costs, and how that is known.
+/// The cost of an evaluation, and how it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct KnownCost {
     /// The cost, in the family's measure.
@@ -202,7 +200,7 @@ pub struct KnownCost {
 pub enum CostBasis {
     /// This very function was compiled.
     Function,
-    /// The same text with other constants was; of several the largest cost counts.
+    /// The same text with other constants was compiled. The largest of several costs counts.
     Shape,
     /// It computes nothing.
     Nothing,
@@ -222,8 +220,8 @@ impl CostBasis {
     }
 }
 
-/// What is known of the cost of a function on a family. A function that computes nothing costs nothing; operations are counted where
-/// the family is theirs; else the record knows the function, or one of the same text with other constants.
+/// The cost of a function on a family, where it is known. A function that computes nothing costs nothing. Operations are counted
+/// if that is the family's measure. Otherwise the record has the function, or one of the same text with other constants.
 pub fn known_cost(
     function: &Checked,
     precision: Precision,
@@ -242,7 +240,7 @@ pub fn known_cost(
     own.or_else(|| shape().map(known(CostBasis::Shape)))
 }
 
-/// The cost of a function of which no compiler has to be asked.
+/// The cost of a function for which no compiler is needed.
 fn uncompiled_cost(function: &Checked, family: &Family) -> Option<KnownCost> {
     let basis = match family.compiler {
         GpuCompiler::None(_) => return None,
@@ -256,7 +254,7 @@ fn uncompiled_cost(function: &Checked, family: &Family) -> Option<KnownCost> {
     })
 }
 
-/// What an evaluation of this very function costs on a family: see [`known_cost`].
+/// The cost of an evaluation on a family, where it is known for this very function, not for its shape: see [`known_cost`].
 pub fn function_cost(
     function: &Checked,
     precision: Precision,
@@ -269,7 +267,7 @@ pub fn function_cost(
         .map(|known| known.cost)
 }
 
-/// What an evaluation of a method's library function, three channels in single precision, costs on a family.
+/// The cost of an evaluation of a method's library function on a family, for three channels in single precision.
 pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Option<f64> {
     let known = known_library_cost(
         method,
@@ -281,8 +279,8 @@ pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Op
     known.map(|known| known.cost)
 }
 
-/// What an evaluation of a library function costs on a family, and how that is known: its operations where those are counted or where there
-/// are none, else what was recorded. `form` is that of three channels or of one.
+/// The cost of an evaluation of a library function on a family, and how it is known: its operations where those are counted or
+/// where there are none, otherwise the record. `form` is that of three channels or of one.
 pub fn known_library_cost(
     method: &Method,
     form: FunctionForm,

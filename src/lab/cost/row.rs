@@ -1,6 +1,4 @@
-//! What a function costs on a family of GPUs, as a row of reports.
-//!
-//! The rows of a family: from its compiler, from the record, or from the graph.
+//! The cost of a function on a family of GPUs as a row of reports, from the family's compiler, from the record, or from the graph.
 
 use serde::Serialize;
 
@@ -16,37 +14,37 @@ use crate::physics::num::Precision;
 #[derive(Clone, Debug, Serialize)]
 #[serde(into = "CostRowJson")]
 pub struct CostRow {
-    /// The function of an effect by its name after the prefix.
+    /// The function of an effect, by its name after the prefix.
     pub effect: Option<&'static str>,
-    /// The method; none for a function of an effect that asks for no R.
+    /// The method. None for a function of an effect that needs no R.
     pub method: Option<&'static str>,
     /// The material that it is specialised to.
     pub material: Option<String>,
-    /// What it takes and gives.
+    /// Its form.
     pub form: FunctionForm,
-    /// How many channels it gives.
+    /// How many channels it returns.
     pub channels: usize,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
-    /// Texture fetches.
+    /// The number of texture fetches.
     pub fetches: usize,
     /// The family.
     pub family: &'static Family,
-    /// The compiler with its version, where one spoke.
+    /// The compiler with its version, where there is one.
     pub compiler: Option<String>,
-    /// Who says it; nobody where nothing is known.
+    /// Where the figures come from. None where nothing is known.
     pub source: Option<CostSource>,
-    /// What is known, or why nothing is.
+    /// The figures, or why there are none.
     pub figures: Result<CostFigures, String>,
-    /// The cost over that of the reference.
+    /// The cost divided by that of the reference.
     pub share: Option<f64>,
-    /// The shader by its hash.
+    /// The hash of the shader.
     pub shader: Option<String>,
-    /// The shader without its numbers, by its hash.
+    /// The hash of the shader without its numbers.
     pub shape: Option<String>,
 }
 
-/// Who says what a function costs.
+/// Where the cost of a function comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CostSource {
@@ -128,7 +126,7 @@ impl From<CostRow> for CostRowJson {
 }
 
 impl CostRow {
-    /// Why nothing is known, or which figures this compiler does not tell.
+    /// Why nothing is known, or which figures this compiler does not report.
     fn reason(&self) -> Option<String> {
         let figures = match &self.figures {
             Err(why) => return Some(why.clone()),
@@ -144,7 +142,7 @@ impl CostRow {
         (!missing.is_empty()).then(|| format!("not told here: {}", missing.join(", ")))
     }
 
-    /// Which function it is, in a record.
+    /// The key of the function in a record.
     pub fn key(&self) -> FunctionKey {
         FunctionKey {
             effect: self.effect.unwrap_or_default().to_owned(),
@@ -156,7 +154,8 @@ impl CostRow {
         }
     }
 
-    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`, `exit_transmittance: schlick`.
+    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`, `exit_transmittance:
+    /// schlick`.
     pub fn label(&self) -> String {
         let of = self.material.as_deref().or(self.effect);
         let names: Vec<&str> = of.into_iter().chain(self.method).collect();

@@ -1,8 +1,5 @@
-//! A family's compiler in a process of its own: how it starts, what it is asked, and what it says.
-//!
-//! What a process with a family's compiler is asked, and what it answers.
-//!
-//! A worker: opens the compiler that its environment tells, and answers who it is and what it says of shaders.
+//! A family's compiler in a worker process: its launch, the requests and responses, and the worker's loop. The worker opens the
+//! compiler that its environment selects, and answers with its name and its statistics of shaders.
 
 use core::time::Duration;
 use std::collections::BTreeMap;
@@ -21,10 +18,10 @@ use crate::lab::gpu::{DeviceFault, GlesCompiler, ModuleEntry, VulkanCompiler};
 use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker, beside};
 use crate::language::ir::Ty;
 
-/// What a compiler says of a function, or why it says nothing.
+/// A compiler's figures of a function, or why there are none.
 pub type CompilerFigures = Result<CostFigures, String>;
 
-/// Why there is nothing that a compiler says.
+/// Why a compiler gave no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum Unmeasured {
     /// No process can be started.
@@ -35,7 +32,7 @@ pub enum Unmeasured {
     Compiler(String),
 }
 
-/// What a compiler told, or why it told nothing.
+/// A compiler's answer, or why there is none.
 ///
 /// # Errors
 /// No process can be started.
@@ -47,16 +44,17 @@ pub fn told<T>(asked: Result<T, Unmeasured>) -> Result<Result<T, String>, Error>
     }
 }
 
-/// Hangs after which a compiler is asked no more.
+/// The number of hangs after which a compiler is not asked again.
 const HANGS: usize = 3;
 
-/// A compiler at work.
+/// A session with a compiler in a worker.
 pub struct CompilerSession<'a> {
     family: &'static Family,
     dialect: Dialect,
     limit: Duration,
     worker: &'a mut Worker,
-    /// The chains of the empty function with these types of its argument and its result, in each precision.
+    /// The statistics of the empty function's chains, by the types of its argument and its result, and by whether it is in half
+    /// precision.
     empty: BTreeMap<(Ty, Ty, bool), [Statistics; 2]>,
     hangs: usize,
 }
@@ -88,7 +86,7 @@ impl<'a> CompilerSession<'a> {
         response.name().map_err(Unmeasured::Compiler)
     }
 
-    /// What the compiler says of a function.
+    /// The compiler's figures of a function.
     ///
     /// # Errors
     /// No process can be started.
@@ -103,10 +101,10 @@ impl<'a> CompilerSession<'a> {
         told(self.figures(function))
     }
 
-    /// What the compiler says of shaders with the shorter and the longer chain of a function, then of the empty function.
+    /// The compiler's figures from shaders with the shorter and the longer chain of a function, then of the empty function.
     ///
     /// # Errors
-    /// It says nothing of one of them.
+    /// There is no answer for one of them.
     pub fn figures_of_shaders(
         &mut self,
         [short, long, empty_short, empty_long]: [FragmentShader; 4],
@@ -175,7 +173,7 @@ fn reason(silence: &Silence, limit: Duration) -> String {
     }
 }
 
-/// How the process with a family's compiler is started, or why there is none.
+/// The launch of a process with a family's compiler, or why there is none.
 ///
 /// # Errors
 /// The family's compiler was not built here.
@@ -184,8 +182,7 @@ pub fn launch(family: &Family, surroundings: &Surroundings) -> Result<Launch, St
     Ok(launch.with_environment(environment(family, surroundings)?))
 }
 
-/// The folder of a file among what tests/mesa-compilers builds: in the folder of tools that the user names, or beside this
-/// program.
+/// The folder of a file that tests/mesa-compilers builds: in the user's folder of tools, or beside this program.
 fn built(file: &str, tools: Option<&Path>) -> Option<PathBuf> {
     let own = beside();
     let places = tools.into_iter().chain(own.iter().map(PathBuf::as_path));
@@ -193,7 +190,7 @@ fn built(file: &str, tools: Option<&Path>) -> Option<PathBuf> {
     folders.find(|folder| folder.join(file).is_file())
 }
 
-/// What a process needs in its environment to be that compiler, or why it cannot be.
+/// The environment that makes a process that compiler, or why there is none.
 fn environment(
     family: &Family,
     surroundings: &Surroundings,
@@ -201,7 +198,7 @@ fn environment(
     let pair = |name: &str, value: OsString| (name.to_owned(), value);
     let mut all = vec![
         pair("MESA_SHADER_CACHE_DISABLE", "true".into()),
-        // A driver with a thread of its own remarks nothing.
+        // A driver with a thread of its own sends no debug messages.
         pair("GALLIUM_THREAD", "0".into()),
     ];
     match family.compiler {
@@ -224,12 +221,12 @@ fn environment(
     Ok(all)
 }
 
-/// What it is asked.
+/// A request to a worker with a compiler.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum CompilerRequest {
-    /// Who it is.
+    /// For the compiler's name and version.
     Name,
-    /// What a shader becomes.
+    /// For the statistics of a shader.
     Measure(FragmentShader),
 }
 
@@ -242,14 +239,14 @@ pub enum FragmentShader {
     Module(Vec<u8>),
 }
 
-/// What it answers.
+/// The worker's answer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum CompilerResponse {
-    /// It is here: its name and version.
+    /// The compiler's name and version.
     Name(String),
-    /// It is not, and why.
+    /// The compiler is not here, and why.
     Absent(String),
-    /// What it says of a shader.
+    /// Its statistics of a shader.
     Statistics(Statistics),
     /// It refuses a shader, and why.
     Refused(String),
@@ -265,7 +262,7 @@ impl CompilerResponse {
         }
     }
 
-    /// What it says of a shader.
+    /// The statistics of a shader.
     pub fn statistics(self) -> Result<Statistics, String> {
         match self {
             CompilerResponse::Statistics(statistics) => Ok(statistics),
@@ -276,7 +273,7 @@ impl CompilerResponse {
     }
 }
 
-/// A compiler at work.
+/// An opened compiler.
 enum Open {
     Radv(Box<VulkanCompiler>, [CString; 2]),
     Mesa(Box<GlesCompiler>, Dialect),

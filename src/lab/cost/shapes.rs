@@ -1,4 +1,4 @@
-//! The shapes that a search tried, beside what they cost, and what a choice among them is worth.
+//! The shapes that a search tried, with their costs, and how well a choice among them generalises.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use crate::generator::fit::{Candidate, ErrorQuantiles, LeaveOneOut, Tried, Tried
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::language::methods::Method;
 
-/// The materials that shapes are searched for together.
+/// A class of materials that shapes are searched for together.
 #[derive(Debug)]
 pub struct SearchedClass {
     /// Its name in reports.
@@ -17,7 +17,7 @@ pub struct SearchedClass {
     classes: &'static [MaterialClass],
 }
 
-/// All of them. Metals and semiconductors share their forms.
+/// All classes. Metals and semiconductors share their forms.
 pub static SEARCHED: [SearchedClass; 2] = [
     SearchedClass {
         name: "metals",
@@ -32,27 +32,27 @@ pub static SEARCHED: [SearchedClass; 2] = [
 ];
 
 impl SearchedClass {
-    /// Whether shapes for it are for this material.
+    /// Whether this material is in the class.
     pub fn holds(&self, subject: &MaterialInMedium) -> bool {
         let class = MaterialClass::containing(subject);
         class.is_some_and(|class| self.classes.contains(&class))
     }
 }
 
-/// What was found for some materials.
+/// The result of a search for a class.
 #[derive(Clone, Debug)]
 pub struct SearchResult {
-    /// Which.
+    /// The class.
     pub class: &'static SearchedClass,
-    /// How many shapes were tried.
+    /// The number of shapes that were tried.
     pub tried: usize,
-    /// On how many measurements.
+    /// The number of measurements that they were tried on.
     pub materials: usize,
-    /// Of how many substances.
+    /// The number of substances in these measurements.
     pub substances: usize,
-    /// The shapes that nothing beats, and those of methods.
+    /// The shapes on the frontier, and those of methods.
     pub shapes: Vec<ShapeRow>,
-    /// For each number of coefficients; none where there is nothing to choose by.
+    /// The choice for each number of coefficients. None where there is nothing to choose by.
     pub choices: Vec<(usize, Option<ChoiceRow>)>,
 }
 
@@ -66,7 +66,7 @@ pub enum SearchRow {
     Choice(ChoiceRow),
 }
 
-/// A shape, how far it misses, and what it costs.
+/// A shape with its errors and its cost.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShapeRow {
     row: &'static str,
@@ -83,7 +83,7 @@ pub struct ShapeRow {
     substances: usize,
     /// The operations of its graph.
     pub operations: usize,
-    /// What its method's library function costs, where that is recorded.
+    /// The cost of its method's library function, where that is recorded.
     pub cost: Option<f64>,
     /// Whether no shape of fewer operations is as accurate.
     pub is_on_frontier: bool,
@@ -93,7 +93,7 @@ pub struct ShapeRow {
     reason: Option<&'static str>,
 }
 
-/// The shape that is chosen among those with so many coefficients, and what the choice is worth.
+/// The shape that is chosen among those with so many coefficients, and its errors on substances left out of the choice.
 #[derive(Clone, Debug, Serialize)]
 pub struct ChoiceRow {
     row: &'static str,
@@ -107,22 +107,22 @@ pub struct ChoiceRow {
     pub errors: ErrorQuantiles,
     /// The errors on each substance of the shape that was chosen without it.
     pub errors_left_out: ErrorQuantiles,
-    /// The shapes that were chosen so.
+    /// The shapes chosen with one substance left out.
     pub chosen: Vec<ChosenShape>,
 }
 
-/// A shape that is chosen for so many substances, each time without them.
+/// A shape that was chosen when one substance was left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct ChosenShape {
     /// The shape in symbols.
     pub shape: String,
     method: Option<&'static str>,
-    /// For how many substances it was chosen.
+    /// The number of substances for which it was chosen.
     pub substances: usize,
 }
 
 impl SearchResult {
-    /// What the errors of these shapes tell. `cost` is that of a method's library function, where it is recorded.
+    /// The result from the errors of these shapes. `cost` gives that of a method's library function, where it is recorded.
     pub fn new(
         class: &'static SearchedClass,
         tried: &TriedShapes,
@@ -153,7 +153,7 @@ impl SearchResult {
     }
 }
 
-/// The shapes that nothing beats in operations and 90th percentile, and those of methods, the fewest operations first.
+/// The shapes on the frontier of operations and 90th percentile, and those of methods, the fewest operations first.
 fn best_shapes(
     class: &'static SearchedClass,
     tried: &TriedShapes,

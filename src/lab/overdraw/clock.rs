@@ -1,18 +1,17 @@
-//! The only leaf of this room that reads clocks: that on the wall, and the processor's for this process.
+//! The clocks: the wall clock, and the processor time of this process. No other file of this room reads clocks.
 
 use std::time::Instant;
 
 /// Nanoseconds that something took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spent {
-    /// By the wall.
+    /// By the wall clock.
     pub wall: f64,
-    /// What the processor worked for this process, all threads together, where the system tells: what other programs take
-    /// from it is not in there.
+    /// Processor time of this process, all threads together, where the system reports it. It does not include other programs.
     pub processor: Option<f64>,
 }
 
-/// Does something, and tells how long it took.
+/// The result of some work, and how long it took.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Spent) {
     let (before, start) = (processor(), Instant::now());
     let done = work();

@@ -1,4 +1,4 @@
-//! A device that draws: its target, and every shader compiled when it is first drawn.
+//! A device that draws: its render target, and its shaders, each compiled when it is first drawn.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,11 +10,11 @@ use crate::lab::gpu::{
     TextureShape, Wrap,
 };
 
-/// Pixels a side where nothing is said: a processor is busy with little, a card is not.
+/// Pixels per side of the target if none are given. A software device is busy with few pixels, a graphics card is not.
 const ON_A_PROCESSOR: u32 = 256;
 const ON_A_CARD: u32 = 1024;
 
-/// What the device is.
+/// A description of the device.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DeviceFacts {
     /// The device with its driver.
@@ -27,12 +27,12 @@ pub struct DeviceFacts {
     pub is_software: bool,
     /// Whether it computes in 16 bits.
     pub has_half: bool,
-    /// Pixels of the target.
+    /// The number of pixels in the target.
     pub pixels: u64,
 }
 
 impl DeviceFacts {
-    /// That it does not compute in 16 bits, in words.
+    /// A sentence that it does not compute in 16 bits.
     pub fn no_half(&self) -> String {
         format!(
             "{} has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)",
@@ -49,10 +49,10 @@ pub struct DrawingDevice<'a> {
 }
 
 impl<'a> DrawingDevice<'a> {
-    /// The device with a target of so many pixels a side.
+    /// The device with a target of so many pixels per side.
     ///
     /// # Errors
-    /// It draws no such target.
+    /// It cannot draw to such a target.
     pub fn new(
         plan: &'a DrawingPlan,
         device: &Device,
@@ -70,7 +70,7 @@ impl<'a> DrawingDevice<'a> {
         })
     }
 
-    /// What it draws on.
+    /// The description of the device.
     pub fn facts(&self) -> DeviceFacts {
         let adapter = self.canvas.adapter();
         DeviceFacts {
@@ -83,10 +83,10 @@ impl<'a> DrawingDevice<'a> {
         }
     }
 
-    /// Draws the heavy shader, and over it a drawing so many times.
+    /// Draws the heavy shader, and a drawing so many times over it.
     ///
     /// # Errors
-    /// The device does not take it, or is lost.
+    /// The device does not accept it, or is lost.
     pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, DeviceFault> {
         self.compile(DrawingPlan::HEAVY)?;
         self.compile(drawing)?;

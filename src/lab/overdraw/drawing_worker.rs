@@ -1,8 +1,5 @@
-//! Who draws for the measurement: a process of its own, and a new one whenever it hangs or falls over.
-//!
-//! What the process that draws is asked, and what it answers.
-//!
-//! The process that draws: opens the device, and answers what it is and how long its drawings take.
+//! The worker process that draws for the measurement: its supervisor's side, the requests and responses, and the worker's loop.
+//! The worker opens the device, and answers what it is and how long drawings take. It is replaced whenever it hangs or crashes.
 
 use core::time::Duration;
 use std::collections::BTreeSet;
@@ -17,31 +14,31 @@ use super::row::Error;
 use crate::lab::gpu::{AdapterKind, Backend, Device, DeviceFault, Wanted};
 use crate::lab::process::{Inbox, Launch, Silence, Surroundings, Worker};
 
-/// How long opening a device and compiling a shader may take: both are seconds where they are slow.
+/// How long opening a device and compiling a shader may take. Where they are slow, both take seconds.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// How much longer than it says a drawing may take before its process is ended: it need not hang, it may be late.
+/// How far a drawing may exceed its limit before its process is ended: it may be late without hanging.
 const GRACE: Duration = Duration::from_secs(2);
 
-/// Mesa's llvmpipe draws on one thread. Two of them share what the processor's cores share, each slows the other at times,
-/// and shares that repeat within 2 % differ by 15.
+/// Makes Mesa's llvmpipe draw on one thread. Two threads share resources of the processor's cores and slow each other at times.
+/// Shares that repeat within 2 % then differ by 15 %.
 const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
 
-/// The process, and what it knows.
+/// The process, and what is known of it.
 pub struct DrawingWorker {
     worker: Worker,
     /// Removed after the process.
     _surroundings: Surroundings,
     limit: Duration,
-    /// What it draws on.
+    /// The device that it draws on.
     pub device: DeviceFacts,
     /// Whether each drawing computes in half precision.
     in_half: Vec<bool>,
-    /// What it has compiled.
+    /// The drawings whose shaders it has compiled.
     compiled: BTreeSet<usize>,
 }
 
 impl DrawingWorker {
-    /// Starts it; one submission may take so long. What it draws is said by [`DrawingWorker::takes`].
+    /// Starts the process. One submission may take this long. [`DrawingWorker::takes`] sets what it draws.
     ///
     /// # Errors
     /// There is no device, or it cannot be opened.
@@ -61,13 +58,13 @@ impl DrawingWorker {
         })
     }
 
-    /// The plan whose drawings it draws.
+    /// Sets the plan whose drawings it draws.
     pub fn takes(&mut self, plan: &DrawingPlan) {
         let drawings = plan.drawings.iter();
         self.in_half = drawings.map(|one| one.precision.is_half()).collect();
     }
 
-    /// Another process in place of one that is lost.
+    /// Replaces a process that is lost.
     fn restart(&mut self) -> Result<(), Stop> {
         self.worker.end();
         self.compiled.clear();
@@ -114,7 +111,7 @@ impl Draw for DrawingWorker {
             }
             DrawResponse::Reading(reading) => Ok(reading),
             DrawResponse::Failed(why) | DrawResponse::Absent(why) => {
-                // A device that is lost draws nothing more.
+                // A lost device draws nothing more.
                 self.restart()?;
                 Err(Stop::One(why))
             }
@@ -123,7 +120,7 @@ impl Draw for DrawingWorker {
     }
 }
 
-/// What the process draws on.
+/// The device that the process draws on.
 fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
     match worker.ask(&DrawRequest::Device, PATIENCE)? {
         Ok(DrawResponse::Device(device)) => Ok(device),
@@ -134,24 +131,24 @@ fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
     }
 }
 
-/// What it is asked.
+/// A request to the worker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DrawRequest {
-    /// What it draws on.
+    /// For the device.
     Device,
-    /// A reading.
+    /// For a reading.
     Draw {
-        /// The place of a drawing in the plan.
+        /// The index of a drawing in the plan.
         drawing: usize,
-        /// How often it is drawn.
+        /// How many times it is drawn.
         draws: u32,
     },
 }
 
-/// What it answers.
+/// The worker's answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum DrawResponse {
-    /// What it draws on.
+    /// The device that it draws on.
     Device(DeviceFacts),
     /// A reading.
     Reading(Reading),
@@ -172,7 +169,7 @@ impl From<DeviceFault> for DrawResponse {
     }
 }
 
-/// Serves until the supervisor is gone. Only drawings of the plan are drawn; what is planned depends on whether the device is software.
+/// Serves until the supervisor is gone. Only drawings of the plan are drawn. The plan depends on whether the device is software.
 ///
 /// # Errors
 /// The pipe is gone.
@@ -201,7 +198,7 @@ pub fn serve(
     })
 }
 
-/// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
+/// Opens the requested device. OpenGL draws as well as the others, so it is used where there is nothing else.
 fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
     let opengl = Wanted {
         backend: Some(Backend::OpenGl),

@@ -1,4 +1,4 @@
-//! From readings to figures.
+//! Computes the figures of functions from readings: costs, shares with confidence intervals, and noise.
 
 use serde::Serialize;
 
@@ -6,32 +6,32 @@ use super::measure::{Clock, MeasuredDrawings};
 use super::plan::{DrawingPlan, DrawnChain};
 use crate::physics::num::statistics::{interval, median, quantile, resamples, spread};
 
-/// Interference only lengthens a reading, so we take the 10th percentile: the very quickest reading is a matter of luck.
+/// The quantile of readings that is taken. Interference only lengthens a reading, but the very shortest one is a matter of luck.
 const QUICK: f64 = 0.1;
-/// How many times as long as an empty draw a chain must take at least, where a device does both at once.
+/// A chain must take at least this many times as long as an empty draw, since a device may do both at once.
 const CLEAR: f64 = 1.2;
-/// Fewest rounds from which others are drawn anew: with 29 the chance is 95 % that one of them is among the quickest tenth,
-/// 1 - 0.9^29.
+/// The fewest rounds that are resampled. With 29 rounds the chance that one of them is among the quickest tenth is 95 %, 1 -
+/// 0.9^29.
 const FEWEST: usize = 29;
 
-/// What a function costs.
+/// The cost of a function by overdraw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OverdrawFigure {
-    /// Nanoseconds a pixel of a draw that evaluates it once: the empty draw, and one evaluation.
+    /// Nanoseconds per pixel of a draw that evaluates it once: the empty draw plus one evaluation.
     pub ns_per_pixel: f64,
-    /// Nanoseconds a pixel of one evaluation, without what leads to the next one.
+    /// Nanoseconds per pixel of one evaluation, net of the chain.
     pub net_ns_per_pixel: f64,
-    /// Nanoseconds a pixel of a draw that evaluates nothing.
+    /// Nanoseconds per pixel of a draw that evaluates nothing.
     pub empty_ns_per_pixel: f64,
-    /// As `ns_per_pixel`, by the device's timestamps; NaN where it has none.
+    /// As `ns_per_pixel`, by the device's timestamps. NaN where it has none.
     pub gpu_ns_per_pixel: f64,
     /// As `ns_per_pixel`, by the wall clock.
     pub wall_ns_per_pixel: f64,
-    /// Its net cost over that of `dielectric_exact`: the median over rounds drawn anew from the rounds.
+    /// Its net cost divided by that of `dielectric_exact`: the median over resampled rounds.
     pub share: f64,
-    /// How far the middle half of single rounds' shares reaches, over their median; NaN of a single round.
+    /// The interquartile range of single rounds' shares, divided by their median. NaN for a single round.
     pub spread: f64,
-    /// 95 % confidence interval of the share, where there are rounds enough.
+    /// 95 % confidence interval of the share, where there are enough rounds.
     pub interval: Option<(f64, f64)>,
     /// Draws of its long chain in a reading.
     pub draws: u32,
@@ -39,19 +39,19 @@ pub struct OverdrawFigure {
     pub evaluations: usize,
 }
 
-/// How much the time of one shader varies from reading to reading.
+/// How much the time of one shader varies between readings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Noise {
-    /// The width of the middle half of the readings, over their median.
+    /// The interquartile range of the readings, divided by their median.
     pub spread: f64,
-    /// The 95th percentile of the readings, over their median.
+    /// The 95th percentile of the readings, divided by their median.
     pub slowest: f64,
-    /// How many readings there are.
+    /// The number of readings.
     pub readings: usize,
 }
 
 impl Noise {
-    /// Of these readings.
+    /// The noise of these readings.
     pub fn from_readings(readings: &[f64]) -> Noise {
         Noise {
             spread: spread(readings),
@@ -61,13 +61,13 @@ impl Noise {
     }
 }
 
-/// Nanoseconds a pixel in some rounds: one evaluation, one of `dielectric_exact`, and the empty draw.
+/// Nanoseconds per pixel in some rounds: one evaluation, one of `dielectric_exact`, and the empty draw.
 #[derive(Clone, Copy)]
 struct Costs {
     net: f64,
     reference: f64,
     empty: f64,
-    /// How many times as long as the empty draw the shorter of its chains takes.
+    /// The time of the shorter of its chains, divided by that of the empty draw.
     room: f64,
 }
 
@@ -77,7 +77,7 @@ impl Costs {
     }
 }
 
-/// The time of each drawing: in all rounds by each clock, in single rounds, and in rounds drawn anew.
+/// The time of each drawing: in all rounds by two clocks, in single rounds, and in resampled rounds.
 struct Times {
     gpu: Vec<f64>,
     wall: Vec<f64>,
@@ -86,8 +86,8 @@ struct Times {
 }
 
 impl MeasuredDrawings {
-    /// What each of the plan's functions costs on a target of so many pixels, or why that is not known: it was given up, or
-    /// what it is held against was.
+    /// The cost of each of the plan's functions on a target of so many pixels, or why it is not known: the function, or a shader
+    /// that it is compared with, was given up.
     pub fn figures(&self, plan: &DrawingPlan, pixels: u64) -> Vec<Result<OverdrawFigure, String>> {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
         let anew = if rounds.len() < FEWEST {
@@ -160,7 +160,7 @@ impl MeasuredDrawings {
         })
     }
 
-    /// The noise of the heavy shader alone, and of the empty one over it.
+    /// The noise of the heavy shader alone, and of the empty shader over it.
     pub fn noise(&self) -> [Noise; 2] {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
         [DrawingPlan::HEAVY, DrawingPlan::BARE].map(|drawing| {

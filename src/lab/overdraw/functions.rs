@@ -1,5 +1,5 @@
-//! What is measured: functions, and what is drawn for them. Worker and supervisor come to the same from the same flags, so that
-//! a number names a drawing.
+//! The measured functions, and the drawings for them. Worker and supervisor derive the same ones from the same flags, so that a
+//! number names a drawing.
 
 use super::plan::{DrawingPlan, TimedFunction};
 use crate::generator::emit::{
@@ -11,29 +11,29 @@ use crate::lab::cost::REFERENCE;
 use crate::language::methods::{self, Class, Method, Values};
 use crate::physics::num::Precision;
 
-/// What lies below everything: the dearest of the library.
+/// The method of the heavy shader, which is drawn below all others: the most expensive one of the library.
 const HEAVY: &str = "conductor_from_f0_f82";
 
-/// Functions that are measured, and what is drawn for them.
+/// The measured functions, and the drawings for them.
 pub struct TimedFunctions {
     /// The functions.
     pub functions: Vec<TimedFunction>,
-    /// What is drawn for them.
+    /// The drawings for them.
     pub plan: DrawingPlan,
-    /// Why some are left out.
+    /// Why some functions are left out.
     pub left_out: Vec<String>,
 }
 
-/// With whose numbers library functions are run: what absorbs, and what does not.
+/// The materials with whose values library functions are run.
 pub struct LibraryMaterials {
-    /// What absorbs.
+    /// An absorbing one.
     pub metal: MaterialInMedium,
-    /// What does not.
+    /// One without absorption.
     pub dielectric: MaterialInMedium,
 }
 
 impl TimedFunctions {
-    /// The functions of these methods in these precisions: those of the library, and those of each material.
+    /// The functions of these methods in these precisions: library functions, and those specialised to each material.
     ///
     /// # Errors
     /// A function cannot be made.
@@ -98,7 +98,7 @@ impl TimedFunctions {
         Ok(())
     }
 
-    /// Whether a method is not written in half precision; says so.
+    /// Whether a method is not written in half precision. If so, the reason is noted.
     fn is_refused(
         &mut self,
         precision: Precision,

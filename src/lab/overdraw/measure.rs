@@ -1,4 +1,4 @@
-//! The measurement: how often each shader is drawn, in which order, and the readings. It draws through [`Draw`] and uses no
+//! The measurement: how many times each shader is drawn, in which order, and the readings. It draws through [`Draw`] and uses no
 //! device itself.
 
 use core::ops::Range;
@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 use super::plan::DrawingPlan;
 use crate::physics::num::statistics::{median, quantile};
 
-/// How many readings decide how often a shader is drawn, and by which clock.
+/// The number of readings by which the count of draws and the clock are chosen.
 const TRIALS: usize = 3;
 /// Nanoseconds that the draws of a reading should take: some hundred times the resolution of a clock.
 const LONG_ENOUGH: f64 = 4e6;
-/// How many times longer the draws of a reading should take than the time of the heavy shader alone varies.
+/// The time of a reading's draws should be this many times the variation of the heavy shader's time.
 const ABOVE_NOISE: f64 = 20.0;
-/// Nanoseconds that the draws of a reading may take at most for that.
+/// Nanoseconds that the draws of a reading may take at most to rise above that variation.
 const TOO_LONG: f64 = 16e6;
-/// Most draws in a reading.
+/// The most draws in a reading.
 const MOST_DRAWS: u32 = 4096;
 /// Functions between two readings of the reference shaders.
 const STRIDE: usize = 6;
@@ -26,9 +26,9 @@ const STRIDE: usize = 6;
 pub struct Reading {
     /// By the device's timestamps, where it has them.
     pub gpu: Option<f64>,
-    /// By the processor time of the process that draws, where the system reports it: a software device computes there.
+    /// By the processor time of the process that draws, where the system reports it. A software device computes there.
     pub cpu: Option<f64>,
-    /// By the wall clock, from the submission to its end.
+    /// By the wall clock, from submission to completion.
     pub wall: f64,
 }
 
@@ -49,28 +49,28 @@ pub enum Clock {
 pub enum Stop {
     /// This shader cannot be drawn.
     One(String),
-    /// Nothing can.
+    /// No shader can be drawn.
     All(String),
 }
 
-/// Who draws.
+/// Something that draws a plan's drawings.
 pub trait Draw {
-    /// Draws the heavy shader, and over it a drawing so many times; [`DrawingPlan::HEAVY`] is drawn alone.
+    /// Draws the heavy shader, and a drawing so many times over it. [`DrawingPlan::HEAVY`] is drawn alone.
     ///
     /// # Errors
-    /// It cannot be drawn, or not within its time.
+    /// It cannot be drawn, or not within its time limit.
     fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Stop>;
 }
 
-/// How much is done.
+/// How much is measured, and by which clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawingEffort {
-    /// Rounds.
+    /// The number of rounds.
     pub rounds: usize,
-    /// The clock. If none is given: the processor time for a software device, else the device's timestamps if they advance,
-    /// else the wall clock.
+    /// The clock. If none is given: the processor time for a software device, otherwise the device's timestamps if they advance,
+    /// otherwise the wall clock.
     pub clock: Option<Clock>,
-    /// Whether the device is software: its timestamps include the time of other programs.
+    /// Whether the device is software, whose timestamps include the time of other programs.
     pub is_software: bool,
     /// Nanoseconds that a reading may take.
     pub limit: f64,
@@ -79,24 +79,24 @@ pub struct DrawingEffort {
 /// The readings of all drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredDrawings {
-    /// The clock by which times count.
+    /// The clock that is used.
     pub clock: Clock,
     /// Whether the device's timestamps advance.
     pub advances: bool,
-    /// How often each drawing is drawn in a reading.
+    /// How many times each drawing is drawn in a reading.
     pub draws: Vec<u32>,
-    /// For each drawing: why it was given up, if it was.
+    /// Why each drawing was given up, if it was.
     pub failed: Vec<Option<String>>,
     /// All readings.
     pub rounds: Vec<Round>,
 }
 
-/// The readings of each drawing in a round: one each; of a reference shader one after every few others. NaN if the drawing
-/// was given up.
+/// The readings of each drawing in a round. There is one each, but one of a reference shader after every few functions. NaN if
+/// the drawing was given up.
 pub type Round = Vec<Vec<Reading>>;
 
 impl Reading {
-    /// There is no reading.
+    /// The reading of a drawing that was given up.
     const NONE: Reading = Reading {
         gpu: None,
         cpu: None,
@@ -105,7 +105,7 @@ impl Reading {
 }
 
 impl Clock {
-    /// All of them.
+    /// All clocks.
     pub const ALL: [Clock; 3] = [Clock::Gpu, Clock::Cpu, Clock::Wall];
 
     /// The name on the command line.
@@ -178,13 +178,13 @@ pub fn measure(
 }
 
 impl DrawingSession<'_> {
-    /// A reading; nothing where the drawing is given up.
+    /// A reading, which is NaN where the drawing is given up.
     fn read(&mut self, drawing: usize) -> Result<Reading, Stop> {
         let reading = self.read_draws(drawing, self.draws[drawing])?;
         Ok(reading.unwrap_or(Reading::NONE))
     }
 
-    /// A reading of so many draws; none where the drawing is given up, now or before.
+    /// A reading of so many draws. None where the drawing is given up, now or before.
     fn read_draws(&mut self, drawing: usize, draws: u32) -> Result<Option<Reading>, Stop> {
         if self.failed[drawing].is_some() {
             return Ok(None);
@@ -199,7 +199,7 @@ impl DrawingSession<'_> {
         }
     }
 
-    /// Without the heavy shader there is nothing to draw over.
+    /// Gives a drawing up. Without the heavy shader there is nothing to draw over.
     fn give_up(&mut self, drawing: usize, why: &str) {
         let name = &self.plan.drawings[drawing].name;
         self.failed[drawing] = Some(format!("{name}: {why}"));
@@ -209,7 +209,7 @@ impl DrawingSession<'_> {
         }
     }
 
-    /// Takes the clock that is asked for, or the best there is; says whether the device's own advances.
+    /// Chooses the requested clock, or the best one. Returns whether the device's timestamps advance.
     fn choose_clock(&mut self, effort: &DrawingEffort) -> Result<bool, Stop> {
         let mut advances = Clock::ALL.map(|_| true);
         for _ in 0..TRIALS {
@@ -250,8 +250,8 @@ impl DrawingSession<'_> {
         Ok(readings)
     }
 
-    /// Finds how often a shader is drawn: until the draws take long enough, and stand well above what the heavy shader
-    /// alone varies by. Its first reading warms it up.
+    /// Finds how many times a shader is drawn, so that the draws take long enough and well above the variation of the heavy
+    /// shader alone. The first reading warms the shader up.
     fn calibrate(&mut self, drawing: usize, heavy: &[f64], limit: f64) -> Result<(), Stop> {
         let alone = median(heavy);
         let scatter = quantile(heavy, 0.75) - quantile(heavy, 0.25);
@@ -275,8 +275,8 @@ impl DrawingSession<'_> {
         }
     }
 
-    /// A round: every drawing once. Those that all are compared with come again after every few of them, so that a machine that
-    /// is busy for a while slows both.
+    /// A round: every drawing once. Reference shaders are drawn again after every few functions, so that a machine that is busy
+    /// for a while slows both.
     fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Round, Stop> {
         let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed());
         let mut all: Round = vec![Vec::new(); count];
@@ -304,8 +304,8 @@ impl DrawingSession<'_> {
     }
 }
 
-/// All functions once, each turn in another order. The steps have no factor in common with the count, so that none is left
-/// out, and so other neighbours meet.
+/// All functions once, each turn in another order. The stride and the count are coprime, so that none is left out, and neighbours
+/// change from turn to turn.
 fn order(count: usize, turn: usize) -> impl Iterator<Item = usize> {
     let is_prime_to = |step: &usize| {
         let (mut a, mut b) = (*step, count);

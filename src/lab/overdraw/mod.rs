@@ -1,17 +1,18 @@
-//! The cost of a function, measured by overdraw. A heavy full-screen shader is drawn alone, then with the measured shader
-//! over it N times; the difference divided by N is the cost of a draw. The heavy shader keeps the device busy, so that both
-//! times contain the fixed cost of a frame.
+//! The cost of a function, measured by overdraw. A heavy full-screen shader is drawn alone, then with the measured shader over it N
+//! times. The difference divided by N is the cost of a draw. The heavy shader keeps the device busy, so that both times contain the
+//! fixed cost of a frame.
 //!
-//! The measured shader is blended, so that the device cannot skip a draw. A graphics card rasterises and blends while it computes,
-//! and a draw takes as long as the slower of both: a few evaluations of a cheap function take no time at all there. So a cost is a slope. Each draw
-//! evaluates the function many times, each from the result before ([`Probe`](crate::lab::cost::Probe)), in a chain that
-//! takes longer than anything else of the draw, and in one twice as long; and the same of the empty shader, which evaluates nothing, is subtracted:
+//! The measured shader is blended, so that the device cannot skip a draw. A graphics card rasterises and blends while it
+//! computes, and a draw takes as long as the slower of both. A few evaluations of a cheap function take no time at all there. So
+//! a cost is a slope. Each draw evaluates the function many times, each from the result before
+//! ([`Probe`](crate::lab::cost::Probe)), in a chain that takes longer than the rest of the draw, and in one twice as long. The
+//! slope of the empty shader, which evaluates nothing, is subtracted:
 //!
 //! `draw = (T(heavy + N draws) - T(heavy)) / N`,
 //! `net = (draw(2 n evaluations) - draw(n evaluations)) / n - the same of the empty shader`.
 //!
-//! Every round draws all shaders once, in an order that changes. The reference shaders are drawn again after every few of
-//! them, so that other load on the machine affects both. Interference only lengthens a reading, so a shader's time is the
+//! Every round draws all shaders once, in an order that changes. The reference shaders are drawn again after every few functions,
+//! so that other load on the machine affects both. Interference only lengthens a reading, so a shader's time is the
 //! 10th percentile of its readings over all rounds. The share of `dielectric_exact` is a bootstrap estimate: rounds are drawn
 //! with replacement, the share is the median of the results, and the limits contain 95 % of them.
 //!

@@ -1,4 +1,4 @@
-//! What is drawn: the functions that are measured, and what they are held against.
+//! The drawings: those of the measured functions, and the reference shaders that they are compared with.
 
 use half::f16;
 
@@ -15,16 +15,16 @@ pub struct TimedFunction {
     pub emitted: Emitted,
     /// The material that it is specialised to, as a user types it.
     pub material: Option<String>,
-    /// What its arguments are; a specialised function has none.
+    /// The values of its arguments. A specialised function has none.
     pub values: Values,
-    /// The table that it reads, where it reads one.
+    /// The table that it reads, if any.
     pub table: Option<Texels>,
 }
 
 /// A shader ready to be compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    /// What it is, for messages.
+    /// Its name, for messages.
     pub name: String,
     /// The module in WGSL with both entry points, [`Drawing::VERTEX`] and [`Drawing::FRAGMENT`].
     pub text: String,
@@ -32,45 +32,45 @@ pub struct Drawing {
     pub uniforms: Vec<u8>,
     /// The texture at binding 3.
     pub table: Option<Texels>,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
-    /// Whether it is added to what lies below.
+    /// Whether it is blended additively.
     pub blends: bool,
 }
 
-/// A chain of evaluations in a draw, and one of half as many: what the longer one takes more is the evaluations' alone, whatever the
-/// draw itself costs.
+/// A chain of evaluations in a draw, and one of twice as many. The difference of their times is that of evaluations alone,
+/// whatever the draw itself costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawnChain {
-    /// The place of the shorter one among the drawings; the longer one is the next.
+    /// The index of the shorter one among the drawings. The longer one is the next.
     pub short: usize,
-    /// Evaluations in the shorter one; twice as many are in the longer one.
+    /// Evaluations in the shorter one. The longer one has twice as many.
     pub evaluations: usize,
 }
 
-/// Everything that is drawn: what functions are held against first, then the functions.
+/// All drawings: the reference shaders first, then the functions.
 #[derive(Clone, Debug)]
 pub struct DrawingPlan {
-    /// All of it.
+    /// The drawings, in order.
     pub drawings: Vec<Drawing>,
-    /// Operations in a long chain, about.
+    /// The approximate number of operations in a long chain.
     pub operations: usize,
     /// The chain of the function whose cost is 1.
     pub reference: DrawnChain,
-    /// That of the empty shader of three channels in single precision.
+    /// The chain of the empty shader of three channels in single precision.
     pub empty: DrawnChain,
-    /// How many drawings stand before the functions.
+    /// The number of drawings before the functions.
     fixed: usize,
-    /// Of each function its chain, and the empty one that belongs to it.
+    /// The chain of each function, and of the empty one that belongs to it.
     chains: Vec<[DrawnChain; 2]>,
 }
 
-/// Operations in a long chain where nothing is said. A card hides what is cheap behind the draw; a processor does one after the other.
+/// Operations in a long chain if none are given. A graphics card hides cheap evaluations behind the draw, a processor does not.
 pub const fn usual_operations(is_software: bool) -> usize {
     if is_software { 400 } else { 2000 }
 }
 
-/// Most arguments of a long chain's evaluations, all together, at 16 bytes each: OpenGL takes 16 KiB of uniforms everywhere.
+/// The most arguments of all evaluations of a long chain, at 16 bytes each. OpenGL guarantees 16 KiB of uniforms.
 const MOST_ARGUMENTS: usize = 1000;
 
 impl TimedFunction {
@@ -106,19 +106,20 @@ impl Drawing {
 }
 
 impl DrawnChain {
-    /// The place of the longer one among the drawings.
+    /// The index of the longer one among the drawings.
     pub fn long(self) -> usize {
         self.short + 1
     }
 }
 
 impl DrawingPlan {
-    /// The heavy shader's place among the drawings.
+    /// The index of the heavy shader among the drawings.
     pub const HEAVY: usize = 0;
-    /// That of a draw without a function: the empty one, once.
+    /// The index of a draw without a function: the empty shader, once.
     pub const BARE: usize = 1;
 
-    /// What is drawn for these functions in chains of so many operations: `reference` is what shares are of, `heavy` lies below all.
+    /// The drawings for these functions in chains of so many operations. Shares are relative to `reference`, and `heavy` is drawn
+    /// below all.
     pub fn new(
         heavy: &TimedFunction,
         reference: &TimedFunction,
@@ -158,7 +159,7 @@ impl DrawingPlan {
             let half = usize::from(timed.emitted.precision.is_half());
             let empty = empties[2 * half + usize::from(timed.is_scalar())];
             let own = if timed.emitted.function.work() == 0 {
-                // What computes nothing costs 0: a compiler leaves out a chain in which nothing depends on the cosine.
+                // A function that computes nothing costs 0: a compiler removes a chain in which nothing depends on the cosine.
                 empty
             } else if timed.drawing(1) == reference_once {
                 reference_chain
@@ -178,25 +179,25 @@ impl DrawingPlan {
         }
     }
 
-    /// The places of what functions are held against.
+    /// The indices of the reference shaders.
     pub fn fixed(&self) -> std::ops::Range<usize> {
         0..self.fixed
     }
 
-    /// Of each function its chain, and the empty one that belongs to it.
+    /// The chain of each function, and of the empty one that belongs to it.
     pub fn chains(&self) -> &[[DrawnChain; 2]] {
         &self.chains
     }
 
-    /// All chains that a function's figure is made of: these two, and the same two of the function whose cost is 1.
+    /// All chains that a function's figure depends on: its own two, and those of the function whose cost is 1.
     pub fn held(&self, function: usize) -> [DrawnChain; 4] {
         let [own, empty] = self.chains[function];
         [own, empty, self.reference, self.empty]
     }
 }
 
-/// Evaluations in the shorter chain of a function of so much work and so many arguments: half of the operations, with those that lead from one evaluation
-/// to the next.
+/// Evaluations in the shorter chain of a function of so much work and so many arguments. They fill half of the operations,
+/// including those between one evaluation and the next.
 fn half_chain(operations: usize, work: usize, arguments: usize, is_scalar: bool) -> usize {
     let link = if is_scalar { 1 } else { 2 };
     (operations / 2 / (work + link)).clamp(1, MOST_ARGUMENTS / 2 / arguments.max(1))
@@ -213,7 +214,7 @@ fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {
     }
 }
 
-/// A block of arguments for each evaluation: each argument begins at a multiple of 16 bytes and is no longer.
+/// A block of arguments for each evaluation. Each argument begins at a multiple of 16 bytes and takes at most 16.
 fn uniforms(probe: &Probe, values: &Values, precision: Precision, evaluations: usize) -> Vec<u8> {
     let member = |param: &Param| {
         let value = values.get(&param.name).copied().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What `time` is asked for: from the names of methods and materials to the functions that are drawn.
+//! The request of `time`: turns the names of methods and materials into the functions that are drawn.
 
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::reference::MaterialInMedium;
@@ -9,27 +9,27 @@ use crate::physics::num::Precision;
 
 /// Materials that functions are specialised to where none is named: a metal and a dielectric.
 const USUAL: [&str; 2] = ["gold", "water"];
-/// With whose numbers library functions are run: what absorbs, and what does not.
+/// The materials with whose values library functions are run: an absorbing one, and one without absorption.
 const METAL: &str = "gold";
 const DIELECTRIC: &str = "water";
 
-/// What `time` is asked for.
+/// The request of `time`.
 pub struct TimeRequest {
     /// The methods.
     pub methods: Vec<&'static Method>,
     /// The materials.
     pub materials: Materials,
-    /// What functions compute in.
+    /// The precisions that functions compute in.
     pub precisions: Vec<Precision>,
-    /// Operations in a long chain.
+    /// The approximate number of operations in a long chain.
     pub operations: usize,
 }
 
 impl TimeRequest {
-    /// The functions, and what is drawn for them.
+    /// The functions, and the drawings for them.
     ///
     /// # Errors
-    /// A name that is none, or nothing to measure.
+    /// A name is unknown, or there is nothing to measure.
     pub fn timed_functions(&self) -> Result<TimedFunctions, Error> {
         let request = Request {
             materials: match &self.materials {

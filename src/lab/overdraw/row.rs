@@ -1,8 +1,5 @@
-//! What a function costs by overdraw, as a row of reports.
-//!
-//! Why nothing can be drawn.
-//!
-//! The record of times: what `fresnel-gen time` measured, and on what. `tests/times` writes it.
+//! The cost of a function by overdraw as a row of reports, the errors of a measurement, and the record of times with their devices.
+//! `fresnel-gen time` measures what is recorded, and `tests/times` writes the record.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -18,7 +15,7 @@ use crate::language::ir::Ty;
 use crate::physics::num::Precision;
 use crate::physics::records;
 
-/// A function and what it costs.
+/// A function and its cost.
 #[derive(Clone, Debug, Serialize)]
 #[serde(into = "TimeRowJson")]
 pub struct TimeRow {
@@ -26,19 +23,19 @@ pub struct TimeRow {
     pub method: &'static str,
     /// The material that it is specialised to, as a user types it.
     pub material: Option<String>,
-    /// What it takes and gives.
+    /// Its form.
     pub form: FunctionForm,
-    /// 1 or 3.
+    /// The number of channels, 1 or 3.
     pub channels: u8,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
-    /// What it costs, or why that is not known.
+    /// Its cost, or why that is not known.
     pub figure: Result<OverdrawFigure, String>,
-    /// Whether this machine cannot do it at all.
+    /// Whether the machine lacks what it needs.
     pub is_lacking: bool,
-    /// What the time was taken by.
+    /// The clock that the time was taken by.
     pub clock: Clock,
-    /// Rounds in which it was drawn.
+    /// The number of rounds in which it was drawn.
     pub rounds: usize,
 }
 
@@ -149,19 +146,19 @@ pub enum Error {
     /// There is no graphics device, or its driver fails: what it said.
     #[error("{0}")]
     Device(String),
-    /// The process that should open the device answers another question.
+    /// The process that should open the device gives an unexpected answer.
     #[error("a process that does not greet")]
     Protocol,
     /// The driver hangs.
     #[error("no graphics device opened within {0} s: its driver hangs")]
     Hangs(u64),
-    /// The driver takes its process down.
+    /// The driver crashes its process.
     #[error("the process that opens the graphics device ended ({0}): its driver failed")]
     Ended(String),
 }
 
 impl Error {
-    /// Whether the machine lacks something; otherwise the user's words are at fault.
+    /// Whether the machine lacks something. Otherwise the user's flags are at fault.
     pub fn is_lacking(&self) -> bool {
         match self {
             Error::Process(error) => error.is_lacking(),
@@ -177,19 +174,19 @@ static RECORD: &str = include_str!("../../../data/records/times.csv");
 pub struct Time {
     /// The method.
     pub method: String,
-    /// The material that it is specialised to; empty for the library.
+    /// The material that it is specialised to. Empty for the library.
     pub material: String,
-    /// What it takes and gives.
+    /// Its form.
     pub form: FunctionForm,
-    /// 1 or 3.
+    /// The number of channels, 1 or 3.
     pub channels: u8,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
-    /// Nanoseconds a pixel of a draw that evaluates it once.
+    /// Nanoseconds per pixel of a draw that evaluates it once.
     pub ns_per_pixel: f64,
-    /// Its net cost over that of `dielectric_exact`.
+    /// Its net cost divided by that of `dielectric_exact`.
     pub share: f64,
-    /// The range of the middle half of single rounds' shares, over their median.
+    /// The interquartile range of single rounds' shares, divided by their median.
     pub spread: f64,
     /// The device.
     pub device: String,

@@ -1,5 +1,4 @@
-//! Code error: a function in unfused f32 against itself in f64, at the very same f32 inputs. Never to be added to
-//! model error.
+//! Code error: a function in unfused f32 against itself in f64, at the same f32 inputs. It is never added to model error.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,15 +13,15 @@ use crate::physics::num::{Precision, ulp_distance};
 /// How far the code is from what it means.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CodeError {
-    /// Largest distance in units of the last place; what lies within [`ABSOLUTE_FLOOR`] does not count.
+    /// Largest distance in ulp. Differences within [`ABSOLUTE_FLOOR`] do not count.
     pub max_ulp: f64,
     /// Largest absolute difference.
     pub max_abs: f64,
-    /// The cosine at which the largest distance in ulp stands.
+    /// The cosine of the largest distance in ulp.
     pub worst_cos: f64,
 }
 
-/// 2⁻²²: near a zero (Brewster's angle, the corrected method) ulp have no bound, and only this makes sense.
+/// 2⁻²². Near a zero (Brewster's angle, the corrected method) an error in ulp has no bound, so a floor is needed.
 pub const ABSOLUTE_FLOOR: f64 = 1.0 / 4_194_304.0;
 
 /// The seed of the random media.
@@ -60,23 +59,21 @@ impl CodeError {
     }
 }
 
-/// Points are a sample: what is to stand as a bound must hold at the others too, so that differences count from this
-/// share of the floor on.
+/// The points are a sample, and a bound must hold at all others too. So differences count from this share of the floor on.
 const ROOM: f64 = 0.8;
 
-/// The code error of a function of `cos_theta` alone, at about `points` cosines; differences within four fifths of
+/// The code error of a function of `cos_theta` alone, at about `points` cosines. Differences within four fifths of
 /// [`ABSOLUTE_FLOOR`] do not count.
 pub fn code_error(function: &Checked, points: usize) -> CodeError {
     compare(function, &cosines(points), &[], ROOM * ABSOLUTE_FLOOR)
 }
 
-/// The largest distance in ulp, however small the result: what a form loses that stays within [`ABSOLUTE_FLOOR`] counts too.
+/// The largest distance in ulp, however small the result. Differences within [`ABSOLUTE_FLOOR`] count too.
 pub fn digits_lost(function: &Checked, points: usize) -> f64 {
     compare(function, &cosines(points), &[], 0.0).max_ulp
 }
 
-/// The code error of a method's library function over so many random media of those that its claim names, at about
-/// `points` cosines each.
+/// The code error of a method's library function over so many random media of its claim, at about `points` cosines each.
 pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeError {
     let inside = |c: &f32| in_domain(method, *c);
     let cosines: Vec<f32> = cosines(points).into_iter().filter(inside).collect();
@@ -87,7 +84,7 @@ pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeE
     })
 }
 
-/// Three random media of those that a method's claim names.
+/// Three random media of a method's claim.
 fn random_channels(method: &Method, random: &mut Random) -> Channels {
     let over = method.claims.code_over;
     let [a, b, c] = [0; 3].map(|_| random_medium(method, over, random));
@@ -97,7 +94,7 @@ fn random_channels(method: &Method, random: &mut Random) -> Channels {
     }
 }
 
-/// The same for one triple of media, at these cosines. The method's inputs are derived and rounded to f32.
+/// As [`library_code_error`] for one triple of media, at these cosines. The method's inputs are derived and rounded to f32.
 pub fn library_code_error_at(method: &Method, channels: &Channels, cosines: &[f32]) -> CodeError {
     let function = method
         .function(false)
@@ -117,8 +114,8 @@ fn arguments(method: &Method, channels: &Channels) -> Vec<[f32; 3]> {
     method.inputs.iter().map(single).collect()
 }
 
-/// The largest absolute difference of the coefficients that a method finds, over so many random media. None for methods that find
-/// none.
+/// The largest absolute difference of the coefficients that a method computes, over so many random media. None for methods that
+/// compute none.
 pub fn coefficient_code_error(method: &Method, media: usize) -> Option<f64> {
     let function = |place| {
         let coefficient = method.coefficient_in(Precision::F32, place)?;
@@ -133,7 +130,7 @@ pub fn coefficient_code_error(method: &Method, media: usize) -> Option<f64> {
     }))
 }
 
-/// n and k of a random medium of a set; of the wide sets' some are metals, and some absorb nothing.
+/// n and k of a random medium of a set. In the wide sets some are metals, and some absorb nothing.
 pub fn random_medium(method: &Method, over: Over, random: &mut Random) -> (f64, f64) {
     let glass = method.class == Class::Dielectric;
     if over == Over::Metals || !glass && random.unit() < METALS {

@@ -1,5 +1,5 @@
-//! A file as it lies there against what would be written today: declarations that were added or are missing, narrower
-//! types, and comments that state something else. A difference elsewhere is no finding: what the code does is found by running it.
+//! A file in the folder compared with what would be written today: declarations that were added or are missing, narrower types, and
+//! comments that state something else. Other differences are no findings: what the code does is found by running it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use similar::{DiffTag, TextDiff};
 
 use super::outline::{Item, Outline, function_name};
 
-/// How comments begin that say what a function promises or costs. One that would not be written is a false promise.
+/// Beginnings of comments that state what a function promises or costs. One that would not be written today is a false promise.
 const PROMISES: [&str; 12] = [
     "Model error",
     "Code error",
@@ -22,11 +22,11 @@ const PROMISES: [&str; 12] = [
     "Written as:",
     "Licence",
 ];
-/// How many findings of a kind are told.
+/// The most findings of a kind that are reported.
 const TOLD: usize = 10;
 
-/// What was found in a file, a sentence each, with its line. `path` is for the message; `is_wanted` says whether the
-/// file must hold a function.
+/// The findings in a file, a sentence each, with its line. `path` is for the message. `is_wanted` says whether the file must hold a
+/// function.
 pub fn findings(
     path: &str,
     found: &Outline,
@@ -80,7 +80,7 @@ pub fn findings(
         .collect()
 }
 
-/// The items of `all` that `known` lacks, by their words; what stands twice must stand twice.
+/// The items of `all` that `known` lacks, by their words. An item that occurs twice must occur twice in both.
 fn missing_from<'a>(known: &[Item], all: &'a [Item]) -> Vec<&'a Item> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for item in known {
@@ -96,9 +96,9 @@ fn missing_from<'a>(known: &[Item], all: &'a [Item]) -> Vec<&'a Item> {
     all.iter().filter(is_missing).collect()
 }
 
-/// Comments that would not be written today and state something: anything with a digit, a promise, or another text behind the
-/// label of a line (`Licence`, `Data`, a function's name). With each the right words, where there are such: nearest first. The command
-/// of a file is left out: it names the flags and files of whoever ran it.
+/// Comments that would not be written today and state something: anything with a digit, a promise, or another text after the
+/// label of a line (`Licence`, `Data`, a function's name). Each comes with the nearest right words, where there are any. The
+/// command of a file is left out: it names the flags and files of whoever ran it.
 fn false_statements<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, Option<&'a str>)> {
     let (found, today) = (without_command(found), without_command(today));
     let words = |items: &[&'a Item]| items.iter().map(|item| item.words.as_str()).collect();
@@ -117,7 +117,7 @@ fn false_statements<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, 
         for item in added.iter() {
             let words = item.words.as_str();
             if let Some(at) = moved.iter().position(|other| *other == words) {
-                // A line that stands in another place is what it was.
+                // A line that has only moved is unchanged.
                 moved.remove(at);
                 continue;
             }
@@ -137,7 +137,7 @@ fn false_statements<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, 
     wrong
 }
 
-/// The comments without the command that makes the file again, which ends at an empty line.
+/// The comments without the command that regenerates the file, which ends at an empty line.
 fn without_command(comments: &[Item]) -> Vec<&Item> {
     let mut is_command = false;
     let mut is_other = |item: &&Item| {
@@ -178,7 +178,7 @@ fn masked(words: &str) -> String {
     out
 }
 
-/// How many bytes of a number begin here: digits, a point before a digit, an exponent.
+/// The length in bytes of the number that begins here: digits, a point before a digit, an exponent.
 fn number(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
@@ -195,7 +195,7 @@ fn number(text: &str) -> usize {
     }
 }
 
-/// Some words of a long declaration.
+/// The first words of a long declaration.
 fn shown(words: &str) -> String {
     const MOST: usize = 160;
     let mut shown: String = words.chars().take(MOST).collect();

@@ -1,11 +1,9 @@
-//! A trial of an effect's function: points of its domain and its corners, and what is expected there.
+//! A trial of an effect's function: its textures, its points, and the results expected there. Points lie anywhere in the domain,
+//! close to the critical angle, and at the ends of the domain.
 //!
-//! Directions come close to the critical angle and look-ups to the edges of texels, where a last bit of an argument turns the result by
-//! much. So a result is held against what f64 gives at arguments that differ by some last bits, and at places in textures that
-//! differ by a step of a sampler's weights, 1/256 of a texel: it may lie anywhere between those, and its error is how far it lies
-//! outside.
-//!
-//! The points of a trial of an effect's function, and its textures: anywhere in the domain, close to the critical angle, and at the ends.
+//! Near the critical angle, and at the edges of texels, the last bit of an argument changes the result by much. So a result is
+//! compared with what f64 gives at arguments that differ by some last bits, and at texture coordinates that differ by a step of a
+//! sampler's weights, 1/256 of a texel. It may lie anywhere between those. Its error is how far it lies outside.
 
 use std::sync::Arc;
 
@@ -17,43 +15,43 @@ use crate::language::ir::{
 };
 use crate::physics::num::each_channel;
 
-/// Points of a trial.
+/// The number of points of a trial.
 const POINTS: usize = 2048;
-/// How often arguments are disturbed.
+/// How often arguments are perturbed.
 const DISTURBED: usize = 16;
-/// By how much: a share of the argument, which is two to four units in its last place of f32, and a unit of numbers from 1 to 2.
-/// Headers of effects state both.
+/// By how much: a share of the argument, which is two to four ulp of f32, and one ulp of numbers from 1 to 2. Headers of effects
+/// state both.
 const RELATIVE: f64 = 1.0 / (1 << 22) as f64;
 const ABSOLUTE: f64 = 1.0 / (1 << 23) as f64;
-/// Where nothing is promised: how many times as far off as f32 here a result may be, and how far at least.
+/// Where nothing is promised, a result may be off by this many times the error of f32 here, and by the next figure in addition.
 const ROOM: f64 = 2.0;
 const LEAST: f64 = 2e-7;
-/// A sampler's weights are whole so many parts of a texel.
+/// A sampler's weights are multiples of 1/256 of a texel.
 const WEIGHTS: f64 = 256.0;
 
-/// The points of a function and its textures.
+/// A function with its points and its texture.
 pub struct EffectTrial {
     params: Vec<Param>,
     function: Checked,
-    /// For each point the numbers of each argument.
+    /// The components of each argument, for each point.
     points: Vec<Vec<Vec<f32>>>,
-    /// What its two-dimensional texture holds, four numbers a texel, row by row; of a cube its six sides.
+    /// The texels of its two-dimensional texture, row by row, or of the six sides of its cube.
     pub texels: Vec<[f32; 4]>,
 }
 
-/// What came of a trial.
+/// The result of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffectOutcome {
     /// How many points there were.
     pub points: usize,
-    /// The largest error, of results above 1 as a share of them.
+    /// The largest error: absolute, but relative for results above 1.
     pub max_abs: f64,
     /// The arguments of the largest error, and what came.
     pub worst: String,
 }
 
 impl EffectTrial {
-    /// The trial of a function; inputs of its method take these values, one set after the other.
+    /// The trial of a function. Inputs of its method take these sets of values in turn.
     pub fn new(
         emitted: &Emitted,
         part: EffectPart,
@@ -82,7 +80,7 @@ impl EffectTrial {
         }
     }
 
-    /// The places of four numbers of all points, as a program of many arguments takes them.
+    /// The arguments of all points in groups of four numbers, as a program of many arguments takes them.
     pub fn places(&self) -> Vec<[f32; 4]> {
         let mut places = Vec::new();
         for arguments in &self.points {
@@ -103,8 +101,8 @@ impl EffectTrial {
         self.judge_where(got, |_| true)
     }
 
-    /// Judges results where nothing is promised, and says what is allowed: they may be twice as far off as those of f32 here, as far as these
-    /// are numbers.
+    /// Judges results where nothing is promised, and gives the allowed error: a little more than twice that of f32 here. Points
+    /// where f32 or f64 gives no finite number are left out.
     pub fn judge_without_promise(&self, got: &[[f32; 3]]) -> (EffectOutcome, f64) {
         let (single, meant) = (self.in_single(), self.meant(0));
         let is_known = |point: usize| {
@@ -156,7 +154,7 @@ impl EffectTrial {
         (0..self.points.len()).map(|i| result.at(i)).collect()
     }
 
-    /// What f64 gives at arguments that are disturbed; as they are in round 0.
+    /// What f64 gives at perturbed arguments. Round 0 leaves them as they are.
     fn meant(&self, round: usize) -> Value<f64> {
         evaluate(&self.function, &self.arguments(round, |x| x))
     }
@@ -180,7 +178,7 @@ impl EffectTrial {
         self.params.iter().enumerate().map(argument).collect()
     }
 
-    /// An argument of a round, by some last bits off; where a texture is read, by a step of its weights too.
+    /// An argument of a round, off by some last bits; where a texture is read, also by a step of its weights.
     fn disturbed(
         &self,
         place: usize,
@@ -212,14 +210,14 @@ impl EffectTrial {
     }
 }
 
-/// Of these, from this one on, arguments come from the ends of their domains: axes, zero vectors, grazing and opposite directions.
+/// From this point on, arguments come from the ends of their domains: axes, zero vectors, grazing and opposite directions.
 pub(super) const CORNERS_FROM: usize = 1536;
-/// From this one on, up to the corners, indices are such that light arrives close to the critical angle.
+/// From this point on, up to the corners, indices are chosen so that light arrives close to the critical angle.
 pub(super) const CRITICAL_FROM: usize = 1280;
 /// Texels of a row of the trial's textures.
 pub const TEXELS: usize = 16;
 
-/// A number from 0 to 1 that looks random, by place in two sequences: multiples of square roots of primes, without their whole parts.
+/// A quasi-random number from 0 to 1: the fractional part of a multiple of the square root of a prime, by place in two sequences.
 pub(super) fn share(index: usize, dimension: usize) -> f64 {
     const PRIMES: [f64; 24] = [
         2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0,
@@ -266,8 +264,8 @@ pub(super) fn argument_at(argument: &Argument, index: usize, place: usize) -> Ve
     }
 }
 
-/// Gives an index, where the function takes one and two directions, a value near the sine of the angle between these: total reflection
-/// begins there.
+/// Sets the index of a function that takes one and two directions to a value near the sine of the angle between these, where total
+/// reflection begins.
 pub(super) fn bring_to_critical_angle(
     params: &[Param],
     part: EffectPart,
@@ -342,8 +340,8 @@ fn corner_direction(which: usize) -> Vec<f32> {
     directions[which].to_vec()
 }
 
-/// A camera about three units before the world's centre that sees 60 degrees, turned by .2 about its height, column by column: depth from .5
-/// to 10, as Vulkan and WebGPU have it. No two of its numbers that a function reads are alike.
+/// A camera's matrix, column by column: about three units in front of the world's centre, a field of view of 60 degrees, turned
+/// by .2 about the vertical, depth from .5 to 10 as in Vulkan and WebGPU. No two of its numbers that a function reads are alike.
 const CAMERA: [f32; 16] = [
     1.697_526,
     -0.1,
@@ -363,8 +361,8 @@ const CAMERA: [f32; 16] = [
     3.0,
 ];
 
-/// What the trial's texture holds: numbers that grow smoothly across it, in alpha 1 within a circle and 0 without; of a cube
-/// distances between 1 and 2, different along each axis.
+/// The texels of the trial's texture: numbers that grow smoothly across it, with alpha 1 inside a circle and 0 outside. Those of
+/// a cube are distances between 1 and 2, different along each axis.
 pub(super) fn texels(params: &[Param]) -> Vec<[f32; 4]> {
     let half = |x: f64| nearest_half(x as f32);
     let place = |i: usize| 2.0 * (i as f64 + 0.5) / TEXELS as f64 - 1.0;
@@ -388,7 +386,7 @@ pub(super) fn texels(params: &[Param]) -> Vec<[f32; 4]> {
                 let parts = [x, y, z].map(f64::abs);
                 let least = parts.into_iter().fold(f64::INFINITY, f64::min);
                 let most = parts.into_iter().fold(0.0, f64::max);
-                // Where three sides of a cube meet, filters differ: all is alike there.
+                // Where three sides of a cube meet, filters differ, so the texels are constant there.
                 let varied = ((0.8 - least / most) / 0.3).clamp(0.0, 1.0);
                 let distance = 1.5 + varied * (0.3 * x - 0.2 * y + 0.1 * z) / most;
                 [half(distance), 0.0, 0.0, 1.0]

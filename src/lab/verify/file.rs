@@ -1,4 +1,4 @@
-//! One file: every function of it run, and every compiler asked.
+//! The verification of one file: all its functions are run, and all compilers are asked.
 
 use std::cell::OnceCell;
 
@@ -17,7 +17,7 @@ use crate::language::ir::Column;
 use crate::language::targets::Stack;
 use crate::physics::num::each_channel;
 
-/// How a file is tried.
+/// How much work a trial of a file takes.
 #[derive(Clone, Copy, Debug)]
 pub struct VerifyEffort {
     /// Cosines for each function and material.
@@ -48,8 +48,8 @@ pub fn file_rows(
     rows
 }
 
-/// What compilers say of all pages of a file: a refusal of one is a refusal, and says which page it is; without one a page that could
-/// not be checked leaves the file unchecked.
+/// What compilers say of all pages of a file. If one page is refused, the file is refused, and the words name the page. Otherwise
+/// one page that could not be checked leaves the file unchecked.
 fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
     let mut all: Vec<(&'static str, Verdict)> = Vec::new();
     for page in &file.pages {
@@ -116,7 +116,7 @@ impl<'a> FileTrial<'a> {
         is_first: bool,
     ) -> VerifyRow {
         let paths = ExecutionPath::all_for(self.file.target, self.emitted.precision);
-        // Other paths are second opinions on the text: one material tells.
+        // Other paths are second opinions on the text: one material is enough.
         let paths = if is_first { paths } else { &paths[..1] };
         let runs: Vec<(ExecutionPath, Result<PathRun, RunFault>)> = paths
             .iter()
@@ -132,7 +132,7 @@ impl<'a> FileTrial<'a> {
         .verify_row()
     }
 
-    /// The function as it may be run: a module that is not ours, and a text that holds a loop, may not.
+    /// The function, if it may be run. A module that is not ours may not, nor may a text that holds a loop.
     pub(super) fn shown_safely(
         &self,
         path: ExecutionPath,
@@ -200,7 +200,7 @@ impl<'a> FileTrial<'a> {
         })
     }
 
-    /// A module that is not ours may do anything to a driver, unless a validator has looked at it.
+    /// The fault of a module that is not ours and that no validator has checked: it may do anything to a driver.
     fn untrusted(&self) -> Option<RunFault> {
         let page = self.file.run_page();
         if !matches!(self.file.target.stack, Stack::SpirvModule)

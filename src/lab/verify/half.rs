@@ -1,6 +1,6 @@
-//! Code error in half precision: a function rounded to f16 after every operation, against what it means in f64 at the very
-//! same f16 inputs. Most graphics stacks of desktops compute in f32 whatever the text says, so that this emulation is
-//! the judge, at every f16 from 0 to 1.
+//! Code error in half precision: a function rounded to f16 after every operation, against what it means in f64 at the same f16
+//! inputs, at every f16 from 0 to 1. Most desktop graphics stacks compute in f32 whatever the text says, so this emulation is the
+//! judge.
 
 use super::code_error::random_medium;
 use super::points::Random;
@@ -11,12 +11,12 @@ use crate::language::methods::Method;
 use crate::physics::materials::Channels;
 use crate::physics::num::{Half, Num, Precision};
 
-/// How far half precision is from what is meant.
+/// The error of half precision against what is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfError {
-    /// Largest absolute difference; infinite where there is no number.
+    /// Largest absolute difference. Infinite where a result is NaN.
     pub max_abs: f64,
-    /// The cosine at which it stands.
+    /// Its cosine.
     pub worst_cos: f64,
 }
 
@@ -32,7 +32,7 @@ impl HalfError {
         worst_cos: 0.0,
     };
 
-    /// Takes a result up.
+    /// Includes a result.
     pub fn include(&mut self, got: f64, want: f64, cos_theta: f32) {
         let difference = (got - want).abs();
         let difference = if difference.is_nan() {
@@ -72,19 +72,19 @@ pub fn halves_beyond() -> Vec<f32> {
         .collect()
 }
 
-/// A number as f16 has it.
+/// A number rounded to f16.
 pub fn nearest_half(x: f32) -> f32 {
     Half::from_f32(x).to_f32()
 }
 
-/// A function in half precision with the values of its arguments after `cos_theta`, which are numbers that f16 has.
+/// A function in half precision with the values of its arguments after `cos_theta`, which f16 can represent.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfTrial<'a> {
-    /// What its text says.
+    /// The function as its text computes it.
     pub function: &'a Checked,
     /// What it means.
     pub meaning: &'a Checked,
-    /// The values of its arguments, without the texture; a scalar is the first number.
+    /// The values of its arguments, without the texture. A scalar is the first number.
     pub values: &'a [[f32; 3]],
     /// The texture that it reads.
     pub table: Option<&'a Texels>,
@@ -110,12 +110,12 @@ impl HalfTrial<'_> {
         self.run(self.meaning, cosines)
     }
 
-    /// What f16 gives that is rounded after every operation.
+    /// The results in f16, rounded after every operation.
     pub fn emulated(&self, cosines: &[f32]) -> Value<Half> {
         self.run(self.function, cosines)
     }
 
-    /// How far that is from what it means.
+    /// The error of the emulation against what the function means.
     pub fn error(&self, cosines: &[f32]) -> HalfError {
         let (got, want) = (self.emulated(cosines), self.want(cosines));
         let mut error = HalfError::NONE;
@@ -128,8 +128,8 @@ impl HalfTrial<'_> {
     }
 }
 
-/// The error of a method's library function over so many random media of those that its claim names, at every f16 from
-/// 0 to 1; infinite for a method that promises nothing.
+/// The error of a method's library function over so many random media of its claim, at every f16 from 0 to 1. Infinite for a
+/// method that promises nothing.
 pub fn library_half_error(method: &Method, media: usize) -> HalfError {
     let Some(claim) = method.half.claim() else {
         return HalfError {
@@ -148,7 +148,7 @@ pub fn library_half_error(method: &Method, media: usize) -> HalfError {
     })
 }
 
-/// The same for one triple of media, at these cosines. The method's inputs are derived and rounded to f16.
+/// As [`library_half_error`] for one triple of media, at these cosines. The method's inputs are derived and rounded to f16.
 pub fn library_half_error_at(method: &Method, channels: &Channels, cosines: &[f32]) -> HalfError {
     let well_formed = "every method's function is well formed; a test builds all";
     let function = method.function_in(Precision::F16, false);

@@ -1,7 +1,5 @@
-//! Harnesses: what is put around the text of a file so that one of its functions can be run over cosines. The text itself
-//! stays as it is, to the byte. What each language puts around it stands in its target's [`Harness`].
-//!
-//! Pairs as an object of JSON, in order.
+//! Harnesses: the code around the text of a file that runs one of its functions over cosines. The text itself stays as it is, to
+//! the byte. The code of each language stands in its target's [`Harness`]. [`as_object`] writes pairs as a JSON object, in order.
 
 use serde::{Serialize, Serializer};
 
@@ -16,11 +14,11 @@ use crate::physics::num::Precision;
 pub struct Call<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its arguments, `cos_theta` first where it depends on it.
+    /// Its arguments, `cos_theta` first where it takes one.
     pub params: &'a [Param],
-    /// Whether it gives one channel.
+    /// Whether it returns one channel.
     pub is_scalar: bool,
-    /// What it computes in; what goes in and comes out is f32 all the same.
+    /// The precision that it computes in. Inputs and outputs are f32 in any case.
     pub precision: Precision,
 }
 
@@ -52,7 +50,7 @@ impl Call<'_> {
         self.params.iter().any(|param| param.ty == Ty::Texture)
     }
 
-    /// The call, with each argument as this language has it.
+    /// The call, with each argument in the form of this language.
     fn call_text(
         &self,
         cos_theta: &str,
@@ -69,18 +67,18 @@ impl Call<'_> {
     }
 }
 
-/// A program around the text of a file of a target that is run as text: the text calls one function for each cosine.
+/// A program around the text of a file that calls one of its functions for each cosine. None for a target that is not run as text.
 pub fn program(target: &Target, file: &str, call: &Call) -> Option<String> {
     let harness = target.stack.harness()?;
     Some(program_in(harness, target, file, call))
 }
 
-/// The same around GLSL of the desktop, which no target runs as text.
+/// As [`program`], for desktop GLSL, which no target runs as text.
 pub fn desktop(file: &str, call: &Call) -> String {
     program_in(&DESKTOP, &GLSL, file, call)
 }
 
-/// The same around WGSL where the cosines are all f32 from a first one on.
+/// As [`program`], for WGSL, where the cosines are all f32 from a first one on.
 pub fn stream(file: &str, call: &Call) -> String {
     program_in(&STREAM, &WGSL, file, call)
 }
@@ -133,7 +131,7 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
     format!("{}{file}{after}", harness.before)
 }
 
-/// A vertex shader of a WGSL file, with the values of the arguments in it: naga makes GLSL ES of that.
+/// A vertex shader around a WGSL file, with the values of the arguments in it. naga translates it into GLSL ES.
 pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
     let texture = if call.is_textured() {
         STREAM.texture
@@ -166,7 +164,7 @@ fn {ENTRY}(@location(0) fg_cosine: f32) -> FgResult {{
     )
 }
 
-/// naga's GLSL ES with the names that are bound here.
+/// naga's GLSL ES, renamed to the names that are bound here.
 pub fn renamed(made: &Gles) -> String {
     let pairs = [
         (made.inputs.get(&0), "cos_theta"),
@@ -181,7 +179,7 @@ pub fn renamed(made: &Gles) -> String {
         })
 }
 
-/// Writes names with what is said of each as an object, in order.
+/// Writes pairs of a name and a value as an object, in order.
 ///
 /// # Errors
 /// The writer refuses.

@@ -1,4 +1,4 @@
-//! What came of running a function, and what to think of it: both errors, never added, and who accepts its file.
+//! The result of running a function, and its verdict: both errors, which are never added, and which compilers accept its file.
 
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
@@ -13,28 +13,28 @@ use crate::generator::emit::{CodeBound, Emitted, fingerprint};
 use crate::generator::fit::{Measured, ModelError};
 use crate::physics::num::Precision;
 
-/// What came of running a function by one execution path.
+/// The result of running a function by one execution path.
 #[derive(Clone, Debug)]
 pub struct PathRun {
-    /// At how many cosines.
+    /// The number of cosines.
     pub points: usize,
-    /// What share of all numbers from 0 to 1 they are.
+    /// Their share of all numbers from 0 to 1.
     pub share: f64,
-    /// What it may differ by, in ulp; none where nothing is promised.
+    /// The allowed difference, in ulp. None where nothing is promised.
     pub bound: Option<f64>,
-    /// What came of it.
+    /// The result in f32.
     pub outcome: Outcome,
-    /// In half precision: what came of it.
+    /// The result in half precision.
     pub half: Option<HalfRun>,
-    /// Of an effect's function: what came of it.
+    /// The result for an effect's function.
     pub effect: Option<EffectRun>,
-    /// Against the reference, where there is one.
+    /// The error against the reference, where there is one.
     pub model_error: Option<ModelError>,
-    /// On what.
+    /// The device that it ran on.
     pub device: String,
 }
 
-/// What came of running an effect's function.
+/// The result of running an effect's function.
 #[derive(Clone, Debug)]
 pub struct EffectRun {
     /// The device against f64.
@@ -43,14 +43,14 @@ pub struct EffectRun {
     pub allowed: f64,
 }
 
-/// What came of running a function in half precision.
+/// The result of running a function in half precision.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfRun {
     /// The device against f64.
     pub error: HalfError,
     /// The device against f16 rounded after every operation.
     pub emulation: HalfError,
-    /// The allowed difference from f64; without a promise it is twice the error of the emulation.
+    /// The allowed difference from f64. Without a promise it is twice the error of the emulation.
     pub allowed: f64,
 }
 
@@ -88,11 +88,11 @@ pub struct RanFunction<'a> {
     pub material: &'a str,
     /// What compilers say of the file.
     pub accepts: &'a [(&'static str, Verdict)],
-    /// Each execution path: its own first.
+    /// The run by each execution path, its own first.
     pub runs: &'a [(ExecutionPath, Result<PathRun, RunFault>)],
 }
 
-/// What a run came to.
+/// The verdict on a run.
 struct Judged {
     status: Status,
     reasons: Vec<String>,
@@ -155,7 +155,7 @@ impl RanFunction<'_> {
         row
     }
 
-    /// A run, and what to think of it.
+    /// The verdict on a run.
     fn judged(&self, path: ExecutionPath, run: &Result<PathRun, RunFault>) -> Judged {
         let run = match run {
             Err(RunFault::Absent(why)) => {
@@ -230,7 +230,7 @@ impl RanFunction<'_> {
 
     /// What is wrong in half precision.
     fn fault_in_half(&self, half: &HalfRun) -> Option<String> {
-        // A device that gives NaN has an infinite error, or one that is no number.
+        // A device that gives NaN has an error that is infinite or NaN.
         let is_right = half.error.max_abs <= half.allowed;
         (!is_right).then(|| {
             format!(
@@ -264,7 +264,7 @@ impl RanFunction<'_> {
         })
     }
 
-    /// A miss as people and editors read it.
+    /// A miss in a form that people and editors read.
     fn missed(&self, path: ExecutionPath, miss: &Miss) -> String {
         let channel = ["red", "green", "blue"][miss.channel];
         let path = if path == ExecutionPath::Own {
@@ -387,7 +387,7 @@ fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
     }
 }
 
-/// The rows of a file whose run came to no end.
+/// The rows of a file whose run timed out or crashed.
 pub fn unfinished(file: &PlannedFile, why: &str) -> Vec<VerifyRow> {
     let row = |emitted: &Emitted| VerifyRow {
         reason: Some(format!("{}: {}: {why}", file.run_page().path, emitted.name)),

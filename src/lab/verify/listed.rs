@@ -1,6 +1,5 @@
-//! What the manifest says of a file, against what is true of it today: functions, signatures, errors, costs.
-//!
-//! In what a file differs from the one that would be written today, in words.
+//! The manifest's entry of a file compared with what is true today (functions, signatures, errors, costs), and the difference
+//! between a file and the one that would be written today, in words.
 
 use serde_json::{Value, json};
 
@@ -137,7 +136,7 @@ impl<'a> Listed<'a> {
         )
     }
 
-    /// The line of a claim in the manifest: the last of these marks, each looked for after the one before.
+    /// The line of a claim in the manifest: that of the last of these marks, each searched for after the one before.
     fn line(&self, marks: &[&str]) -> usize {
         let file = format!("\"file\": \"{}\"", self.entry.file);
         let mut lines = self.text.lines().enumerate().peekable();
@@ -155,11 +154,11 @@ impl<'a> Listed<'a> {
     }
 }
 
-/// Bytes of a word of a module; its second and third say for which SPIR-V and by which program it was written.
+/// Bytes in a word of a module. Its second and third words give the version of SPIR-V and the program that wrote it.
 const WORD: usize = 4;
 const HEAD: std::ops::Range<usize> = WORD..3 * WORD;
 
-/// In what a module differs.
+/// How a module differs.
 pub fn of_modules(found: &[u8], today: &[u8]) -> &'static str {
     if found.get(HEAD) == today.get(HEAD) {
         "its instructions differ"
@@ -168,7 +167,7 @@ pub fn of_modules(found: &[u8], today: &[u8]) -> &'static str {
     }
 }
 
-/// In what a text differs.
+/// How a text differs.
 pub fn of_texts(found: &str, today: &str) -> String {
     let (comments, code) = (
         first_difference(found, today, true),
@@ -183,7 +182,7 @@ pub fn of_texts(found: &str, today: &str) -> String {
     }
 }
 
-/// The first line of a text that is another in the other one: of its comments, or of its code. Lines count from 1.
+/// The first line that differs from the other text, among its comments or in its code. Lines count from 1.
 fn first_difference(found: &str, today: &str, of_comments: bool) -> Option<String> {
     let lines = |text: &'_ str| -> Vec<(usize, String)> {
         let all = text

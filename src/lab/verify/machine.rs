@@ -1,7 +1,5 @@
-//! What verification needs of the machine: the environment, a clock.
-//!
-//! What a machine has of what files take: devices with their drivers, compilers with their versions. Rows of machines that have
-//! other ones are no single run.
+//! The machine that verifies: its environment, a clock, and its devices and compilers with their versions. Rows from machines whose
+//! drivers or versions differ are not one run.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -14,29 +12,29 @@ use crate::generator::fit::Measured;
 use crate::language::targets::{Compiler, DXC, Stack, Target};
 use crate::physics::num::Precision;
 
-/// Whether GitHub runs this, and reads annotations.
+/// Whether this runs in GitHub Actions, which reads annotations.
 pub fn is_github() -> bool {
     std::env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true")
 }
 
-/// What a variable of the environment says, where it is set.
+/// The value of an environment variable, where it is set.
 pub fn variable(name: &str) -> Option<String> {
     std::env::var_os(name).map(|value| value.to_string_lossy().into_owned())
 }
 
-/// Runs something, and tells how long it took.
+/// The result of some work, and how long it took.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let start = Instant::now();
     let done = work();
     (done, start.elapsed())
 }
 
-/// How many workers a machine takes.
+/// How many workers run at once on this machine.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// What a machine has and what it lacks: by target, and by target and what else looks at its files.
+/// What a machine has and what it lacks, by target, and by target and compiler.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MachineStatement {
     /// The device with its driver, or the version of the compiler.
@@ -46,7 +44,7 @@ pub struct MachineStatement {
 }
 
 impl MachineStatement {
-    /// What is here to run a target's text by these paths, and nothing else.
+    /// The devices here that run a target's text by these paths.
     pub fn of_devices(target: &Target, paths: &[ExecutionPath], devices: &Devices) -> Self {
         let mut stated = MachineStatement::default();
         let is_run = !matches!(target.stack, Stack::None);
@@ -95,7 +93,7 @@ impl MachineStatement {
         self.lacks.keys().any(is_its)
     }
 
-    /// The first thing that both speak of and that is not the same on both machines: its name, and what each says of it.
+    /// The first thing that both state and that differs between the machines: its name, and what each says of it.
     pub fn difference(&self, other: &MachineStatement) -> Option<(&str, String, String)> {
         let names = self.has.keys().chain(self.lacks.keys());
         names
@@ -109,7 +107,7 @@ impl MachineStatement {
     }
 }
 
-/// The version of a compiler; one that is here and does not tell it is not missing.
+/// The version of a compiler. One that is here and states no version is not missing.
 fn compiler_here(compiler: &Compiler) -> Measured<String> {
     match compilers::version(compiler) {
         Measured::No(why) if compilers::is_here(compiler) => Measured::Yes(why),

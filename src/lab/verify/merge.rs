@@ -1,5 +1,5 @@
-//! The shards of one verification put together: the rows of their reports in the order of a whole run. Whatever tells that they are
-//! not of one run is refused, since rows of two runs beside each other prove nothing.
+//! Merges the shards of one verification: the rows of their reports in the order of a whole run. Shards of different runs are
+//! refused, since their rows together prove nothing.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,20 +17,20 @@ use crate::physics::materials::FileFault;
 
 /// The beginning of the command of a verification.
 const COMMAND: &str = "verify";
-/// As many missing shards are named.
+/// The most missing shards that are named.
 const NAMED: usize = 20;
-/// As many characters of what a report says are shown.
+/// The most characters of a report's text that are shown.
 const SHOWN: usize = 1000;
 
 /// Why reports are not the shards of one run.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MergeFault {
-    /// A file that is no shard's report, or a report that contradicts itself.
+    /// A file that is not a shard's report, or a report that contradicts itself.
     #[error("{}: {}", foreign::path(file), one_line(what))]
     NotAShard {
         /// The file.
         file: PathBuf,
-        /// What it is.
+        /// What it is instead.
         what: String,
     },
     /// Two reports of one shard.
@@ -63,17 +63,17 @@ pub enum MergeFault {
         other: PathBuf,
         /// What differs.
         what: String,
-        /// What it is in the file.
+        /// Its value in the file.
         here: String,
-        /// What it is in the other.
+        /// Its value in the other.
         there: String,
     },
     /// Shards without a report.
     #[error("{count} of {shards} shards missing: {names}; run what is missing, and merge again")]
     Missing {
-        /// How many.
+        /// How many are missing.
         count: usize,
-        /// Of how many.
+        /// How many shards the run has.
         shards: usize,
         /// Their numbers.
         names: String,
@@ -98,15 +98,15 @@ pub struct Part {
 pub struct Whole {
     /// The command.
     pub command: String,
-    /// Whether what could not be checked ends it with 3.
+    /// Whether checks that could not be made end it with exit code 3.
     pub require_all: bool,
     /// The rows in their order.
     pub rows: Vec<VerifyRow>,
-    /// What came of each place, in order.
+    /// The outcome at each place, in order.
     pub parts: Vec<PartStatement>,
 }
 
-/// What every report begins with, in whatever version of the form.
+/// What every report begins with, in all versions of the schema.
 #[derive(Deserialize)]
 #[serde(expecting = "an object")]
 struct Head {
@@ -141,8 +141,8 @@ pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
     Ok(Part { file, report })
 }
 
-/// What is wrong with the rows of a report: the shard does not speak of the very places that are dealt to it, or of one of them other
-/// rows are there than it says.
+/// What is wrong with the rows of a report: its places are not those dealt to the shard, or a place's rows are not those that it
+/// states.
 fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
     let (index, count) = (shard.index(), shard.count());
     if report.plan.len() != report.places {
@@ -175,7 +175,7 @@ fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
     hidden_character(report).or(counted)
 }
 
-/// What is wrong with the rows at a place: some are missing, or there twice, or others than were planned.
+/// What is wrong with the rows at a place: some are missing, duplicated or not planned.
 fn part_fault(part: &PartStatement, planned: &PlannedRows, found: &[&PlacedRow]) -> Option<String> {
     let PartStatement {
         place, file, rows, ..
@@ -314,7 +314,7 @@ pub fn merged(parts: Vec<Part>) -> Result<Whole, Error> {
         whole.parts.extend(part.report.parts);
         rows.extend(part.report.rows);
     }
-    // What came of one place stands in one report, in order.
+    // All rows of a place stand in one report, in order.
     rows.sort_by_key(|placed| placed.place);
     whole.rows = rows.into_iter().map(|placed| placed.row).collect();
     whole.parts.sort_by_key(|part| part.place);
@@ -365,7 +365,7 @@ impl Part {
     }
 }
 
-/// What tells that two shards are not of one run: its name, and what it is of each.
+/// The first difference that shows that two shards are not of one run: its name, and its value in each.
 fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, String, String)> {
     let differ = |what: &str, here: String, there: String| Some((what.to_owned(), here, there));
     if own.shards != its.shards {

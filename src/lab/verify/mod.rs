@@ -1,11 +1,11 @@
-//! Verification: generated code against what it means.
+//! Verification of generated code: its results compared with what it means.
 //!
-//! A [`Trial`] is a function with the values of its arguments; what it means at its inputs, in f64, is what is
-//! [`Expected`]. With the feature `compilers` compilers that are not ours give their word; with the feature `gpu` the
-//! text itself runs, on a real graphics stack.
+//! A [`Trial`] is a function with the values of its arguments. What it means at its inputs, in f64, is [`Expected`]. With the
+//! feature `compilers`, independent compilers check the text. With the feature `gpu`, the text itself runs on a real graphics
+//! stack.
 //!
-//! Shaders run in processes of their own, so that one that never ends, or that takes its driver down, is a row of the
-//! report and no more. All processes make the same [`VerifyPlan`](requested::VerifyPlan) from the same flags; a number names a file of it.
+//! Shaders run in processes of their own, so that one that hangs or crashes its driver costs no more than a row of the report. All
+//! processes make the same [`VerifyPlan`](requested::VerifyPlan) from the same flags, and a number names one of its files.
 
 mod code_error;
 pub mod compilers;

@@ -1,6 +1,5 @@
-//! A second opinion on what WGSL means: naga's own translation of it, to be run beside our text of the same function.
-//!
-//! naga renames what it likes, so that each translation comes with the names that a caller binds.
+//! naga's translation of WGSL into GLSL ES and HLSL: a second opinion on what the WGSL means, run beside our text of the same
+//! function. naga renames identifiers, so each translation comes with the names that a caller binds.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -28,13 +27,13 @@ pub struct Gles {
     pub inputs: Locations,
     /// The names of outputs.
     pub outputs: Locations,
-    /// The names of uniform blocks, in the layout std140.
+    /// The names of uniform blocks, in std140 layout.
     pub blocks: Bindings,
     /// The names of `sampler2D`s, by the binding of the texture.
     pub textures: Bindings,
 }
 
-/// A compute shader in HLSL. `@binding` is the register's number, `@group` its space; buffers are byte address buffers.
+/// A compute shader in HLSL. `@binding` is the register's number, `@group` its space. Buffers are byte address buffers.
 #[derive(Clone, Debug)]
 pub struct Hlsl {
     /// The shader.
@@ -104,7 +103,7 @@ pub fn to_hlsl(wgsl: &str, entry: &str) -> Result<Hlsl, CompilerFault> {
 fn gles_options() -> glsl::Options {
     glsl::Options {
         version: glsl::Version::new_gles(300),
-        // The caller's own position: not turned over for another API.
+        // The caller's own position, without a flip for another API.
         writer_flags: glsl::WriterFlags::empty(),
         ..Default::default()
     }
@@ -124,8 +123,8 @@ fn refused(fault: impl Display) -> CompilerFault {
     CompilerFault::Refused(fault.to_string())
 }
 
-/// Inputs or outputs, read from their declarations, `smooth out vec3 _vs2fs_location0;`: naga tells of them only where
-/// the language has no other way to say a location.
+/// Inputs or outputs, read from their declarations, `smooth out vec3 _vs2fs_location0;`. naga reports them only where the
+/// language has no other way to state a location.
 fn varyings(text: &str, qualifier: &str) -> Locations {
     let varying = |line: &str| {
         let (_, declared) = line.split_once(qualifier)?;
@@ -197,7 +196,7 @@ struct Out { @builtin(position) position: vec4<f32>, @location(0) reflectance: v
     #[test]
     fn a_compute_shader_keeps_its_bindings() {
         let hlsl = to_hlsl(COMPUTE, "sample").unwrap();
-        // `sample` is a word of HLSL.
+        // `sample` is a keyword of HLSL.
         assert_eq!(hlsl.entry, "sample_");
         for register in ["register(t1)", "register(u2)"] {
             assert!(hlsl.text.contains(register), "{}", hlsl.text);

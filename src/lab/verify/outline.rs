@@ -1,24 +1,22 @@
-//! The outline of a generated file: what it declares, and its comments with their lines. It serves to compare a file that
-//! somebody may have edited with what would be written.
+//! The outline of a generated file: its declarations and its comments, with their lines. A file that somebody may have edited is
+//! compared by it with what would be written.
 //!
-//! The outline errs on the safe side: what our own text never holds (a quote, a backslash, a digraph) counts as a
-//! declaration, because compilers disagree about what it hides.
-//!
-//! The outline of a SPIR-V module: entry points, variables with their bindings, the number of functions, what it asks of
-//! a device.
+//! The outline of a text errs on the safe side: what our own text never holds (a quote, a backslash, a digraph) counts as a
+//! declaration, because compilers disagree about what it hides. The outline of a SPIR-V module holds entry points, variables with
+//! their bindings, the number of functions, and what it asks of a device.
 
 use crate::generator::emit::shader_words::{block_comment, is_name_part};
 
-/// What a file declares and says.
+/// What a file declares, and what its comments say.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outline {
     /// Declarations outside all bodies, directives, and signs that our text never holds.
     pub declared: Vec<Item>,
     /// Comments, a line each.
     pub comments: Vec<Item>,
-    /// Words that begin a loop. No function of ours holds one, and one that never ends would stop a device.
+    /// Words that begin a loop. No generated function holds one, and an endless one would hang a device.
     pub loops: Vec<Item>,
-    /// Words that make numbers narrower: wrong on devices that heed them, and right on those that do not.
+    /// Words that lower precision. Devices that heed them give wrong results; devices that ignore them give right ones.
     pub narrow: Vec<Item>,
 }
 
@@ -36,18 +34,19 @@ impl Outline {
 pub struct Item {
     /// Its line, from 1; 0 in a module, which has no lines.
     pub line: usize,
-    /// Its words, a space between them: of a function its head.
+    /// Its words, separated by one space. For a function, its head.
     pub words: String,
 }
 
-/// What some language takes for the end of a line: WGSL ends `//` comments at all of them.
+/// What some language takes as the end of a line. WGSL ends `//` comments at all of them.
 const LINE_ENDS: [char; 7] = [
     '\n', '\r', '\u{b}', '\u{c}', '\u{85}', '\u{2028}', '\u{2029}',
 ];
-/// Signs that our text never holds, because languages read them differently: quotes, digraphs, trigraphs, `\` before a line's end.
+/// Characters that our text never holds, because languages read them differently: quotes, digraphs, trigraphs, `\` before a
+/// line's end.
 const STRANGE: [char; 5] = ['"', '\'', '\\', '%', '$'];
 
-/// Words that a loop begins with, or jumps.
+/// Words that begin a loop, or jump.
 const LOOPS: [&str; 5] = ["for", "while", "loop", "do", "goto"];
 
 /// How languages say that numbers have fewer bits: qualifiers of GLSL, types of HLSL, MSL and WGSL, without their sizes.
@@ -84,7 +83,7 @@ struct Reader<'a> {
     line: usize,
     /// How many bodies are open.
     depth: usize,
-    /// The words of the declaration at hand.
+    /// The words of the current declaration.
     head: Vec<&'a str>,
     /// The line of its first word.
     begun: usize,
@@ -92,7 +91,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Takes so many bytes.
+    /// Consumes so many bytes.
     fn take(&mut self, bytes: usize) -> &'a str {
         let (taken, rest) = self.rest.split_at(bytes);
         self.line += taken.matches('\n').count();
@@ -119,7 +118,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A comment of so many bytes, a line each.
+    /// Consumes a comment of so many bytes: one item for each line.
     fn comment(&mut self, bytes: usize) {
         let first = self.line;
         let lines = self.take(bytes).lines().enumerate();
@@ -151,7 +150,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Notes a word that a loop begins with, or that makes numbers narrower.
+    /// Records a word that begins a loop or lowers precision.
     fn note(&mut self, line: usize, word: &str) {
         let words = word.to_owned();
         if LOOPS.contains(&word) {
@@ -181,7 +180,7 @@ impl<'a> Reader<'a> {
         self.take(sign.len_utf8());
     }
 
-    /// Ends the declaration at hand.
+    /// Ends the current declaration.
     fn close(&mut self, end: &str) {
         if self.depth == 0 && !self.head.is_empty() {
             let words = self.head.join(" ") + " " + end;
@@ -218,10 +217,10 @@ const RELAXED_PRECISION: u32 = 0;
 const LOCATION: u32 = 30;
 const BINDING: u32 = 33;
 const DESCRIPTOR_SET: u32 = 34;
-/// The storage class of what lives in a function, chapter 3.7.
+/// The storage class of a function's local variables, chapter 3.7.
 const LOCAL: u32 = 7;
 
-/// What a module declares, in words. Nothing of it has a line.
+/// What a module declares, in words. No item has a line.
 pub fn declarations(bytes: &[u8]) -> Vec<Item> {
     let words = words(bytes);
     let declared = instructions(&words).filter_map(|(code, of)| declaration(code, of, &words));
@@ -247,7 +246,7 @@ fn words(bytes: &[u8]) -> Vec<u32> {
         .collect()
 }
 
-/// Each instruction with its operands. Five words of head; each instruction then says its own length.
+/// Each instruction with its operands. After a header of five words, each instruction states its own length.
 fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     let mut at = 5;
     std::iter::from_fn(move || {
@@ -259,7 +258,7 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     })
 }
 
-/// All names that a module gives to its parts; functions are among them.
+/// All debug names of a module; functions are among them.
 pub fn names(bytes: &[u8]) -> Vec<String> {
     let words = words(bytes);
     let named = instructions(&words).filter(|(code, _)| *code == NAME);

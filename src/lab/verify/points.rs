@@ -1,7 +1,5 @@
-//! The cosines at which code is tried: edges, even in angle, even in cosine, logarithmic at both ends, and random from
-//! a constant seed.
-//!
-//! The worst inputs found so far, kept for ever: a line each, with how they were found.
+//! The cosines at which code is tried: edges, even in angle, even in cosine, logarithmic at both ends, and random from a constant
+//! seed. The worst inputs found so far are kept for ever in two files, a line each, with how they were found.
 
 use serde::Deserialize;
 
@@ -15,14 +13,14 @@ use crate::physics::records;
 /// The seed of the random points.
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// Fractions of numbers that are tried with every exponent: none, the smallest, one third, all.
+/// Mantissas that are tried with every exponent: zero, the smallest, one third, all bits set.
 const FRACTIONS: [u32; 4] = [0, 1, 0x2A_AAAA, 0x7F_FFFF];
 /// The bits of 1 and of infinity.
 const ONE: u32 = 0x3F80_0000;
 const INFINITY: u32 = 0x7F80_0000;
 /// The bit of the sign.
 const SIGN: u32 = 1 << 31;
-/// What NaN can hold: the quiet one of most devices, signalling ones, all bits set.
+/// Bit patterns of NaN: the quiet one of most devices, signalling ones, all bits set.
 const NANS: [u32; 5] = [
     0x7FC0_0000,
     0x7FC0_0001,
@@ -33,14 +31,14 @@ const NANS: [u32; 5] = [
 /// How many f32 there are from 0 to 1.
 pub const WITHIN: u64 = 0x3F80_0001;
 
-/// What share of all f32 from 0 to 1 these cosines are.
+/// The share of these cosines in all f32 from 0 to 1.
 pub fn share(cosines: &[f32]) -> f64 {
     let is_within = |c: &&f32| c.is_sign_positive() && **c <= 1.0;
     cosines.iter().filter(is_within).count() as f64 / WITHIN as f64
 }
 
-/// Cosines outside [0, 1], which shaders see all the same: rounding makes 1 + 1 ulp, a back side gives -1. Every exponent
-/// of both signs, the neighbours of 1, both infinities, NaN with several payloads.
+/// Cosines outside [0, 1]: every exponent of both signs, the neighbours of 1, both infinities, NaN with several payloads. Shaders
+/// do get such: rounding gives 1 + 1 ulp, a back side gives -1.
 pub fn beyond() -> Vec<f32> {
     let of_exponent = |exponent: u32| FRACTIONS.map(|fraction| exponent << 23 | fraction);
     let sizes = (0..255).flat_map(of_exponent).chain([INFINITY]);
@@ -57,7 +55,7 @@ pub fn cosines(count: usize) -> Vec<f32> {
     cosines_around(count, &[])
 }
 
-/// The same, and these cosines with their ten neighbours on both sides.
+/// As [`cosines`], and these cosines with their ten neighbours on both sides.
 pub fn cosines_around(count: usize, limits: &[f32]) -> Vec<f32> {
     let share = count / 5;
     let even = |i: usize| i as f64 / share as f64;
@@ -78,7 +76,7 @@ pub fn cosines_around(count: usize, limits: &[f32]) -> Vec<f32> {
     points
 }
 
-/// The cosines at which something happens for a medium: total reflection begins, or Brewster's angle.
+/// The special cosines of a medium of index `n`: where total reflection begins, and Brewster's angle.
 pub fn limits(n: f64) -> [f32; 2] {
     let critical = (1.0 - n * n).max(0.0).sqrt();
     let brewster = 1.0 / (1.0 + n * n).sqrt();
@@ -103,7 +101,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Even in [0, 1).
+    /// The next number, uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -135,12 +133,12 @@ pub fn worst_cosines(method: &'static Method) -> impl Iterator<Item = f32> {
     own.map(|row| row.cos_theta)
 }
 
-/// The values of a library function's arguments, in f32, and the cosine.
+/// The worst inputs of a method's library function: the values of its arguments, in f32, and the cosine.
 pub fn worst_cases(method: &'static Method) -> impl Iterator<Item = (Vec<[f32; 3]>, f32)> {
     worst_media(method).map(|(channels, cos_theta)| (arguments(method, &channels), cos_theta))
 }
 
-/// The media and the cosine.
+/// The worst inputs of a method's library function: the media and the cosine.
 pub fn worst_media(method: &'static Method) -> impl Iterator<Item = (Channels, f32)> {
     let rows: Vec<WorstMedium> = records::rows(LIBRARY);
     let own = rows.into_iter().filter(|row| row.method == method.name);

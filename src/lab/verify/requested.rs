@@ -1,7 +1,5 @@
-//! The plan of a verification from a request, and from what an output folder and its manifest hold.
-//!
-//! The plan: which files are run, each with what its functions mean. Supervisor and workers make the same plan from the
-//! same flags, so that a number names a file.
+//! The plan of a verification, made from a request, an output folder and its manifest: which files are run, and what their
+//! functions mean. Supervisor and workers make the same plan from the same flags, so that a number names a file.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,12 +15,12 @@ use crate::language::methods;
 use crate::language::targets::{self, Target};
 use crate::physics::num::Precision;
 
-/// What a request comes to, with the text that lies in a folder.
+/// The plan of a request, with the text of the files in a folder.
 ///
 /// # Errors
 /// The request cannot be met, or a file cannot be read.
 pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, Error> {
-    // What earlier runs put into a material's file belongs to it: it would be written again.
+    // Functions that earlier runs put into a material's file belong to it: they would be written again.
     let kept = kept(folder, request.precision)?;
     let meant = generate_meant(request, &kept, &Held::default())?;
     let shipped = Folder::new(folder)?;
@@ -44,7 +42,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
             _ => files.push(planned(made, page)?),
         }
     }
-    // A request that names methods and no material has library files only; they need values all the same.
+    // A request that names methods and no material has library files only, which still need values.
     let others = if meant.subjects.is_empty() {
         usual_subjects(request)?
     } else {
@@ -74,8 +72,8 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
     })
 }
 
-/// The methods that material files in the folder hold, by the manifest and by the names of the functions in them: what such a
-/// file is held against has these and no others.
+/// The methods that material files in the folder hold, by the manifest and by the names of their functions. Such a file is compared
+/// with one of exactly these methods.
 fn held_methods(
     request: &Request,
     meant: &Meant,
@@ -102,7 +100,7 @@ fn held_methods(
     Ok(held)
 }
 
-/// The files of the folder whose comments have the full form: what such a file is held against has it too.
+/// The files of the folder whose comments have the full form, without their extension. They are compared with files of that form.
 fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Error> {
     let mut full = BTreeSet::new();
     for made in &meant.files {
@@ -117,7 +115,7 @@ fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Err
     Ok(full)
 }
 
-/// The target and the material that a material's file is kept under, and the material.
+/// The key of a material's file, which is its target and material, and the material itself.
 fn material_file<'a>(
     meant: &'a Meant,
     made: &Made,
@@ -127,8 +125,8 @@ fn material_file<'a>(
     Some((file, subject))
 }
 
-/// Whether files that hold something hold the very methods that would be written, in the usual form: nothing need be generated
-/// again then.
+/// Whether all files that hold functions hold exactly the methods that would be written, in the usual form. Then nothing need be
+/// generated again.
 fn is_as_meant(meant: &Meant, held: &Held) -> bool {
     held.full_headers.is_empty()
         && meant.files.iter().all(|made| {
@@ -139,8 +137,7 @@ fn is_as_meant(meant: &Meant, held: &Held) -> bool {
         })
 }
 
-/// A file as it lies in the folder, and what is run of it. `exact` is what the file should hold; `meant` also holds what this run asks
-/// for.
+/// A file of the folder, and what is run of it. `exact` is what the file should hold. `meant` also holds what this run asks for.
 fn page(
     request: &Request,
     shipped: &Folder,
@@ -201,26 +198,27 @@ pub struct VerifyPlan {
     pub files: Vec<PlannedFile>,
     /// The materials.
     pub subjects: Vec<MaterialInMedium>,
-    /// The materials with whose values library functions are run, where it is not those.
+    /// The materials with whose values library functions are run, where they are not `subjects`.
     pub others: Vec<MaterialInMedium>,
-    /// Why some are left out.
+    /// Why some materials are left out.
     pub left_out: Vec<String>,
-    /// Files of functions that the folder's manifest lists and a run that names nothing leaves out: other materials', methods', precisions'.
+    /// Files of functions that the folder's manifest lists and that a run without names leaves out: those of other materials,
+    /// methods or precisions.
     pub unasked: Vec<String>,
-    /// The files that are read or listed in the folder: no report may take the place of one.
+    /// The files that are read or listed in the folder. No report may overwrite one.
     pub places: Vec<PathBuf>,
 }
 
-/// A file, or the modules that stand for one.
+/// A file, or the modules that together stand for one.
 #[derive(Debug)]
 pub struct PlannedFile {
     /// Its target.
     pub target: &'static Target,
-    /// Its pages: that which is run comes last.
+    /// Its pages. The one that is run comes last.
     pub pages: Vec<ShippedPage>,
     /// Its functions in order.
     pub functions: Vec<Emitted>,
-    /// The place of its material among the subjects, where it has one.
+    /// The index of its material in the plan's `subjects`, where it has one.
     pub subject: Option<usize>,
 }
 
@@ -236,7 +234,7 @@ impl VerifyPlan {
 }
 
 impl PlannedFile {
-    /// What its functions compute in.
+    /// The precision of its functions.
     pub fn precision(&self) -> Precision {
         self.functions
             .first()
@@ -248,7 +246,7 @@ impl PlannedFile {
         self.pages.last().expect("a planned file has a page")
     }
 
-    /// Why it has no row, where it has none. A function of an effect and one of a material have one always.
+    /// Why it has no row, where it has none. Functions of effects and of materials always have one.
     pub fn why_no_row(&self) -> &'static str {
         if self.functions.is_empty() {
             "it holds no function that was asked for"
@@ -257,7 +255,7 @@ impl PlannedFile {
         }
     }
 
-    /// Adds a page; compute modules are run, so that they come last.
+    /// Adds a page. Compute modules are run, so they come last.
     pub fn add(&mut self, page: ShippedPage) {
         self.pages.push(page);
         self.pages.sort_by_key(ShippedPage::is_run);
@@ -269,24 +267,24 @@ impl PlannedFile {
 pub struct ShippedPage {
     /// Relative to the output folder.
     pub path: String,
-    /// Its bytes: those in the output folder, or, where it is not there, what would be written.
+    /// Its bytes: those in the output folder, or what would be written where there is no such file.
     pub bytes: Vec<u8>,
-    /// Whether it lies in the output folder.
+    /// Whether the bytes are those in the output folder.
     pub is_shipped: bool,
-    /// Whether it is what would be written today, line ends aside.
+    /// Whether it is what would be written today, apart from line ends.
     pub is_current: bool,
-    /// The loop in what would be run, with its line: a device is not given one.
+    /// The loop in what would be run, with its line. Text with a loop is never given to a device.
     pub holds_loop: Option<String>,
-    /// The entry point of each function, in order; nothing for text.
+    /// The entry point of each function, in order. Empty for text.
     pub entries: Vec<String>,
-    /// What a reader of the report should know of it, and is no fault.
+    /// What a reader of the report should know of it, where that is no fault.
     pub remark: Option<String>,
-    /// Its faults, whatever its functions return: what was added, what it lacks, false numbers.
+    /// Its faults other than wrong results: additions, omissions, false numbers.
     pub findings: Vec<String>,
 }
 
 impl ShippedPage {
-    /// Whether its functions are run: of modules those of compute shaders are.
+    /// Whether its functions are run. Among modules, only compute shaders are.
     pub fn is_run(&self) -> bool {
         !self.path.ends_with(".spv") || self.path.contains(".comp.")
     }

@@ -1,8 +1,5 @@
-//! The rows of the report, and their parts. A worker hands them to its supervisor as JSON.
-//!
-//! What to think of a function that was checked, or could not be.
-//!
-//! Why nothing can be verified as it was asked for.
+//! The rows of a report, the status of a function that was checked or could not be, and the errors of a verification. A worker
+//! hands its rows to the supervisor as JSON.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -22,21 +19,21 @@ use crate::physics::num::Precision;
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";
 
-/// A function on a target, with the values of a material: how far it is from what it means, and who accepts its file.
+/// A function on a target, with the values of a material: how far it is from what it means, and which compilers accept its file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerifyRow {
     /// The target.
     pub target: String,
-    /// Of an effect's function: the effect.
+    /// For an effect's function: the effect.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub effect: Option<String>,
-    /// The method; of an effect's function the one that computes R.
+    /// The method. For an effect's function, the one that computes R.
     pub method: String,
-    /// The material, as a user types it; none where the run came to no end, and of an effect's function.
+    /// The material, as a user types it. None where the run timed out or crashed, and for an effect's function.
     pub material: Option<String>,
     /// What it takes and gives.
     pub form: FunctionForm,
-    /// What the function computes in.
+    /// The precision that the function computes in.
     pub precision: Precision,
     /// The function.
     pub function: String,
@@ -48,17 +45,17 @@ pub struct VerifyRow {
     pub shipped: bool,
     /// Whether the file is what would be written today.
     pub current: bool,
-    /// On what it ran.
+    /// The device that it ran on.
     pub device: Option<String>,
-    /// At how many cosines.
+    /// The number of cosines.
     pub points: Option<usize>,
-    /// What share of all numbers from 0 to 1 they are.
+    /// Their share of all numbers from 0 to 1.
     pub share: Option<f64>,
-    /// What it may differ by.
+    /// The allowed difference.
     pub bound: Option<AllowedError>,
-    /// What it differs by.
+    /// The measured difference.
     pub code_error: Option<CodeErrorFigures>,
-    /// The method's error as it ran, where there is a law.
+    /// The method's error as it ran, where there is a law to compare with.
     pub model_error: Option<ModelErrorFigures>,
     /// What each compiler says of the file.
     #[serde(
@@ -69,13 +66,13 @@ pub struct VerifyRow {
     /// Why compilers were not asked.
     #[serde(serialize_with = "as_object", deserialize_with = "from_object")]
     pub not_asked: Vec<(String, String)>,
-    /// What came of other execution paths of the same text.
+    /// The results of other execution paths of the same text.
     pub second_opinions: Vec<SecondOpinion>,
-    /// What to think of it.
+    /// The status.
     pub status: Status,
     /// Why it is not a pass.
     pub reason: Option<String>,
-    /// What a reader should know of the file, and is no fault.
+    /// What a reader should know of the file, where that is no fault.
     pub remark: Option<String>,
     /// In half precision, how far it is from f16 rounded after every operation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -124,37 +121,37 @@ impl From<&Verdict> for Answer {
     }
 }
 
-/// What a function may differ by.
+/// The difference that a function is allowed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum AllowedError {
     /// In units of the last place.
     Ulp(AllowedUlp),
-    /// Absolutely: in half precision.
+    /// As an absolute difference, in half precision.
     Absolute(AllowedAbsolute),
 }
 
-/// So many units of the last place.
+/// An allowed difference in units of the last place.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AllowedUlp {
-    /// How many; none where nothing is promised.
+    /// How many. None where nothing is promised.
     pub ulp: Option<f64>,
     /// What is promised, in words.
     pub text: String,
 }
 
-/// An absolute difference.
+/// An allowed absolute difference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AllowedAbsolute {
-    /// The difference; none where nothing is promised.
+    /// The difference. None where nothing is promised.
     pub max_abs: Option<f64>,
     /// What is promised, in words.
     pub text: String,
 }
 
-/// A code error in a report; what is not finite is not there.
+/// A code error in a report. Figures that are not finite are none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CodeErrorFigures {
     /// Largest distance in units of the last place.
@@ -168,7 +165,7 @@ pub struct CodeErrorFigures {
     pub worst_cos: Option<f64>,
 }
 
-/// A model error in a report; what is not finite is not there.
+/// A model error in a report. Figures that are not finite are none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelErrorFigures {
     /// Largest absolute difference.
@@ -179,7 +176,7 @@ pub struct ModelErrorFigures {
     pub mean_rel: Option<f64>,
     /// The cosine of the largest difference.
     pub worst_cos: Option<f64>,
-    /// At how many angles the function gave no number.
+    /// The number of angles at which the function gave NaN.
     pub undefined: usize,
 }
 
@@ -190,11 +187,11 @@ pub struct Emulation {
     pub max_abs: Option<f64>,
     /// The cosine of the largest difference.
     pub worst_cos: Option<f64>,
-    /// What the device computes in, as far as its results tell.
+    /// The precision that the device computes in, as far as its results tell.
     pub device_computes_in: Option<String>,
 }
 
-/// The same text run in another way.
+/// The same text run by another execution path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SecondOpinion {
     /// The execution path.
@@ -227,7 +224,7 @@ pub struct SecondOpinion {
     pub reason: Option<String>,
 }
 
-/// What is not finite has no number in JSON.
+/// JSON has no numbers that are not finite.
 pub(super) fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
@@ -305,7 +302,7 @@ impl From<&ModelError> for ModelErrorFigures {
     }
 }
 
-/// What to think of a function.
+/// The verdict on a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
@@ -328,7 +325,7 @@ impl Status {
     }
 }
 
-/// Why nothing can be verified as it was asked for.
+/// Why nothing can be verified as requested.
 #[derive(Debug, Error)]
 pub enum Error {
     /// No function can be run at all numbers.
@@ -336,10 +333,10 @@ pub enum Error {
         "--exhaustive runs functions specialised to a material in WGSL: name both, and leave --target out or name wgsl"
     )]
     NothingExhaustive,
-    /// Reports of shards that are not those of one run.
+    /// Reports of shards that are not of one run.
     #[error(transparent)]
     Merge(#[from] Box<MergeFault>),
-    /// A report that is no report.
+    /// A report that cannot be read.
     #[error(transparent)]
     File(#[from] FileFault),
 }

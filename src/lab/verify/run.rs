@@ -1,4 +1,4 @@
-//! Running what was generated: the text of a file, as it is, on the stack that its language is for.
+//! Runs what was generated: the text of a file, unchanged, on the graphics stack of its language.
 //!
 //! | target | how |
 //! |---|---|
@@ -9,10 +9,8 @@
 //!
 //! MSL runs on Apple's systems only, and GLSL 4.50 is not a language of any of these stacks: they are not run here.
 //!
-//! A function of an effect as it runs, against what it means.
-//!
-//! A function in half precision as it runs: at every f16 from 0 to 1 and every exponent beyond, against f64 and against f16
-//! rounded after every operation.
+//! Functions of effects are compared with what they mean. Functions in half precision run at every f16 from 0 to 1 and at every
+//! exponent beyond. They are compared with f64 and with f16 rounded after every operation.
 
 use std::cell::OnceCell;
 
@@ -40,7 +38,7 @@ use crate::physics::num::{Num, Precision};
 /// Why nothing was run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunFault {
-    /// Something is missing here: not checked.
+    /// Something is missing on this machine, so it is not checked.
     #[error("{0}")]
     Absent(String),
     /// The text is wrong, or the device failed.
@@ -80,7 +78,7 @@ pub struct Devices {
 pub enum ExecutionPath {
     /// As the target's language says.
     Own,
-    /// HLSL as of 2021.
+    /// As HLSL 2021.
     Hlsl2021,
     /// naga's translation of the WGSL into GLSL ES.
     NagaGles,
@@ -89,7 +87,7 @@ pub enum ExecutionPath {
 }
 
 impl ExecutionPath {
-    /// The paths of a target: its own first. Of half precision naga writes no GLSL, and HLSL for another shader model.
+    /// The paths of a target, its own first. In half precision naga writes no GLSL, and HLSL for another shader model.
     pub fn all_for(target: &Target, precision: Precision) -> &'static [ExecutionPath] {
         match (target.stack, precision) {
             (Stack::Wgpu(_), Precision::F32) => &[
@@ -102,7 +100,7 @@ impl ExecutionPath {
         }
     }
 
-    /// The paths of an effect's function: naga's translations are made for functions of a cosine.
+    /// The paths of an effect's function. naga's translations are for functions of a cosine only.
     pub fn all_for_effect(target: &Target) -> &'static [ExecutionPath] {
         match target.stack {
             Stack::DxcToVulkan(_) => &[ExecutionPath::Own, ExecutionPath::Hlsl2021],
@@ -110,7 +108,7 @@ impl ExecutionPath {
         }
     }
 
-    /// The version of HLSL that DXC is told.
+    /// The version of HLSL that DXC is asked for.
     fn hlsl_version(self) -> HlslVersion {
         match self {
             ExecutionPath::Hlsl2021 => HlslVersion::V2021,
@@ -132,9 +130,9 @@ impl ExecutionPath {
 /// A function of a file.
 #[derive(Clone, Copy, Debug)]
 pub struct ShippedFunction<'a> {
-    /// The target's name.
+    /// The target.
     pub target: &'static Target,
-    /// The file.
+    /// The content of the file.
     pub bytes: &'a [u8],
     /// The function.
     pub function: &'a Emitted,
@@ -147,12 +145,12 @@ pub struct Runnable {
     target: &'static Target,
     kernel: Kernel,
     params: Vec<Param>,
-    /// Bound values stand in the text: naga's translation takes no arguments.
+    /// Whether the values of the arguments stand in the text, as in naga's translations.
     is_bound: bool,
 }
 
 impl Devices {
-    /// None is opened yet.
+    /// Devices of which none is opened yet.
     pub fn new(wanted: Wanted) -> Devices {
         Devices {
             wanted,
@@ -191,10 +189,10 @@ impl Devices {
         }
     }
 
-    /// Compiles a function of a file for running. naga's translations are of the function at the values of a trial.
+    /// Compiles a function of a file for running. naga's translations hold the values of the trial's arguments.
     ///
     /// # Errors
-    /// A compiler refuses the text, or what it takes is not here.
+    /// A compiler refuses the text, or something that it needs is missing here.
     pub fn prepare(
         &self,
         shown: &ShippedFunction,
@@ -259,7 +257,7 @@ impl Devices {
     /// Runs a function of an effect at the points of a trial.
     ///
     /// # Errors
-    /// A compiler refuses the text, what it takes is not here, or the device fails.
+    /// A compiler refuses the text, something that it needs is missing here, or the device fails.
     pub fn run_effect(
         &self,
         shown: &ShippedFunction,
@@ -312,7 +310,7 @@ impl Devices {
     }
 }
 
-/// Whether a device computes in what a function asks for.
+/// The fault of a target whose text is not run here.
 fn not_run(target: &Target) -> RunFault {
     let name = target.name;
     RunFault::Absent(format!(
@@ -437,11 +435,11 @@ impl FileTrial<'_> {
     }
 }
 
-/// What a device may be further off than the emulation, which is what is promised: 2⁻¹¹, the last place below 1. A
-/// device may fuse, reorder, divide and take roots in two steps, and take numbers below the smallest normal one for 0.
+/// How much further off than the emulation, which is promised, a device may be: 2⁻¹¹, the last place below 1. A device may fuse,
+/// reorder, divide and take roots in two steps, and flush denormals to 0.
 const FREEDOM: f64 = 1.0 / 2048.0;
 
-/// Runs it. A function that promises nothing may be twice as far off as its emulation.
+/// Runs a function in half precision. One that promises nothing may be twice as far off as its emulation.
 pub(super) fn run_in_half(
     runnable: &Runnable,
     shown: &ShippedFunction,
@@ -459,7 +457,7 @@ pub(super) fn run_in_half(
     let mut cosines = halves();
     match emitted.method.contract {
         Contract::Kept => cosines.extend(halves_beyond()),
-        // Nothing is promised at grazing, where most have no number.
+        // Nothing is promised at grazing angles, where most give NaN.
         Contract::Exempt(_) => cosines.retain(|c| *c > 0.1),
     }
     let got = runnable.run(trial, &cosines)?;
@@ -477,7 +475,7 @@ pub(super) fn run_in_half(
         for channel in 0..3 {
             let got = f64::from(got[channel]);
             if cos_theta.is_nan() {
-                // Any reflectance is right. What is NaN counts as an infinite error.
+                // Any reflectance is right. NaN counts as an infinite error.
                 let nearest = got.clamp(least, most);
                 result.error.include(got, nearest, *cos_theta);
                 continue;
@@ -501,7 +499,7 @@ pub(super) fn run_in_half(
     })
 }
 
-/// Those within [0, 1]: beyond them the emulation has no error of its own, and NaN has none at all.
+/// The cosines within [0, 1]. Beyond them the emulation has no error of its own, and for NaN none is defined.
 fn halves_of(cosines: &[f32]) -> Vec<f32> {
     let inside = |c: &&f32| (0.0..=1.0).contains(*c);
     cosines.iter().filter(inside).copied().collect()

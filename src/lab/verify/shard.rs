@@ -1,13 +1,13 @@
-//! Shards: a verification dealt among machines like cards. The work has an order that all machines know, since they make the same
-//! plan from the same flags; place p goes to shard p mod N.
+//! Shards: a verification divided among machines, and the report of each shard. All machines make the same plan from the same
+//! flags, so they agree on the order of the work. Place p goes to shard p mod N.
 //!
-//! What is dealt is a file, since one process runs it and compilers judge it as a whole; of a run over all numbers it is a function.
+//! A place is a file, since one process runs it and compilers judge it as a whole. In a run over all numbers it is a function.
 //!
-//! The report of a shard of a verification: what the report of a whole run says of it, and what tells whether other shards are of
-//! the same run. `merge` reads it again, so that it owns its text and flattens no [`Origin`](crate::generator::envelope::Origin), which is written only.
+//! A shard's report holds its rows and what shows whether other shards are of the same run. `merge` reads it again, so it owns
+//! its text and flattens no [`Origin`](crate::generator::envelope::Origin), which is written only.
 //!
-//! Which shard a run is: by `--shard`, or by what a scheduler says to each task. How many shards there are only the command line
-//! says: in an array that is run again in part, a scheduler counts the tasks of that part.
+//! The number of a shard comes from `--shard`, or from a scheduler's variable. The number of shards comes from the command line
+//! only: in an array that is run again in part, a scheduler counts the tasks of that part.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ use crate::generator::error::RequestFault;
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::digest::sha256;
 
-/// A share of a verification: one of so many.
+/// One of `count` shards of a verification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     index: usize,
@@ -33,7 +33,7 @@ impl Shard {
     /// All of the work.
     pub const WHOLE: Shard = Shard { index: 0, count: 1 };
 
-    /// The shard with this number, from 0, of so many; none where there are fewer.
+    /// The shard with this number, from 0, of so many. None where there are fewer.
     pub fn new(index: usize, count: usize) -> Option<Shard> {
         (index < count).then_some(Shard { index, count })
     }
@@ -54,31 +54,31 @@ impl Shard {
     }
 }
 
-/// What came of the work at one place of the whole run.
+/// The outcome of the work at one place of the whole run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartStatement {
     /// The place.
     pub place: usize,
     /// The file that was run, relative to the output folder.
     pub file: String,
-    /// How many rows came of it.
+    /// The number of its rows.
     pub rows: usize,
-    /// Why none did.
+    /// Why there are none.
     pub reason: Option<String>,
 }
 
-/// The rows that the whole run has at a place, as all its shards know them before it: hashes, since there are many.
+/// The rows that the whole run will have at a place, which all shards know beforehand. They are hashes, since there are many.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(expecting = "an object")]
 pub struct PlannedRows {
     /// The hash of the rows.
     pub rows: String,
-    /// Of those that there are where the run of the file comes to no end: one of each function.
+    /// The hash of the rows where the run of the file times out or crashes: one for each function.
     pub unfinished: String,
 }
 
 impl PlannedRows {
-    /// Of a file: these functions with their materials.
+    /// The planned rows of a file: these functions with their materials.
     pub fn new(file: &PlannedFile, rows: &[(&str, Option<&str>)]) -> PlannedRows {
         let path = &file.run_page().path;
         let functions = file.functions.iter();
@@ -88,7 +88,7 @@ impl PlannedRows {
         }
     }
 
-    /// A plan in few words, which differ where plans do.
+    /// A summary of a plan that differs where plans do.
     pub fn words(plan: &[PlannedRows]) -> String {
         let hashes = plan.iter().flat_map(|one| [&one.rows, &one.unfinished]);
         let all: Vec<&str> = hashes.map(String::as_str).collect();
@@ -113,7 +113,7 @@ fn hash_of_rows<'a>(file: &str, rows: impl Iterator<Item = (&'a str, Option<&'a 
     sha256(all.as_bytes())
 }
 
-/// A row, and the place in the whole run of the work that it came of.
+/// A row, and its place in the whole run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlacedRow {
     /// The place.
@@ -125,21 +125,21 @@ pub struct PlacedRow {
     pub row: VerifyRow,
 }
 
-/// What came of a shard's work.
+/// The outcome of a shard's work.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShardOutcome {
     /// The rows, in the order of their places.
     pub rows: Vec<PlacedRow>,
-    /// What the machine has for that work; nothing where it is a whole run.
+    /// What the machine has for that work. Empty for a whole run.
     pub machine: MachineStatement,
-    /// What came of each place that was dealt to it, in order.
+    /// The outcome at each place that was dealt to it, in order.
     pub parts: Vec<PartStatement>,
-    /// What each place of the whole run has.
+    /// The planned rows of each place of the whole run.
     pub plan: Vec<PlannedRows>,
 }
 
 impl ShardOutcome {
-    /// Adds what came of a file at the next place.
+    /// Adds the rows of a file at a place.
     pub fn add(&mut self, place: usize, file: &PlannedFile, rows: Vec<VerifyRow>) {
         self.parts.push(PartStatement {
             place,
@@ -159,7 +159,7 @@ impl ShardOutcome {
 }
 
 impl VerifyPlan {
-    /// The rows of each file.
+    /// The planned rows of each file.
     pub fn planned_rows(&self) -> Vec<PlannedRows> {
         let of_file = |file: &PlannedFile| {
             let mut rows = Vec::new();
@@ -176,8 +176,8 @@ impl VerifyPlan {
         self.files.iter().map(of_file).collect()
     }
 
-    /// The hash of what is run: of the files with their text, of what functions promise, and of the materials with their data. Shards of one run have the
-    /// same, also where a command does not tell the difference.
+    /// The hash of what is run: the files with their text, what functions promise, and the materials with their data. Shards of
+    /// one run share it, and it differs between runs even where the commands are equal.
     pub fn hash(&self) -> String {
         let mut all = String::new();
         for page in self.files.iter().flat_map(|file| &file.pages) {
@@ -211,7 +211,7 @@ fn of_material(subject: &MaterialInMedium) -> String {
 pub struct ShardReport {
     /// The program.
     pub tool: String,
-    /// The version of the form.
+    /// The version of the report's schema.
     pub schema: u32,
     /// The command of the whole run.
     pub command: String,
@@ -223,7 +223,7 @@ pub struct ShardReport {
     pub version: String,
     /// The hash of the files and materials that the whole run is about.
     pub inputs: String,
-    /// Whether what could not be checked ends the run with 3.
+    /// Whether checks that could not be made end the run with exit code 3.
     pub require_all: bool,
     /// What the machine has, for the files that were dealt to the shard.
     pub machine: MachineStatement,
@@ -231,27 +231,27 @@ pub struct ShardReport {
     pub device: Option<String>,
     /// How many places the whole run has.
     pub places: usize,
-    /// The rows of each of them.
+    /// The planned rows of each place.
     pub plan: Vec<PlannedRows>,
-    /// What came of each place that was dealt to the shard, so that a report that lost rows is told from a whole one.
+    /// The outcome at each place that was dealt to the shard. It shows whether a report has lost rows.
     pub parts: Vec<PartStatement>,
     /// Its rows with their places in the whole run.
     pub rows: Vec<PlacedRow>,
 }
 
-/// What a shard is a part of.
+/// The whole run that a shard is a part of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WholeRun {
     /// The command, without the flags of shards.
     pub command: String,
     /// The hash of the files and materials that it is about.
     pub inputs: String,
-    /// Whether what could not be checked ends it with 3.
+    /// Whether checks that could not be made end it with exit code 3.
     pub require_all: bool,
 }
 
 impl ShardReport {
-    /// The report of what came of a shard.
+    /// The report of a shard's outcome.
     pub fn new(whole: WholeRun, shard: Shard, outcome: ShardOutcome) -> ShardReport {
         ShardReport {
             tool: TOOL.to_owned(),
@@ -282,13 +282,13 @@ pub fn devices(rows: &[VerifyRow]) -> Option<String> {
     (!names.is_empty()).then(|| names.join("; "))
 }
 
-/// A variable of the environment, and what it says where it is set.
+/// An environment variable, and its value where it is set.
 pub type Variable = (&'static str, Option<String>);
 
 /// The variables in which schedulers number tasks from 0: Slurm's arrays, and Indexed Jobs of Kubernetes.
 pub const VARIABLES: [&str; 2] = ["SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"];
 
-/// The shard that a run is; none where it is whole. Variables count where `--shards` stands without `--shard`, and nowhere else.
+/// The shard of a run. None where the run is whole. Variables count only where `--shards` stands without `--shard`.
 ///
 /// # Errors
 /// There is no such shard, or nothing says which one it is, or two variables contradict each other.

@@ -1,4 +1,4 @@
-//! A file as it lies in the folder, against what would be written today and against what the manifest says of it.
+//! A file of the folder compared with what would be written today and with what the manifest says of it.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ fn loop_found(found: &Item) -> String {
     }
 }
 
-/// Lets what would be written today be run in place of the file, which lacks some of its functions.
+/// Runs what would be written today in place of the file, which lacks some of its functions.
 pub(super) fn replace_with_today(
     page: &mut ShippedPage,
     made: &Made,
@@ -74,7 +74,7 @@ impl Folder<'_> {
         listed.chain([self.path.join(manifest::FILE)]).collect()
     }
 
-    /// The files of functions that the manifest lists for these targets, or for any where none is named, besides these pages.
+    /// The files of functions, other than these pages, that the manifest lists for these targets, or for any where none is named.
     pub fn others(&self, targets: &[String], pages: &BTreeSet<&str>) -> Vec<String> {
         let listed = self
             .manifest
@@ -92,7 +92,7 @@ impl Folder<'_> {
         others.map(|entry| entry.file.clone()).collect()
     }
 
-    /// The names of the functions that stand in a file of the folder; of a module all its names.
+    /// The names of the functions in a file of the folder. For a module, all its names.
     pub fn functions_in(&self, path: &str) -> Result<Vec<String>, Error> {
         let bytes = folder::read(&self.path.join(path))?.unwrap_or_default();
         if path.ends_with(".spv") {
@@ -102,14 +102,14 @@ impl Folder<'_> {
         Ok(found.functions())
     }
 
-    /// The form of the comments of a file of the folder. Modules have no comments, and what is not there has the usual form.
+    /// The form of the comments of a file of the folder. Modules have no comments. A missing file has the usual form.
     pub fn header_form(&self, path: &str) -> Result<HeaderForm, Error> {
         let bytes = folder::read(&self.path.join(path))?.filter(|_| !path.ends_with(".spv"));
         let text = bytes.unwrap_or_default();
         Ok(HeaderForm::in_text(&String::from_utf8_lossy(&text)))
     }
 
-    /// The page of a file; `asked` says which of its functions are to be run.
+    /// The page of a file. `asked` says which of its functions are to be run.
     pub fn page(&self, made: &Made, asked: &[bool]) -> Result<ShippedPage, Error> {
         let path = made.artifact.path.clone();
         let lying = folder::read(&self.path.join(&path))?;
@@ -186,7 +186,7 @@ impl<'a> Today<'a> {
             .collect()
     }
 
-    /// The names by which a file holds the functions that are to be run.
+    /// The names in the file of the functions that are to be run.
     fn names(&self) -> Vec<String> {
         if self.is_module() {
             return self.entries();
@@ -200,7 +200,7 @@ impl<'a> Today<'a> {
         wanted.map(|(emitted, _)| emitted.name.clone()).collect()
     }
 
-    /// Enters what lies there. Where it lacks a function that is to be run, what would be written is run.
+    /// Fills the page from the file's bytes. If they lack a function that is to be run, what would be written today is run.
     fn compare(&self, page: &mut ShippedPage, bytes: Vec<u8>, listed: Option<&Listed>) {
         page.is_current = self.is_current(&bytes);
         if page.is_current {
@@ -214,7 +214,7 @@ impl<'a> Today<'a> {
         let found = self.outline(&bytes);
         let held = self.held(&bytes, &found);
         page.findings.extend(self.unlisted(listed, &held));
-        // A manifest that lists what lies there proves nothing: anybody can write one.
+        // A manifest that lists these bytes proves nothing: anybody can write one.
         if self.is_module() && !page.is_run() {
             page.findings.push(format!(
                 "{}: it is not what would be written today ({}), and only compute modules are run; write it again, and look at the difference",
@@ -244,7 +244,7 @@ impl<'a> Today<'a> {
         page.bytes = bytes;
     }
 
-    /// Functions by the name that stands in the file: of a module the entry point.
+    /// Functions by the name that stands in the file, which is the entry point in a module.
     fn functions(&self) -> impl Iterator<Item = (&str, &str)> {
         let functions = self.made.artifact.detail.functions().iter();
         functions.map(|function| {
@@ -260,7 +260,7 @@ impl<'a> Today<'a> {
             .collect()
     }
 
-    /// Of the functions that the file holds those that the manifest does not list.
+    /// The functions of the file that the manifest does not list.
     fn unlisted(&self, listed: Option<&Listed>, held: &[String]) -> Vec<String> {
         let held = self
             .functions()
@@ -275,7 +275,7 @@ impl<'a> Today<'a> {
         bytes == today || !self.is_module() && text(bytes) == text(today)
     }
 
-    /// In what the bytes differ from today's.
+    /// How the bytes differ from today's, in words.
     fn difference(&self, bytes: &[u8]) -> String {
         let today = &self.made.artifact.bytes;
         if self.is_module() {
@@ -337,7 +337,7 @@ impl<'a> Today<'a> {
     }
 }
 
-/// Whether comments of a file may stand in comments, by its ending.
+/// Whether comments nest in the language of a file, by its extension.
 fn nests(path: &str) -> bool {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
     let mut targets = targets::ALL.iter();

@@ -1,6 +1,5 @@
-//! The supervisor: hands files to workers, and ends those that come to no end.
-//!
-//! A worker: answers the numbers of files with their rows.
+//! The supervisor of a verification, which hands files to worker processes and ends those that time out, and the worker, which
+//! answers a file's number with its rows.
 
 use core::time::Duration;
 use std::collections::BTreeMap;
@@ -18,7 +17,8 @@ use super::run::Devices;
 use super::shard::{Shard, ShardOutcome};
 use crate::lab::process::{Error, Inbox, Launch, Pool, Silence, Surroundings, Task};
 
-/// The rows of a shard's files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
+/// The rows of a shard's files, in the plan's order. Compilers in the folder `tools` come before all others. `progress` is told how
+/// many files are done, of how many, and which.
 ///
 /// # Errors
 /// No process can be started.
@@ -75,24 +75,24 @@ fn reason(silence: &Silence, limit: Duration) -> String {
     }
 }
 
-/// What a worker is asked: the rows of the file with this place in the plan.
+/// A request to a worker: the rows of one file.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct FileRequest {
-    /// The place.
+    /// The file's place in the plan, from 0.
     pub file: usize,
 }
 
-/// What a worker answers.
+/// A worker's answer.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct FileAnswer {
     /// The rows of the file.
     pub rows: Vec<VerifyRow>,
-    /// Of a shard: what is here for the file's target.
+    /// For a shard: what the machine has for the file's target.
     #[serde(default)]
     pub machine: MachineStatement,
 }
 
-/// Serves until the supervisor is gone. Only files of the plan have rows, and only a shard says what is here.
+/// Serves until the supervisor is gone. Only files of the plan have rows, and only a shard states what the machine has.
 ///
 /// # Errors
 /// The pipe is gone.

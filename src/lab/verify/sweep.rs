@@ -1,11 +1,9 @@
-//! A sweep: every f32 there is through WGSL as it runs, all 2³² bit patterns, each held against f64. Nothing is a sample.
-//! Beyond [0, 1] a function is constant, so that one evaluation in f64 serves all equal results there.
+//! An exhaustive sweep: functions specialised to materials, in WGSL, run at all 2³² bit patterns of f32 and compared with f64.
+//! Beyond [0, 1] a function is constant, so one evaluation in f64 serves all equal results there.
 //!
-//! The device makes its own cosines and is read where it writes, block by block, so that memory stays small. A block is
-//! cut into pieces that fit a processor's cache; of each piece the graph is evaluated in f64 over whole columns, and
-//! only pieces with a difference that counts are looked at point by point.
-//!
-//! Every f32 there is, all 2³² bit patterns, for functions specialised to materials, in WGSL: not a sample.
+//! The device generates its own cosines. Results are read back block by block, so that memory stays small. A block is cut into
+//! pieces that fit a processor's cache. The graph is evaluated in f64 over the columns of a piece, and only pieces with a
+//! difference that counts are compared point by point.
 
 use std::sync::Mutex;
 
@@ -32,7 +30,7 @@ const ALL: u64 = 1 << 32;
 /// Points evaluated at once: columns of f64 that a cache holds.
 const PIECE: usize = 512;
 
-/// Runs a function of a WGSL file at all numbers. `progress` hears how many are done.
+/// Runs a function of a WGSL file at all numbers. `progress` is told how many are done.
 ///
 /// # Errors
 /// There is no device, or it fails, or the text is refused.
@@ -79,7 +77,7 @@ pub fn count(trial: &Trial) -> u64 {
     }
 }
 
-/// What results are held against.
+/// What results are compared with.
 struct Judge<'a> {
     trial: &'a Trial,
     /// In ulp.
@@ -88,7 +86,7 @@ struct Judge<'a> {
     range: [f64; 2],
 }
 
-/// Points at which a function's range is looked for.
+/// Points at which a function's range is estimated.
 const RANGE_POINTS: usize = 1000;
 
 impl Judge<'_> {
@@ -129,7 +127,7 @@ fn block(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
     worst.into_inner().unwrap_or(Outcome::NONE)
 }
 
-/// Consecutive numbers: those from 0 to 1 piece by piece, the others by what tells them apart.
+/// Consecutive numbers: those from 0 to 1 piece by piece, the others by runs of equal results.
 fn part_of(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
     let within = (WITHIN.saturating_sub(u64::from(first)) as usize).min(results.len());
     let (within, beyond) = results.split_at(within);
@@ -143,7 +141,7 @@ fn part_of(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
     outcome
 }
 
-/// Numbers beyond [0, 1]: of a run of equal results on one side one is judged.
+/// Numbers beyond [0, 1]: one is judged for each run of equal results on one side.
 fn beyond(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
     if results.is_empty() {
         return Outcome::NONE;
@@ -173,7 +171,7 @@ fn one(judge: &Judge, cosines: &[f32], results: &[[f32; 4]]) -> Outcome {
         for (i, result) in results.iter().enumerate() {
             let difference = (f64::from(result[channel]) - column.at(i)).abs();
             largest = largest.max(difference);
-            // `max` passes over a NaN, a sum does not.
+            // `max` ignores a NaN, a sum does not.
             total += difference;
         }
         if !total.is_finite() {
@@ -193,10 +191,10 @@ fn one(judge: &Judge, cosines: &[f32], results: &[[f32; 4]]) -> Outcome {
     judge.judge(cosines, want, &got)
 }
 
-/// Hears how much is done, of how much, of what.
+/// Called with how much is done, of how much, and for which function.
 type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
-/// The rows of a shard's functions at all numbers, and how many points a second each took.
+/// The rows of a shard's functions at all numbers, and the points per second of each.
 ///
 /// # Errors
 /// Nothing of the plan can be swept.
@@ -263,7 +261,7 @@ fn swept(plan: &VerifyPlan) -> Vec<Swept<'_>> {
     all
 }
 
-/// A function at all numbers, and the millions of them a second.
+/// The run of a function at all numbers, and its speed in millions of numbers a second.
 fn run(
     file: &PlannedFile,
     subject: &MaterialInMedium,
@@ -324,7 +322,7 @@ mod tests {
         }
     }
 
-    /// What comes of numbers from these bits on, with one result changed.
+    /// The outcome of numbers from these bits on, with one result changed.
     fn changed(first: u32, at: usize, result: [f32; 4]) -> Outcome {
         let trial = trial();
         let bits: Vec<f32> = (0..2000).map(|i| f32::from_bits(first + i)).collect();

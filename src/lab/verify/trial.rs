@@ -1,6 +1,5 @@
-//! A trial: a function with the values of its arguments, held against what it means in f64 at the very same inputs.
-//!
-//! The trials of a function: with a material's values, and with the worst inputs that are known.
+//! Trials: a function with the values of its arguments, compared with what it means in f64 at the same inputs. The values are a
+//! material's, or the worst inputs that are known.
 
 use serde::Serialize;
 
@@ -20,18 +19,17 @@ use crate::physics::num::{Num, Precision, VulkanTolerance, each_channel, ulp_dis
 /// A function to try, and what it promises.
 #[derive(Clone, Debug)]
 pub struct Trial {
-    /// What its text means.
+    /// The function as its text computes it.
     pub function: Checked,
-    /// The values of its arguments after `cos_theta`, without the texture; a scalar is the first number.
+    /// The values of its arguments after `cos_theta`, without the texture. A scalar is the first number.
     pub values: Vec<[f32; 3]>,
     /// The texture that it reads.
     pub table: Option<Texels>,
-    /// What it promises in ulp; where it promises nothing the reason is said, and it must come near what
-    /// unfused f32 gives.
+    /// Its promise in ulp, or the reason why there is none. Without a promise it must come near what unfused f32 gives.
     pub bound: Measured<f64>,
-    /// Differences up to this are no error, whatever they are in ulp: [`ABSOLUTE_FLOOR`], or what coefficients promise.
+    /// Absolute differences up to this are no error, whatever they are in ulp: [`ABSOLUTE_FLOOR`], or what coefficients promise.
     pub floor: f64,
-    /// Whether it keeps the contract: it is then tried beyond [0, 1] too, and else not at 0.
+    /// Whether it keeps the contract. If so it is tried beyond [0, 1] too, otherwise not at 0.
     pub is_guarded: bool,
 }
 
@@ -42,13 +40,13 @@ pub struct Expected {
     pub cosines: Vec<f32>,
     /// The results in f64.
     want: Value<f64>,
-    /// By how much each may be off whatever it promises in ulp: what a sampler's weights or a GPU's powers are allowed.
+    /// By how much each may be off in addition to the promise in ulp: the tolerance of a sampler's weights or a GPU's powers.
     slack: Option<Value<f64>>,
     /// The promise in ulp.
     pub bound: f64,
     /// Differences up to this are no error, whatever they are in ulp.
     floor: f64,
-    /// The smallest and the largest of these results, with 0 and 1: for a cosine that is NaN any value between is right.
+    /// The smallest and the largest of these results, with 0 and 1. For a NaN cosine any value between them is right.
     pub(super) range: [f64; 2],
 }
 
@@ -59,15 +57,15 @@ pub struct Miss {
     pub cos_theta: f32,
     /// 0 for red, 1 for green, 2 for blue.
     pub channel: usize,
-    /// What came.
+    /// The result.
     pub got: f32,
-    /// What should have come.
+    /// The expected result.
     pub expected: f64,
-    /// How far apart they are.
+    /// Their distance in ulp.
     pub ulp: f64,
 }
 
-/// What came of a trial.
+/// The result of a trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The largest differences.
@@ -76,8 +74,8 @@ pub struct Outcome {
     pub miss: Option<Miss>,
 }
 
-/// Where nothing is promised a result may be so many times as far off as in unfused f32 here, and as where something is
-/// promised: a formula that loses digits loses others with another root or another order.
+/// Where nothing is promised, a result may be this many times as far off as in unfused f32 here: a formula that loses digits loses
+/// others with another root or another order of operations.
 const ROOM: f64 = 2.0;
 /// The steps of a sampler's weights.
 const WEIGHTS: f64 = 256.0;
@@ -106,7 +104,7 @@ impl Trial {
         )
     }
 
-    /// What is expected at these cosines; those are left out at which nothing is promised.
+    /// What is expected at these cosines. Those at which nothing is promised are left out.
     pub fn expected(&self, cosines: &[f32]) -> Expected {
         let is_inside = |c: &f32| self.is_guarded || (TEXTBOOK_FROM..=1.0).contains(c);
         let cosines: Vec<f32> = cosines.iter().copied().filter(is_inside).collect();
@@ -122,7 +120,7 @@ impl Trial {
         expected
     }
 
-    /// What is expected where the results in f64 are known; there is no bound in ulp yet.
+    /// What is expected where the results in f64 are known. There is no bound in ulp yet.
     pub(super) fn expected_of(&self, cosines: Vec<f32>, want: Value<f64>) -> Expected {
         Expected {
             slack: self.slack(&cosines, &want),
@@ -134,7 +132,7 @@ impl Trial {
         }
     }
 
-    /// The error of unfused f32 at these points, with some room. Beyond [0, 1] it is that of the ends.
+    /// The error of unfused f32 at these points in [0, 1], in ulp, with some room. Beyond [0, 1] results are those of the ends.
     fn unfused(&self, expected: &Expected) -> f64 {
         let mut error = CodeError::NONE;
         let got = self.run::<f32>(&expected.cosines);
@@ -176,7 +174,7 @@ impl Trial {
         })
     }
 
-    /// How far this kind of number comes to lie.
+    /// The absolute differences of this kind of number from `want`.
     fn off<N: Num>(&self, cosines: &[f32], want: &Value<f64>) -> Vec<[f64; 3]> {
         let got = self.run::<N>(cosines);
         let off = |i: usize| {
@@ -187,7 +185,7 @@ impl Trial {
     }
 }
 
-/// For each texel the largest difference to a neighbour: what a table's weights may be off by is a share of it.
+/// The largest difference of each texel to a neighbour. The error of a sampler's weights is a share of it.
 fn steps(table: &Texels) -> Texels {
     let texel = |row: usize, i: usize| table.texels[row * table.width + i.min(table.width - 1)];
     let step = |at: usize| {
@@ -239,7 +237,7 @@ impl Expected {
         outcome
     }
 
-    /// The expected value. For a cosine that is NaN every value of the range is right, and the nearest one is expected.
+    /// The expected value. For a NaN cosine every value of the range is right, and the nearest one is expected.
     fn expected_value(&self, cos_theta: f32, got: f32, want: f64) -> f64 {
         let [least, most] = self.range;
         match (cos_theta.is_nan(), got.is_nan()) {
@@ -256,7 +254,7 @@ impl Expected {
     }
 }
 
-/// The smallest and the largest result at cosines that are numbers, with 0 and 1.
+/// The smallest and the largest result at cosines that are not NaN, with 0 and 1.
 pub fn result_range(cosines: &[f32], want: &Value<f64>) -> [f64; 2] {
     let points = (0..cosines.len()).filter(|i| !cosines[*i].is_nan());
     let results = points.flat_map(|i| want.at(i));
@@ -266,13 +264,13 @@ pub fn result_range(cosines: &[f32], want: &Value<f64>) -> [f64; 2] {
 }
 
 impl Outcome {
-    /// Nothing was different.
+    /// The outcome without differences.
     pub const NONE: Outcome = Outcome {
         error: CodeError::NONE,
         miss: None,
     };
 
-    /// What came of two.
+    /// The worse of two outcomes.
     pub fn worst(self, other: Outcome) -> Outcome {
         let mut both = Outcome {
             error: self.error.worst(other.error),
@@ -284,7 +282,7 @@ impl Outcome {
         both
     }
 
-    /// Keeps the miss that is further off in absolute terms: that is what a person sees.
+    /// Keeps the miss with the larger absolute difference, which is the more visible one.
     fn add(&mut self, miss: Miss) {
         let size = |miss: &Miss| {
             let off = (f64::from(miss.got) - miss.expected).abs();
@@ -296,19 +294,19 @@ impl Outcome {
     }
 }
 
-/// A trial of a function, with what it is about.
+/// A trial of a function, with its material and reference.
 pub struct TrialCase<'a> {
-    /// The material, or what else the values are.
+    /// The material, or another name for the values.
     pub material: &'a str,
     /// The trial.
     pub trial: Trial,
-    /// Cosines around which it is tried closely.
+    /// Cosines around which points are dense.
     pub limits: Vec<f32>,
-    /// What its model error is held against.
+    /// The curve that its model error is measured against.
     pub reference: Option<ReferenceCurve>,
 }
 
-/// The trials of a function: a library function with each material's values, and where it was worst so far.
+/// The trials of a function. A library function is tried with each material's values, and with its worst inputs so far.
 pub fn cases<'a>(
     plan: &'a VerifyPlan,
     file: &PlannedFile,
@@ -326,7 +324,7 @@ pub fn cases<'a>(
     cases
 }
 
-/// What [`cases`] are about, without the trials.
+/// The materials of [`cases`], without the trials.
 pub fn case_materials<'a>(
     plan: &'a VerifyPlan,
     file: &PlannedFile,
@@ -403,7 +401,7 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a
     }
 }
 
-/// The worst inputs known of a method, kept for ever.
+/// The trials of a method at its worst known inputs, which are kept for ever.
 fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
     let case = |(values, cos_theta): (Vec<[f32; 3]>, f32)| TrialCase {
         material: row::WORST,
@@ -414,7 +412,7 @@ fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
     worst_cases(emitted.method).map(case).collect()
 }
 
-/// What a library function promises for a material: its bound is stated over a set of media.
+/// What a library function promises for a material. Its bound is stated over a set of media.
 fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
     let method = emitted.method;
     let over = match (emitted.precision, method.half.claim()) {
@@ -435,7 +433,7 @@ fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
     }
 }
 
-/// Up to where a difference is no error: what coefficients promise is absolute.
+/// The absolute difference that is no error. What coefficients promise is absolute.
 fn floor(emitted: &Emitted) -> f64 {
     match emitted.code {
         Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => most,
@@ -443,7 +441,7 @@ fn floor(emitted: &Emitted) -> f64 {
     }
 }
 
-/// What a library function promises in ulp; a method that does not keep the contract promises nothing beyond its media.
+/// What a library function promises in ulp. A method that does not keep the contract promises nothing beyond its media.
 fn promised(method: &Method) -> Measured<f64> {
     match method.contract {
         Contract::Kept if !method.is_textured() => Measured::Yes(method.claims.code_ulp),
@@ -458,7 +456,8 @@ fn trial(
     table: Option<crate::language::ir::Texels>,
     bound: Measured<f64>,
 ) -> Trial {
-    // What reads a texture is as exact as its sampler, which the trial allows for; what coefficients promise is absolute.
+    // A function that reads a texture is as exact as its sampler, which the trial allows for. What coefficients promise is
+    // absolute.
     let has_no_ulp = emitted.method.is_textured() || emitted.form.coefficient().is_some();
     let bound = match bound {
         Measured::Yes(_) if has_no_ulp => Measured::Yes(0.0),

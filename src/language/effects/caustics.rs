@@ -1,4 +1,4 @@
-//! `E = flux / area`: photons that a body refracts or reflects, and the light that they make where they land.
+//! `E = flux / area`: photons that a body refracts or reflects, and the irradiance where they land.
 //!
 //! Source: Wyman and Davis, *Interactive Image-Space Techniques for Approximating Caustics*, I3D, 2006,
 //! <https://doi.org/10.1145/1111411.1111439>; triangles after Watt, *Light-Water Interaction Using Backward Beam Tracing*, SIGGRAPH, 1990,
@@ -43,7 +43,7 @@ const OFFSET: Argument = Argument::pair(
 );
 const RADIUS: Argument = Argument::scalar("radius", "of the splat, above 0", 0.5, 2.0);
 
-/// A triangle of less area, in square units of the world, is none.
+/// A triangle with less area than this, in square world units, counts as degenerate.
 const SMALLEST: f64 = 1e-20;
 
 /// The record of this effect.

@@ -5,7 +5,8 @@
 //! <https://doi.org/10.1098/rspl.1860.0119>. The refracted cosine is Snell's law in R. L. Cook, K. E. Torrance, 1982,
 //! <https://doi.org/10.1145/357290.357293>. The F0 of a metal under a coat is our own fit.
 //! Under a coat of index 1.5 only cosines of .745 and more occur at the base: sqrt(1 - 1/1.5^2).
-//! One R stands for both polarisations: composed of the mean, a coated metal of the catalogue is off by .014 at most, a thin glass of index 1.5 by .022.
+//! One R stands for both polarisations. Composed from the mean of both, a coated metal of the catalogue is off by .014 at most,
+//! and thin glass of index 1.5 by .022.
 
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use crate::language::ir::{Expr, Letters};
@@ -49,12 +50,13 @@ const BASE_R: Argument = Argument::vector(
 );
 const SLAB_R: Argument = Argument::vector("r", "R of one interface of the slab", 0.0, 1.0);
 
-/// The fit of F0 under a coat of index 1.5: least squares over the three channels of 75 measurements of metals and semiconductors, against F0 of
-/// each page by its spectrum in a medium of 1.5. F0 + (1 - F0)(a + b F0) + (1 - F82)(c + d F0 + e F82) keeps F0 = F82 = 1, a mirror.
+/// The fit of F0 under a coat of index 1.5: least squares over the three channels of 75 measurements of metals and semiconductors.
+/// The reference is each measurement's F0 from its spectrum, in a medium of index 1.5.
+/// F0 + (1 - F0)(a + b F0) + (1 - F82)(c + d F0 + e F82) keeps F0 = F82 = 1, a mirror.
 const OVER_F0: [f64; 2] = [0.3513, -0.5128];
 const OVER_F82: [f64; 3] = [-0.5512, 0.8608, -0.5326];
 
-/// Divisors are no smaller, so that 0 / 0 is 0: far below what single precision tells apart here.
+/// Divisors are clamped to this, so that 0 / 0 is 0. It is far below what single precision resolves here.
 const LEAST_DIVISOR: f64 = 1e-12;
 
 /// The record of this effect.

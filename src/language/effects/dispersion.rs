@@ -1,4 +1,4 @@
-//! `t_j = refracted(i, n, eta_j)`: a ray for each colour, and weights of spectral samples that sum to 1.
+//! `t_j = refracted(i, n, eta_j)`: a refracted ray for each colour, and weights of spectral samples that sum to 1.
 //!
 //! Source: Born, Wolf, *Principles of Optics*, 1999, section 4.7, <https://doi.org/10.1017/CBO9781139644181>; the weights are ours.
 //! One reflectance for all channels is right for real media: it differs by at most half a step of 255 for water and BK7.
@@ -97,7 +97,7 @@ fn of_channel<'b>(with: &Arguments<'b>, channel: usize) -> Expr<'b> {
     refraction.direction * refraction.passes
 }
 
-/// Over the middles of N equal steps (1 - t)^2 and t^2 sum to N (1/3 - 1/(12 N^2)), and 2 t (1 - t) to N (1/3 + 1/(6 N^2)).
+/// Over the midpoints of N equal steps, (1 - t)^2 and t^2 sum to N (1/3 - 1/(12 N^2)), and 2 t (1 - t) to N (1/3 + 1/(6 N^2)).
 fn spectral_weight<'b>(with: &Arguments<'b>) -> Expr<'b> {
     let count = with.get(COUNT);
     let t = ((with.get(INDEX) + 0.5) / count)

@@ -1,6 +1,5 @@
-//! What an effect is: a plain record in a static table, with its functions.
-//!
-//! What several effects do with vectors, and arguments that several take.
+//! What an effect is: a record in a static table, with its functions. Also the vector operations and the arguments that
+//! several effects share.
 
 use crate::language::ir::{
     BrokenRule, Builder, Checked, Expr, Letters, Ty, USED_TWICE, check, specialise,
@@ -10,22 +9,23 @@ use crate::physics::cite::Citation;
 use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 
-/// Something that Fresnel's equations make visible, as functions that an application calls.
+/// A visible effect of Fresnel's equations, as functions that an application calls.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Effect {
-    /// Its one name: file, `--effect`, row in every report.
+    /// Its one name: of its file, in `--effect`, and as a row in reports.
     pub name: &'static str,
-    /// One line.
+    /// A description in one line.
     pub summary: &'static str,
-    /// The formulas, in ASCII, a line each.
+    /// The formulas in ASCII, one a line.
     pub formula: &'static [&'static str],
     /// Who published it.
     pub source: Citation,
-    /// What its arguments mean beyond what each says of itself, and what is left to the application, a line each.
+    /// Conventions of its arguments beyond their own descriptions, and what is left to the application, one a line.
     pub conventions: &'static [&'static str],
-    /// Where it must be wrong, a line each.
+    /// Where it must be wrong, one a line.
     pub fails: &'static [&'static str],
-    /// Its functions. Each gives one result.
+    /// Its functions. Each returns one result.
     pub functions: &'static [EffectFunction],
 }
 
@@ -34,29 +34,29 @@ pub struct Effect {
 pub struct EffectFunction {
     /// Its name after the prefix.
     pub name: &'static str,
-    /// What it gives.
+    /// What it returns.
     pub gives: &'static str,
     /// Its arguments; those of the Fresnel method come after them.
     pub arguments: &'static [Argument],
-    /// Whether it asks for the reflectance, so that a Fresnel method is part of it.
+    /// The reflectance that it uses, if any. A Fresnel method is then part of it.
     pub reflectance: Reflectance,
-    /// How far single precision may be from f64, of results above 1 as a share of them, beyond what a last bit of the arguments turns, and
-    /// without what the method of R adds. Tests hold it in both directions.
+    /// The largest error of single precision against f64: absolute, or relative for results above 1. It excludes the effect of a
+    /// last bit of the arguments, and the error of the method of R. Tests check that it is neither exceeded nor slack.
     pub code_abs: f64,
-    /// Whether its numbers are colours, or places and directions.
+    /// Whether its triples are colours, or points and directions.
     pub letters: Letters,
     /// Builds the formula.
     pub build: for<'b> fn(&Arguments<'b>) -> Expr<'b>,
 }
 
-/// The reflectance that a function asks for.
+/// The reflectance that a function uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reflectance {
     /// None.
     Unused,
-    /// One for each channel; where the method has a scalar form there is a second function with one for all.
+    /// One for each channel. Where the method has a scalar form, there is a second function with one for all channels.
     EachChannel,
-    /// The same, of light that leaves a body: a material's index counts inverted.
+    /// The same for light that leaves a body: a material's index is inverted.
     FromWithin,
 }
 
@@ -76,18 +76,18 @@ pub struct Argument {
     pub meaning: &'static str,
     /// Its type.
     pub ty: Ty,
-    /// Where the function's error is stated.
+    /// The values for which the function's error is stated.
     pub domain: Domain,
 }
 
-/// The values of an argument for which a function states its error. It gives numbers for others too.
+/// The values of an argument for which a function's error is stated. It returns numbers for others too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Domain {
     /// Vectors of length 1.
     UnitLength,
-    /// From the first number to the second, each component.
+    /// Each component lies between the first number and the second.
     Within(f64, f64),
-    /// A camera's matrix, the map to texture coordinates, a texture: what the argument means.
+    /// All that the argument can mean: a camera's matrix, the map to texture coordinates, a texture.
     Whole,
 }
 
@@ -103,7 +103,7 @@ impl Domain {
 }
 
 impl Argument {
-    /// A number from the first to the second.
+    /// A number between `least` and `most`.
     pub const fn scalar(
         name: &'static str,
         meaning: &'static str,
@@ -119,7 +119,7 @@ impl Argument {
         }
     }
 
-    /// A place or a colour, with components from the first number to the second.
+    /// A point or a colour, with components between `least` and `most`.
     pub const fn vector(
         name: &'static str,
         meaning: &'static str,
@@ -146,7 +146,7 @@ impl Argument {
         }
     }
 
-    /// Two numbers from the first to the second.
+    /// Two numbers between `least` and `most`.
     pub const fn pair(
         name: &'static str,
         meaning: &'static str,
@@ -194,7 +194,7 @@ impl<'b> Arguments<'b> {
         self.builder.number(value)
     }
 
-    /// A place or a direction from three numbers.
+    /// A point or a direction from three numbers.
     pub fn vector(&self, x: Expr<'b>, y: Expr<'b>, z: Expr<'b>) -> Expr<'b> {
         self.builder.compose(x, y, z)
     }
@@ -219,7 +219,7 @@ pub struct BuiltEffect {
 }
 
 impl EffectFunction {
-    /// This function in each form that it has with this method: one, or one for three channels and one for one.
+    /// This function in each form that it has with this method: a single one, or a colour form and a scalar form.
     ///
     /// # Errors
     /// The graph breaks a rule of [`crate::language::ir::RULES`]; tests hold that none does.
@@ -240,10 +240,10 @@ impl EffectFunction {
             .collect()
     }
 
-    /// This function with the arguments that have a value fixed; nothing where it has none of them.
+    /// This function with the arguments fixed that have a value here; nothing where none has.
     ///
     /// # Errors
-    /// With these constants the graph breaks a rule of [`crate::language::ir::RULES`]: one is not finite in single precision, for example.
+    /// With these constants the graph breaks a rule of [`crate::language::ir::RULES`]: one is not finite in f32, for example.
     pub fn specialised(
         &self,
         method: &'static Method,
@@ -286,7 +286,7 @@ impl EffectFunction {
     }
 }
 
-/// The smallest squared length that is no zero vector.
+/// A vector with a squared length below this counts as zero.
 const SHORTEST: f64 = 1e-30;
 
 /// The direction of arriving light.
@@ -294,7 +294,7 @@ pub const INCIDENT: Argument = Argument::direction(
     "incident",
     "direction of travel, of unit length, toward the surface",
 );
-/// The surface's normal, as all but exits take it.
+/// The surface normal, as all functions but exits take it.
 pub const NORMAL: Argument = Argument::direction(
     "normal",
     "of unit length, on the side that the light comes from; the function never flips it",
@@ -312,14 +312,14 @@ pub const VIEW_PROJECTION: Argument = Argument::whole(
     "from world to clip space, applied to columns",
     Ty::Mat4,
 );
-/// From normalised device coordinates to texture coordinates.
+/// The map from normalised device coordinates to texture coordinates.
 pub const UV_SCALE_BIAS: Argument = Argument::whole(
     "uv_scale_bias",
     "uv = ndc.xy * this.xy + this.zw: (.5, .5, .5, .5) where v points up, (.5, -.5, .5, .5) where it points down",
     Ty::Vec4,
 );
 
-/// A vector by its length; a zero vector stays one.
+/// A vector divided by its length. A zero vector stays zero.
 pub fn unit_or_zero<'b>(vector: Expr<'b>) -> Expr<'b> {
     vector * vector.dot(vector).at_least(SHORTEST).inverse_sqrt()
 }
@@ -329,7 +329,7 @@ pub fn length<'b>(vector: Expr<'b>) -> Expr<'b> {
     vector.dot(vector).sqrt()
 }
 
-/// The vector product.
+/// The cross product.
 pub fn cross<'b>(with: &Arguments<'b>, a: Expr<'b>, b: Expr<'b>) -> Expr<'b> {
     let part = |i: usize, j: usize| a.channel(i) * b.channel(j) - a.channel(j) * b.channel(i);
     with.vector(part(1, 2), part(2, 0), part(0, 1))
@@ -340,11 +340,11 @@ pub fn mirrored<'b>(incident: Expr<'b>, normal: Expr<'b>) -> Expr<'b> {
     incident - normal * (2.0 * incident.dot(normal))
 }
 
-/// What Snell's law makes of a direction.
+/// A direction refracted by Snell's law.
 pub struct Refraction<'b> {
-    /// The direction behind the surface; of no meaning where `passes` is 0.
+    /// The refracted direction; meaningless where `passes` is 0.
     pub direction: Expr<'b>,
-    /// 1 where light passes, 0 past the critical angle, at grazing incidence and for a zero vector.
+    /// 1 where light passes. 0 past the critical angle, at grazing incidence and for a zero vector.
     pub passes: Expr<'b>,
 }
 

@@ -3,7 +3,7 @@
 //! Source: Walter, Marschner, Li, Torrance, *Microfacet Models for Refraction through Rough Surfaces*, EGSR, 2007,
 //! <https://www.graphics.cornell.edu/~bjw/microfacetbsdf.pdf>; Heitz, *Understanding the Masking-Shadowing Function in
 //! Microfacet-Based BRDFs*, JCGT 3, 2014, <https://jcgt.org/published/0003/02/03/>.
-//! One bounce: a rough surface loses what bounces twice, up to two thirds of the light at alpha 1.
+//! It is single scattering: light that bounces twice is lost, up to two thirds of it at alpha 1.
 
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use crate::language::ir::{Expr, Letters};
@@ -65,7 +65,7 @@ fn ggx_specular<'b>(with: &Arguments<'b>) -> Expr<'b> {
     let alpha = with.get(ALPHA).saturate().at_least(1e-3);
     let alpha = alpha.named("rough", "a smaller one is no surface: D would overflow");
     let squared = (alpha * alpha).named("rough2", "");
-    // (1 - nh)(1 + nh) + nh^2 a2, which keeps its digits near the peak.
+    // (1 - nh)(1 + nh) + nh^2 a2, which does not cancel near the peak.
     let spread = (1.0 - half) * (1.0 + half) + half * half * squared;
     let spread = spread.named(
         "spread",

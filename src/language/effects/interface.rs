@@ -1,8 +1,8 @@
-//! `t = r (i + c n) - n sqrt(1 - r^2 (1 - c^2))`: what light does at one surface, reflected, refracted, and in which shares.
+//! `t = r (i + c n) - n sqrt(1 - r^2 (1 - c^2))`: reflection and refraction at one surface, and the share of light in each.
 //!
 //! Source: Born, Wolf, *Principles of Optics*, 1999, sections 1.5.1 and 3.2.2, <https://doi.org/10.1017/CBO9781139644181>.
-//! Both indices are free: `eta` below 1 is light that leaves the denser medium. The direction keeps unit length to rounding; close to
-//! the critical angle a rounding of `incident` turns it by the square root of that rounding.
+//! `eta` is the ratio of two arbitrary indices: below 1, light leaves the denser medium. The direction keeps unit length to rounding.
+//! Close to the critical angle, a rounding error of `incident` turns it by the square root of that error.
 
 use super::effect::{
     Arguments, ETA, Effect, EffectFunction, INCIDENT, NORMAL, Reflectance, mirrored, refraction,

@@ -1,8 +1,8 @@
-//! `d' = |P(p + d v) - p|`: a step of the search for where a ray inside a body leaves it, in a picture of its back.
+//! `d' = |P(p + d v) - p|`: a step of the search, in an image of a body's back faces, for the point where a ray inside it leaves.
 //!
 //! Source: the iteration is that of Shah, Konttinen, Pattanaik, *Caustics Mapping*, IEEE Transactions on Visualization and Computer Graphics
-//! 13(2), 2007, <https://doi.org/10.1109/TVCG.2007.32>; a tutorial calls it Newton and Raphson's, and it is a fixed-point iteration.
-//! Refraction at two surfaces in pictures is Wyman's (2005, <https://doi.org/10.1145/1073204.1073310>).
+//! 13(2), 2007, <https://doi.org/10.1109/TVCG.2007.32>. A tutorial calls it Newton-Raphson, but it is a fixed-point iteration.
+//! Image-space refraction at two surfaces is Wyman's (2005, <https://doi.org/10.1145/1073204.1073310>).
 //! It converges fast on convex bodies. It also finds total reflection where there is none.
 
 use super::effect::{
@@ -32,7 +32,7 @@ const POSITIONS: Argument = Argument::whole(
 );
 const NORMAL_OUT: Argument = Argument::direction("normal_out", "of unit length, out of the body");
 
-/// After a miss the next estimate is this share of the last: the ray left the silhouette, so that it was too long.
+/// After a miss the next estimate is this share of the last. The point lay outside the silhouette, so the ray was too long.
 const AFTER_A_MISS: f64 = 0.7;
 
 /// The record of this effect.

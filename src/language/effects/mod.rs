@@ -1,10 +1,14 @@
-//! What Fresnel's equations make visible, as functions that engines import: one file an effect, with formula, source and where it
-//! must be wrong.
+//! Visible effects of Fresnel's equations, as functions that engines import. One file for each effect, with its formula, its
+//! source and where it must be wrong.
 //!
 //! To add one, write its file: a `//!` header with formula and source, and a `pub static EFFECT: Effect`. Then run `tests/lists`, which
 //! writes the list below.
-//! An effect is a graph like a method's, so that it is printed, run and measured in the same way. There are no loops: an application
+//! An effect is a graph like a method's, so it is printed, run and measured in the same way. There are no loops: the application
 //! repeats a step.
+
+use std::str::FromStr;
+
+use crate::physics::names::UnknownName;
 
 mod effect;
 
@@ -36,6 +40,22 @@ pub static ALL: &[&Effect] = &[
     &parallax::EFFECT,
     &water::EFFECT,
 ];
+
+/// Each by its name.
+#[rustfmt::skip]
+#[allow(missing_docs)]
+impl Effect {
+    pub const CAUSTICS: &'static Effect = &caustics::EFFECT;
+    pub const COAT: &'static Effect = &coat::EFFECT;
+    pub const COMPLEX_F0: &'static Effect = &complex_f0::EFFECT;
+    pub const DISPERSION: &'static Effect = &dispersion::EFFECT;
+    pub const GGX_SPECULAR: &'static Effect = &ggx_specular::EFFECT;
+    pub const INTERFACE: &'static Effect = &interface::EFFECT;
+    pub const INTERIOR: &'static Effect = &interior::EFFECT;
+    pub const NORMAL_MAPPING: &'static Effect = &normal_mapping::EFFECT;
+    pub const PARALLAX: &'static Effect = &parallax::EFFECT;
+    pub const WATER: &'static Effect = &water::EFFECT;
+}
 // END list
 
 /// The effect of this name.
@@ -43,12 +63,22 @@ pub fn find(name: &str) -> Option<&'static Effect> {
     ALL.iter().find(|effect| effect.name == name).copied()
 }
 
-/// Every name that a version of this program wrote files of effects under and that is no effect's today: a run without flags removes
-/// these files.
+/// Former names of effects, under which earlier versions of this program wrote files. A run without flags removes these files.
 pub const FORMER: &[&str] = &[];
 
-/// What R is computed by unless asked otherwise: both sides of a surface, total reflection included.
+/// The default method for R: it covers both sides of a surface, total reflection included.
 pub const USUAL_METHOD: &str = "dielectric_exact";
+
+impl FromStr for &'static Effect {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<&'static Effect, UnknownName> {
+        find(name).ok_or_else(|| {
+            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
+            UnknownName::new("effect", name, &names)
+        })
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,8 @@
-//! `n = unit(x t + y b + z n)`: a normal map's normal in the world. The normal is transformed, never the ray.
+//! `n = unit(x t + y b + z n)`: a normal map's normal in world space. The normal is transformed, never the ray.
 //!
 //! Source: Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, University of Copenhagen, 2008,
 //! <http://image.diku.dk/projects/media/morten.mikkelsen.08.pdf>.
-//! All that follows, reflection, refraction and look-ups, then happens in one space, and no ray is transformed twice.
+//! Reflection, refraction and look-ups then happen in one space, and no ray is transformed twice.
 
 use super::effect::{
     Argument, Arguments, Effect, EffectFunction, NORMAL, Reflectance, cross, unit_or_zero,

@@ -1,10 +1,10 @@
-//! `p + t d - centre`: where a ray from inside a room meets it, so that a cube map of the room is looked up where it was taken.
+//! `p + t d - centre`: where a ray from inside a room hits its walls, as a look-up direction from the centre of the room's cube map.
 //!
 //! Source: Lagarde and Zanuttini, *Local Image-based Lighting With Parallax-corrected Cubemaps*, SIGGRAPH 2012,
 //! <https://seblagarde.wordpress.com/2012/09/29/image-based-lighting-approaches-and-parallax-corrected-cubemap/>; the search is
 //! Szirmay-Kalos, Aszódi, Lazányi, Premecz, *Approximate Ray-Tracing on the GPU with Distance Impostors*, Computer Graphics Forum 24,
 //! 2005, <https://doi.org/10.1111/j.1467-8659.2005.0m894.x>.
-//! The box is met in closed form. Any other room is met by steps of a search in a cube that holds distances.
+//! A box is intersected in closed form. Any other room is intersected by steps of a search in a cube map of distances.
 
 use super::effect::{
     Argument, Arguments, Effect, EffectFunction, Reflectance, length, unit_or_zero,
@@ -48,7 +48,7 @@ const DISTANCE_CUBE: Argument = Argument::whole(
     Ty::Cube,
 );
 
-/// A component of a direction below this counts as this: 1e20 times the room is as good as never.
+/// Smaller components of a direction are clamped to this: a hit at 1e20 times the room's size is as good as none.
 const STEEPEST: f64 = 1e-20;
 
 /// The record of this effect.

@@ -1,8 +1,8 @@
-//! `uv = ndc scale + bias`: what lies behind water, from a picture of it, looked up where the waves bend the ray to.
+//! `uv = ndc scale + bias`: the scene behind water, looked up in an image of it where the waves refract the ray to.
 //!
 //! Source: Sousa, *Generic Refraction Simulation*, GPU Gems 2, chapter 19, Addison-Wesley, 2005,
 //! <https://developer.nvidia.com/gpugems/gpugems2/part-ii-shading-lighting-and-shadows/chapter-19-generic-refraction-simulation>.
-//! The bent look-up counts only where it shows something below the water: so nothing before the water leaks into it.
+//! The refracted look-up is used only where it shows something below the water, so nothing in front of the water leaks into it.
 
 use super::effect::{
     Argument, Arguments, Effect, EffectFunction, Reflectance, UV_SCALE_BIAS, VIEW_PROJECTION,
@@ -24,7 +24,7 @@ const MAP: Argument = Argument::whole(
     Ty::Texture,
 );
 
-/// A filtered alpha below this has a texel in it that stands before the water: 8 bits of filter make steps of .004.
+/// A filtered alpha below this includes a texel in front of the water. An 8-bit filter weight has steps of .004.
 const ALL_BELOW: f64 = 0.998;
 
 /// The record of this effect.

@@ -35,7 +35,7 @@ impl Builder {
         Builder::default()
     }
 
-    /// An empty builder of a function whose channels are called so.
+    /// An empty builder of a function whose channels have these names.
     pub fn with_letters(letters: Letters) -> Builder {
         let state = State {
             letters,
@@ -75,7 +75,7 @@ impl Builder {
         self.push(Op::Compose, &[red.id, green.id, blue.id], Payload::None)
     }
 
-    /// The finished function, with only the nodes that the result needs.
+    /// The finished function, without the nodes that the result does not need.
     pub fn finish(&self, name: &str, result: Expr<'_>) -> Function {
         let state = self.state.borrow();
         let whole = Function {
@@ -88,7 +88,7 @@ impl Builder {
         whole.compact()
     }
 
-    /// Adds a node, or finds the equal one that is there.
+    /// Adds a node, or returns the equal one that exists.
     pub(super) fn push(&self, op: Op, args: &[NodeId], payload: Payload) -> Expr<'_> {
         let bits = match payload {
             Payload::None => 0,
@@ -126,8 +126,8 @@ impl Builder {
 }
 
 impl State {
-    /// Panics where types do not fit: that is a mistake in a method's text, found by the first test that
-    /// builds it, and no input of a user can bring it about.
+    /// Panics where types do not match. That is a mistake in a method's source, found by the first test that
+    /// builds it. No user input can cause it.
     fn result_type(&self, op: Op, args: &[NodeId], payload: Payload) -> Ty {
         if let (Op::Param, Payload::Index(index)) = (op, payload) {
             return self.params[index].ty;
@@ -156,7 +156,7 @@ impl<'b> Expr<'b> {
         self.builder.state.borrow().nodes[self.id].ty
     }
 
-    /// Names this step and says why it is there. The first name stays.
+    /// Names this step and gives its reason. A name that it already has stays.
     pub fn named(self, name: &str, why: &str) -> Expr<'b> {
         let label = Label {
             name: name.to_owned(),
@@ -168,7 +168,7 @@ impl<'b> Expr<'b> {
         self
     }
 
-    /// The same, whatever name it has.
+    /// The same, replacing any name it has.
     pub(super) fn renamed(self, label: Label) -> Expr<'b> {
         self.builder.state.borrow_mut().nodes[self.id].label = Some(label);
         self
@@ -209,8 +209,9 @@ impl<'b> Expr<'b> {
         self * self
     }
 
-    /// xᵖ for a real p and x ≥ 0, as exp2(p log2(max(x, 2⁻¹²⁶))): 2⁻¹²⁶ is the smallest normal f32, so that
-    /// the logarithm stays finite on every target. The smallest normal f16, 2⁻¹⁴, would show: there it is 0 below.
+    /// xᵖ for a real p and x ≥ 0, as exp2(p log2(max(x, 2⁻¹²⁶))). 2⁻¹²⁶ is the smallest normal f32, so the
+    /// logarithm stays finite on every target. In half precision the same clamp at 2⁻¹⁴, its smallest normal
+    /// number, would be visible, so the power is 0 below it.
     pub fn power(self, exponent: Expr<'b>, precision: Precision) -> Expr<'b> {
         let power = (exponent * self.at_least(precision.smallest()).log2()).exp2();
         if !precision.is_half() {
@@ -221,7 +222,7 @@ impl<'b> Expr<'b> {
         self.choose_below(number(precision.smallest()), number(0.0), power)
     }
 
-    /// This texture at (u, v).
+    /// Samples this texture at (u, v).
     pub fn sample(self, u: Expr<'b>, v: Expr<'b>) -> Expr<'b> {
         let args = [self.id, u.id, v.id];
         self.builder.push(Op::Sample, &args, Payload::None)
@@ -233,19 +234,19 @@ impl<'b> Expr<'b> {
         self.builder.push(Op::SampleAlpha, &args, Payload::None)
     }
 
-    /// This cube in a direction.
+    /// Samples this cube in a direction.
     pub fn sample_cube(self, direction: Expr<'b>) -> Expr<'b> {
         let args = [self.id, direction.id];
         self.builder.push(Op::SampleCube, &args, Payload::None)
     }
 
-    /// The scalar product of two vectors.
+    /// The dot product of two vectors.
     pub fn dot(self, other: Expr<'b>) -> Expr<'b> {
         self.builder
             .push(Op::Dot, &[self.id, other.id], Payload::None)
     }
 
-    /// A row of this matrix times the column of a place and 1.
+    /// A row of this matrix times the column vector (point, 1).
     pub fn transform(self, row: usize, place: Expr<'b>) -> Expr<'b> {
         let args = [self.id, place.id];
         self.builder.push(Op::Transform, &args, Payload::Index(row))
@@ -286,7 +287,7 @@ impl<'b> Expr<'b> {
         }
     }
 
-    /// `yes` in the channels where this is below `bound`, else `no`; a scalar select per channel.
+    /// `yes` in the channels where this is below `bound`, else `no`. It is a scalar select for each channel.
     pub fn choose_below(self, bound: Expr<'b>, yes: Expr<'b>, no: Expr<'b>) -> Expr<'b> {
         let parts = [self, bound, yes, no];
         if parts.iter().all(|part| part.ty() == Ty::Scalar) {

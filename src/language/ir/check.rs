@@ -1,14 +1,14 @@
-//! The checker: what makes a function well formed. Printers take only what passed it.
+//! The checker: what makes a function well formed. Printers accept only functions that passed it.
 //!
 //! It verifies, for every function ([`RULES`]):
 //! 1. arguments stand before the node that uses them;
 //! 2. the number and the types of arguments fit the operation's signature;
-//! 3. a node carries the payload that its operation wants, in range, and no other;
+//! 3. a node carries the payload that its operation requires, in range, and no other;
 //! 4. constants are finite in the precision of the code;
 //! 5. names are identifiers in every language: a letter, then letters, digits and single underscores, none last;
 //! 6. names of arguments and steps are unique in the function;
 //! 7. arguments are numbers or textures, and the result is one number or three;
-//! 8. the result depends on every node: nothing is computed for nothing;
+//! 8. the result depends on every node: nothing is computed in vain;
 //! 9. a step that is used twice has a name, unless it is a comparison, or only names a constant or an argument.
 
 use std::collections::BTreeSet;
@@ -115,7 +115,7 @@ fn check_node(
     })
 }
 
-/// The type that a parameter's payload tells, or nothing for all other operations.
+/// Checks a node's payload. For a parameter, returns the type that its index refers to; for other operations, nothing.
 fn check_payload(
     precision: Precision,
     function: &Function,
@@ -179,7 +179,7 @@ fn check_whole(function: &Function) -> Result<(), Broken> {
     Ok(())
 }
 
-/// Whether a node is used so often that it wants a name and has none.
+/// Whether a node has no name and is used so often that it needs one.
 pub(super) fn wants_name(function: &Function, id: NodeId, uses: usize) -> bool {
     let node = &function.nodes[id];
     uses > 1 && node.label.is_none() && node.ty != Ty::Bool && !is_name_only(function, node)

@@ -1,4 +1,4 @@
-//! Evaluation of a function in any kind of number, node by node over whole columns of inputs.
+//! Evaluation of a function in any number type, node by node over whole columns of inputs.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::op::{Op, Payload};
 use super::texture::{CubeTexels, Texels, Weights};
 use crate::physics::num::{Num, Truth, each_channel};
 
-/// A number for each point: the same for all, or one each.
+/// The numbers of all points: one for all, or one each.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column<T> {
     /// The same at every point.
@@ -17,18 +17,18 @@ pub enum Column<T> {
     Each(Vec<T>),
 }
 
-/// What a node gives, over all points.
+/// The values of a node at all points.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value<N> {
     /// One number a point.
     Scalar(Column<N>),
     /// Three numbers a point.
     Rgb([Column<N>; 3]),
-    /// One answer a point.
+    /// One truth value a point.
     Bool(Column<Truth>),
-    /// The texels of a texture; none where nothing is known of them.
+    /// The texels of a texture; none where they are unknown.
     Texture(Option<Texels>),
-    /// Those of a cube.
+    /// The texels of a cube; likewise.
     Cube(Option<CubeTexels>),
     /// Two, four or sixteen numbers a point.
     Many(Vec<Column<N>>),
@@ -67,7 +67,7 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// This column with the points of the next chunk behind its own.
+    /// This column with the points of the next chunk appended.
     #[inline]
     fn joined(mut self, next: Column<T>) -> Column<T> {
         if let (Column::Each(values), Column::Each(next)) = (&mut self, next) {
@@ -76,7 +76,7 @@ impl<T: Copy> Column<T> {
         self
     }
 
-    /// How many points it has a number each for; nothing where it is the same at all.
+    /// The number of points, where each has its own number; nothing where all share one.
     #[inline]
     fn points(&self) -> Option<usize> {
         match self {
@@ -85,7 +85,7 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// The loops of this and of `zip` name no iterator that holds `f`: each operation in each kind of number is compiled once.
+    /// The loops of this and of `zip` use no iterator type that holds `f`, so each operation is compiled once for each number type.
     #[inline]
     fn map<U: Copy>(&self, f: &impl Fn(T) -> U) -> Column<U> {
         let values = match self {
@@ -153,7 +153,7 @@ impl<N: Num> Value<N> {
         }
     }
 
-    /// How many points it has a number each for; nothing where it is the same at all.
+    /// The number of points, where each has its own number; nothing where all share one.
     #[inline]
     fn points(&self) -> Option<usize> {
         let columns = match self {
@@ -230,7 +230,7 @@ impl<N: Num> Value<N> {
 }
 
 impl<N: Num> Value<N> {
-    /// Exact weights: what a GPU's eight bits make of them is no rounding of numbers.
+    /// Weights are exact: a GPU's 8-bit weights come from its sampler, not from the number type.
     #[inline]
     fn sample(&self, u: &Value<N>, v: &Value<N>) -> Value<N> {
         let Value::Texture(texels) = self else {
@@ -269,7 +269,7 @@ impl<N: Num> Value<N> {
         Value::Rgb(each_channel(|i| fetched.map(&|colour: [N; 3]| colour[i])))
     }
 
-    /// The sum of products of channels, from the first on.
+    /// The sum of products of channels, in order.
     fn dot(&self, other: &Value<N>) -> Value<N> {
         let product = |i: usize| self.channel(i).zip(other.channel(i), &|a, b| a * b);
         let [x, y, z] = each_channel(product);
@@ -277,7 +277,7 @@ impl<N: Num> Value<N> {
         Value::Scalar(sum(sum(x, y), z))
     }
 
-    /// A row of this matrix times the column of a place and 1.
+    /// A row of this matrix times the column vector (point, 1).
     fn transform(&self, row: usize, place: &Value<N>) -> Value<N> {
         let entry = |column: usize| self.channel(4 * column + row);
         let of_row = Value::Rgb(each_channel(|i| entry(i).clone()));
@@ -286,11 +286,11 @@ impl<N: Num> Value<N> {
     }
 }
 
-/// Points that are evaluated at a time: the columns of all nodes then fit into a processor's cache.
+/// Points evaluated at a time: the columns of all nodes then fit into a CPU cache.
 const CHUNK: usize = 1024;
 
-/// Evaluates a function for these arguments, in the order of its parameters. Columns with a number for each point have the
-/// same length.
+/// Evaluates a function for these arguments, in the order of its parameters. Columns with a number for each point must have
+/// the same length.
 #[inline]
 pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> {
     let whole = |arguments: &[Value<N>]| {
@@ -314,7 +314,7 @@ pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> 
     joined.expect("there are more points than a chunk has")
 }
 
-/// The values of all nodes, for whoever wants to know more than the result.
+/// The values of all nodes, not only of the result.
 #[inline]
 pub(super) fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]) -> Vec<Value<N>> {
     let mut values: Vec<Value<N>> = Vec::with_capacity(function.nodes.len());
@@ -325,7 +325,7 @@ pub(super) fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]
     values
 }
 
-/// What each operation does.
+/// The value of a node: what each operation computes.
 #[inline]
 pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value<N>]) -> Value<N> {
     let arg = |i: usize| &values[node.args[i]];

@@ -1,4 +1,4 @@
-//! The graph: functions, nodes, types, labels; which nodes a result needs; how much work it is.
+//! The graph: functions, nodes, types and labels; which nodes a result needs; how many operations it costs.
 
 use super::op::{Op, Payload, Signature};
 
@@ -7,19 +7,19 @@ use super::op::{Op, Payload, Signature};
 pub enum Ty {
     /// One number.
     Scalar,
-    /// Three channels: a colour, or a place or a direction in space.
+    /// Three channels: a colour, or a point or a direction in space.
     Rgb,
     /// The answer to a comparison.
     Bool,
     /// A texture with the sampler that filters it: an argument only.
     Texture,
-    /// A cube of textures with its sampler: an argument only.
+    /// A cube map with its sampler: an argument only.
     Cube,
     /// Two numbers: an argument only.
     Vec2,
     /// Four numbers: an argument only.
     Vec4,
-    /// A matrix of 4 by 4 numbers, column after column, which is applied to columns: an argument only.
+    /// A 4 by 4 matrix, column-major, which multiplies column vectors: an argument only.
     Mat4,
 }
 
@@ -35,7 +35,7 @@ impl Ty {
         }
     }
 
-    /// Whether it is read by a fetch.
+    /// Whether it is a texture or a cube, which fetches read.
     pub fn is_sampled(self) -> bool {
         matches!(self, Ty::Texture | Ty::Cube)
     }
@@ -55,13 +55,13 @@ impl Ty {
     }
 }
 
-/// What the channels of three numbers are called.
+/// The names of the channels of three numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Letters {
-    /// r, g, b: the function is of colours.
+    /// r, g, b: the function computes with colours.
     #[default]
     Rgb,
-    /// x, y, z: it is of places and directions.
+    /// x, y, z: it computes with points and directions.
     Xyz,
 }
 
@@ -76,7 +76,7 @@ impl Letters {
     }
 }
 
-/// The place of a node in [`Function::nodes`].
+/// The index of a node in [`Function::nodes`].
 pub type NodeId = usize;
 
 /// The name of a step, and why it is there.
@@ -84,7 +84,7 @@ pub type NodeId = usize;
 pub struct Label {
     /// A snake_case name, unique in its function.
     pub name: String,
-    /// One line that says what the step establishes; may be empty.
+    /// One line that says what the step is for; may be empty.
     pub why: String,
 }
 
@@ -93,15 +93,15 @@ pub struct Label {
 pub struct Param {
     /// Its name, the same in every language.
     pub name: String,
-    /// Scalar, colour or texture.
+    /// Its type: any but `Bool`.
     pub ty: Ty,
 }
 
-/// The name of the cosine, which comes first among the arguments of what depends on it.
+/// The name of the cosine, the first argument of every function that depends on it.
 pub const COSINE: &str = "cos_theta";
 
 impl Param {
-    /// Whether it is the cosine.
+    /// Whether this is the cosine.
     pub fn is_cosine(&self) -> bool {
         self.name == COSINE
     }
@@ -112,7 +112,7 @@ impl Param {
 pub struct Node {
     /// The operation.
     pub op: Op,
-    /// Earlier nodes, as many as the operation's signature wants.
+    /// Earlier nodes, as many as the operation's signature requires.
     pub args: Vec<NodeId>,
     /// The number or index that some operations carry.
     pub payload: Payload,
@@ -141,9 +141,9 @@ pub struct Function {
     pub params: Vec<Param>,
     /// Its nodes; arguments stand before the nodes that use them.
     pub nodes: Vec<Node>,
-    /// Which node is returned.
+    /// The node that is returned.
     pub result: NodeId,
-    /// What channels are called.
+    /// The names of its channels.
     pub letters: Letters,
 }
 
@@ -153,7 +153,7 @@ impl Function {
         self.nodes[self.result].ty
     }
 
-    /// For each node, by how many nodes it is used (the result counts as one use).
+    /// For each node, how often it is used as an argument. Being the result counts as one use.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.nodes.len()];
         uses[self.result] += 1;
@@ -163,7 +163,7 @@ impl Function {
         uses
     }
 
-    /// Scalar operations of one evaluation, a colour counted three times; fetches from a texture are not among them.
+    /// Scalar operations of one evaluation. An operation on a colour counts three times; texture fetches do not count.
     pub fn work(&self) -> usize {
         let channels = |node: &Node| {
             node.args
@@ -178,7 +178,7 @@ impl Function {
             .sum()
     }
 
-    /// Whether an evaluation computes nothing and reads nothing: the result is a constant or an argument.
+    /// Whether an evaluation computes and fetches nothing: the result is a constant or an argument.
     pub fn computes_nothing(&self) -> bool {
         self.work() == 0 && self.fetches() == 0
     }
@@ -192,14 +192,14 @@ impl Function {
             .sum()
     }
 
-    /// How often an evaluation reads a texture.
+    /// The number of texture fetches of an evaluation.
     pub fn fetches(&self) -> usize {
         let is_fetch = |node: &&Node| node.op.is_fetch();
         self.nodes.iter().filter(is_fetch).count()
     }
 
     /// The same function with only the nodes that the result needs, each leaf just before its first use.
-    /// Two functions with the same steps in the same order become equal.
+    /// Two functions with the same steps in the same order then compare equal.
     pub fn compact(&self) -> Function {
         let needed = self.needed();
         let mut place = vec![usize::MAX; self.nodes.len()];

@@ -3,11 +3,11 @@
 //! # Rules of evaluation
 //! 1. A [`Function`] is a list of [`Node`]s; a node's arguments stand before it. There is no control flow, no
 //!    loop, no array, no memory and no call: every node is evaluated once, in order, for every input.
-//! 2. Values are a `Scalar`, an `Rgb` (three channels that never mix, except by `channel` and `compose`), a
-//!    `Bool`, or a `Texture`, which only an argument can be and only `sample` reads. `add`, `sub`, `mul` and `div` accept a scalar beside a colour and apply it to each channel;
-//!    all other operations want alike types.
-//! 3. A choice is a scalar `select`: both sides are evaluated, one is taken. It is never a mix, because a mix
-//!    with 0 turns infinity into NaN.
+//! 2. Values are a `Scalar`, an `Rgb` (three channels that mix only in `channel`, `compose`, `dot` and `transform`) or a
+//!    `Bool`. Textures, cubes, vectors of two or four numbers and matrices are arguments only. `add`, `sub`, `mul` and
+//!    `div` accept a scalar beside a colour and apply it to each channel; `min` and `max` want equal types.
+//! 3. A choice is a scalar `select`: both sides are evaluated, one is taken. It is never a blend, because a blend
+//!    with weight 0 turns infinity into NaN.
 //! 4. A comparison with a NaN is false; `min` and `max` with a NaN give the other operand; `saturate` of a NaN
 //!    gives 0. Targets may promise less, so no formula may rely on this.
 //! 5. Numbers are f64 in the graph. Each evaluation rounds them to its own precision first, and then rounds
@@ -16,7 +16,7 @@
 //!    ([`Expr::power`]), never `pow`; in half precision it is 0 below 2^-14.
 //! 7. A labelled node becomes a named variable with its reason as a comment, in every language.
 //!
-//! The room knows no method, no target and no material.
+//! This room knows no method, no target and no material.
 
 mod build;
 mod check;

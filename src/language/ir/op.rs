@@ -1,5 +1,5 @@
-//! The operations, one table: name, signature, meaning, work. All code reads this table except evaluation and
-//! spelling, which say what an operation does and how a language writes it.
+//! The table of operations: name, signature, meaning, work. All code reads this table, except evaluation and
+//! spelling, which define what an operation computes and how a language writes it.
 
 use super::graph::Ty;
 
@@ -45,7 +45,7 @@ pub enum Payload {
     Index(usize),
 }
 
-/// Which argument types an operation takes, and what it gives.
+/// The argument types that an operation takes, and the type of its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signature {
     /// `() -> scalar`, with a number as payload.
@@ -81,7 +81,7 @@ pub enum Signature {
 }
 
 impl Signature {
-    /// How many arguments.
+    /// The number of arguments.
     pub fn arity(self) -> usize {
         match self {
             Signature::Number | Signature::Param => 0,
@@ -93,7 +93,8 @@ impl Signature {
         }
     }
 
-    /// How many values the index that a node carries can have; none where it carries none, or the function's arguments decide.
+    /// The number of values that a node's index can have. None where it carries no index, or where the function's parameters
+    /// decide.
     pub fn indices(self, arguments: &[Ty]) -> Option<usize> {
         match (self, arguments) {
             (Signature::Channel, [ty]) => Some(ty.channels()),
@@ -102,8 +103,8 @@ impl Signature {
         }
     }
 
-    /// The result type for these argument types, or nothing where they do not fit. A parameter's type is not
-    /// known here and comes back as a scalar.
+    /// The result type for these argument types, or nothing where they do not match. A parameter's type is not
+    /// known here and is returned as a scalar.
     pub fn result(self, arguments: &[Ty]) -> Option<Ty> {
         use Ty::{Bool, Cube, Mat4, Rgb, Scalar, Texture, Vec2, Vec4};
         match (self, arguments) {
@@ -136,7 +137,7 @@ pub struct OpInfo {
     pub name: &'static str,
     /// Its types.
     pub signature: Signature,
-    /// Scalar operations that one channel costs: 0 for what only names or moves a value.
+    /// Scalar operations for one channel. 0 for an operation that only names or moves a value.
     pub work: usize,
     /// What it computes.
     pub meaning: &'static str,

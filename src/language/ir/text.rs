@@ -1,5 +1,5 @@
-//! The text form of a function: one step a line, `name = operation arguments # why`. It prints and parses, so
-//! that a test is a readable file and a bug report a paste.
+//! The text form of a function, printed and parsed: one step a line, `name = operation arguments # why`. It makes tests
+//! readable files, and bug reports text that can be pasted.
 //!
 //! ```text
 //! fn schlick(cos_theta: scalar, f0: rgb) -> rgb
@@ -16,11 +16,11 @@ use std::fmt::Write;
 use super::graph::{Function, Label, Letters, Node, NodeId, Param, Ty};
 use super::op::{Op, Payload, Signature};
 
-/// A line that does not parse.
+/// Why a line does not parse.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {what}")]
 pub struct ParseError {
-    /// The line, from 1.
+    /// The line number, from 1.
     pub line: usize,
     /// What was wrong, and what is allowed.
     pub what: String,
@@ -63,7 +63,7 @@ pub fn print(function: &Function) -> String {
     out
 }
 
-/// Three numbers that are no colour are a `vec3`.
+/// The name of a type. Three numbers that are not a colour are a `vec3`.
 fn type_name(letters: Letters, ty: Ty) -> &'static str {
     match (letters, ty) {
         (Letters::Xyz, Ty::Rgb) => "vec3",
@@ -85,10 +85,10 @@ fn names(function: &Function) -> Vec<String> {
     function.nodes.iter().map(&mut name).collect()
 }
 
-/// Parses a function. Types are derived; [`super::check`] looks at the rest.
+/// Parses a function. Types are inferred. [`super::check`] does the other checks.
 ///
 /// # Errors
-/// A line is not the text form of a head, a node or a return, or names what no earlier line defines.
+/// A line is not the text form of a head, a node or a return, or uses a name that no earlier line defines.
 pub fn parse(text: &str) -> Result<Function, ParseError> {
     let mut lines = text
         .lines()

@@ -1,8 +1,8 @@
-//! Textures: texels, and the filter, which is what sampling them means.
+//! Textures and cube maps: their texels, and the filter that defines what sampling them gives.
 //!
-//! A linear sampler that clamps to the edge mixes the four texels whose centres lie around a place; the centre of texel
-//! i of N lies at u = (i + 1/2)/N. GPUs keep eight bits of the place between two centres (Vulkan's
-//! `subPixelPrecisionBits` and Direct3D's 8-bit fraction), so that weights are whole 1/256. Source: Microsoft,
+//! A linear sampler that clamps to the edge mixes the four texels whose centres surround the sampled point. The centre of
+//! texel i of N lies at u = (i + 1/2)/N. GPUs keep eight fractional bits between two centres (Vulkan's
+//! `subPixelPrecisionBits` and Direct3D's 8-bit fraction), so weights are multiples of 1/256. Source: Microsoft,
 //! *Direct3D 11.3 Functional Specification*, section 7.18.8, 2015,
 //! <https://microsoft.github.io/DirectX-Specs/d3d/archive/D3D11_3_FunctionalSpec.htm>.
 
@@ -10,40 +10,40 @@ use std::sync::Arc;
 
 use crate::physics::num::{Num, each_channel};
 
-/// How finely the place between two texels is known.
+/// The resolution of filter weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weights {
-    /// As finely as the coordinate.
+    /// That of the coordinate.
     Exact,
-    /// In steps of 1/256, as GPUs do.
+    /// Steps of 1/256, as on GPUs.
     Steps256,
 }
 
-/// What a sampler makes of the texels around a place.
+/// How a sampler filters the texels around a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// It mixes them.
+    /// It interpolates them.
     #[default]
     Linear,
-    /// It takes the one that the place lies in.
+    /// It takes the one that contains the point.
     Nearest,
 }
 
-/// The texels of a texture as a sampler gives them back.
+/// The texels of a texture, as a sampler returns them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels {
-    /// In a row.
+    /// Texels in a row.
     pub width: usize,
-    /// The rows one after the other, that at v = 0 first.
+    /// Row by row, starting at v = 0.
     pub texels: Arc<[[f32; 3]]>,
-    /// Their fourth channel, where the texture has one; 1 else.
+    /// The fourth channel, where the texture has one. Otherwise it is sampled as 1.
     pub alpha: Option<Arc<[f32]>>,
     /// How they are filtered.
     pub filter: Filter,
 }
 
-/// The texels of a cube as a sampler gives them back. Faces and their axes are those of OpenGL and Vulkan: left-handed, seen from
-/// inside. Source: Khronos, *Vulkan 1.3 specification*, section 16.5.4, "Cube Map Face Selection",
+/// The texels of a cube map, as a sampler returns them. Faces and their axes are those of OpenGL and Vulkan: left-handed,
+/// seen from inside. Source: Khronos, *Vulkan 1.3 specification*, section 16.5.4, "Cube Map Face Selection",
 /// <https://registry.khronos.org/vulkan/specs/latest/html/vkspec.html#_cube_map_face_selection_and_transformations>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CubeTexels {
@@ -53,7 +53,7 @@ pub struct CubeTexels {
     pub texels: Arc<[[f32; 3]]>,
 }
 
-/// The texels before and after a place, and how far it lies between them.
+/// The texels before and after a point, and its fraction of the way between them.
 struct TexelPair<N> {
     before: usize,
     after: usize,
@@ -72,13 +72,13 @@ impl Texels {
         }
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     #[inline]
     pub fn height(&self) -> usize {
         self.texels.len().checked_div(self.width).unwrap_or(0)
     }
 
-    /// What a sampler gives at (u, v). A NaN is the first texel; where there are no texels all is black.
+    /// The filtered value at (u, v). A NaN coordinate gives the first texel. An empty texture is black.
     pub fn sample<N: Num>(&self, weights: Weights, u: N, v: N) -> [N; 3] {
         self.filtered(weights, u, v, &|at| {
             let texel = self.texels.get(at).copied().unwrap_or_default();
@@ -126,7 +126,7 @@ impl Texels {
     }
 }
 
-/// A face of a cube: the axis that it lies on with its sign, and the axes with their signs along which s and t grow.
+/// A face of a cube: its signed major axis, and the signed axes along which s and t grow.
 struct Face {
     lies: (usize, f64),
     s: (usize, f64),
@@ -147,7 +147,7 @@ const FACES: [Face; 6] = [
 ];
 
 impl CubeTexels {
-    /// What a sampler gives in a direction of any length, filtered across the edges of faces. A NaN or a zero vector gives a texel.
+    /// The value in a direction of any length, filtered across the edges of faces. A NaN or a zero vector gives some texel.
     pub fn sample<N: Num>(&self, direction: [N; 3]) -> [N; 3] {
         let face = face_of(direction.map(N::to_f64));
         let Face { lies, s, t } = &FACES[face];
@@ -156,7 +156,7 @@ impl CubeTexels {
         let place = |(axis, sign): (usize, f64)| {
             let along = N::from_f64(sign) * direction[axis] / direction[lies.0].abs();
             let place = (along + N::from_f64(1.0)) * half * size - half;
-            // The smaller and the larger of a NaN and a number are the number.
+            // `min` and `max` of a NaN and a number give the number.
             place.max(N::from_f64(-1.0)).min(size)
         };
         let (s, t) = (place(*s), place(*t));
@@ -182,7 +182,7 @@ impl CubeTexels {
         direction
     }
 
-    /// A texel of a face. Beyond an edge it is the neighbour's that lies there.
+    /// A texel of a face. Beyond an edge it is the adjacent texel of the neighbouring face.
     fn texel(&self, face: usize, column: f64, row: f64) -> [f32; 3] {
         let last = self.size as f64 - 1.0;
         let is_inside = |place: f64| (0.0..=last).contains(&place);
@@ -195,7 +195,7 @@ impl CubeTexels {
         self.texels.get(at).copied().unwrap_or_default()
     }
 
-    /// The texel that a direction meets.
+    /// The texel that a direction hits.
     fn nearest(&self, direction: [f64; 3]) -> (usize, f64, f64) {
         let face = face_of(direction);
         let Face { lies, s, t } = &FACES[face];
@@ -208,7 +208,7 @@ impl CubeTexels {
     }
 }
 
-/// The face that a direction meets: that of its largest component; of equal ones z comes before y and y before x.
+/// The face that a direction hits: that of its largest component. Ties go to z before y, and to y before x.
 fn face_of(direction: [f64; 3]) -> usize {
     let [x, y, z] = direction.map(f64::abs);
     let axis = if z >= x && z >= y {
@@ -221,7 +221,7 @@ fn face_of(direction: [f64; 3]) -> usize {
     2 * axis + usize::from(direction[axis] < 0.0)
 }
 
-/// What a sampler gives at u in one row of texels.
+/// The filtered value at u in one row of texels.
 #[inline]
 pub fn filtered<N: Num>(texels: &[[f32; 3]], weights: Weights, u: N) -> [N; 3] {
     let across = between(weights, u, texels.len());
@@ -239,7 +239,7 @@ fn mixed<N: Num>(a: [N; 3], b: [N; 3], share: N) -> [N; 3] {
     each_channel(|i| a[i] * rest + b[i] * share)
 }
 
-/// Where a coordinate lies among so many centres.
+/// The pair of texels around a coordinate, of `count` texels.
 #[inline]
 fn between<N: Num>(weights: Weights, coordinate: N, count: usize) -> TexelPair<N> {
     let last = count.saturating_sub(1);
@@ -249,7 +249,7 @@ fn between<N: Num>(weights: Weights, coordinate: N, count: usize) -> TexelPair<N
         Weights::Exact => place,
         Weights::Steps256 => N::from_f64((place.to_f64() * 256.0).round() / 256.0),
     };
-    // The smaller and the larger of a NaN and a number are the number.
+    // `min` and `max` of a NaN and a number give the number.
     let place = place.max(number(0)).min(number(last));
     let before = place.to_f64().floor() as usize;
     TexelPair {
@@ -295,7 +295,7 @@ mod tests {
         assert_eq!(Texels::row(&[]).sample(Weights::Exact, 0.5, 0.5), [0.0; 3]);
     }
 
-    /// A cube whose texels are directions is followed everywhere, across edges too.
+    /// A cube whose texels hold their directions gives back the sampled direction everywhere, across edges too.
     #[test]
     fn a_cube_is_filtered_across_its_edges() {
         let mut cube = CubeTexels {

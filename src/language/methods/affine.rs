@@ -1,10 +1,10 @@
-//! Methods that are affine in numbers that a material has: `F = N0 + N1 w1 + N2 w2 + ...`, before its limit, with weights w of
-//! c = cos θ that all materials share. So are their means, over the hemisphere and over the lobe of a rough surface: one table
-//! of the means of the weights serves every material.
+//! Methods that are affine in numbers of a material ([`Affine`]), and the surface that inputs are derived from
+//! ([`KnownSurface`]).
 //!
-//! N0 is F0, which is multiplied by 1: what reflects everything has no other number, and its mean is the first term.
-//!
-//! What is known of a surface that inputs are derived from.
+//! Such a method is `F = N0 + N1 w1 + N2 w2 + ...` before clamping, with weights w of c = cos θ that all materials share. Its
+//! means over the hemisphere and over the lobe of a rough surface are affine too, so one table of the means of the weights
+//! serves every material. N0 is F0, and its weight is 1: for a white material all other numbers are 0, and the mean is the first
+//! term.
 
 use std::sync::LazyLock;
 
@@ -16,22 +16,22 @@ use crate::language::methods::formulas::BELCOUR_COSINES;
 use crate::physics::num::{Legendre, Precision, each_channel};
 use crate::physics::optics::{self, COS_82};
 
-/// The most numbers of a method here: the channels of a texture.
+/// The most terms of an affine method: the channels of a texture.
 pub const MOST_TERMS: usize = 4;
 
-/// What a method is affine in.
+/// The numbers that a method is affine in, and their weights.
 #[derive(Clone, Copy, Debug)]
 pub struct Affine {
     /// The numbers as formulas of the method's inputs.
     pub numbers: &'static [&'static str],
-    /// The same as steps of a graph.
+    /// The same as nodes of a graph.
     pub build: for<'b> fn(&Inputs<'b>) -> Vec<Expr<'b>>,
-    /// What the numbers are multiplied by, for a cosine in [0, 1]; 1 is the first, and 0 stands where there is no number.
+    /// The weights of the numbers at a cosine in [0, 1]. The first is 1, and unused ones are 0.
     pub weights: fn(f64) -> [f64; MOST_TERMS],
 }
 
 impl Affine {
-    /// A colour on its way to white.
+    /// An interpolation from F0 to white.
     pub(super) const fn to_white(weights: fn(f64) -> [f64; MOST_TERMS]) -> Affine {
         Affine {
             numbers: &["f0", "1 - f0"],
@@ -41,13 +41,13 @@ impl Affine {
     }
 }
 
-/// F0 and what is left to white.
+/// F0, and 1 - F0.
 fn f0_and_rise<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
     let f0 = x.get(Input::F0);
     vec![f0, 1.0 - f0]
 }
 
-/// What a split-sum table of a method integrates: functions of the cosine, and the numbers that they are multiplied by.
+/// What a split-sum table of a method integrates: functions of the cosine, each multiplied by a number.
 #[derive(Clone, Copy, Debug)]
 pub enum Basis {
     /// Of a fitted method: the numbers are its coefficients.
@@ -56,11 +56,11 @@ pub enum Basis {
     Affine(Affine),
 }
 
-/// The rule for means: weights are smooth, and more points change nothing.
+/// The quadrature rule for means: weights are smooth, and more points change nothing.
 static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
 
 impl Basis {
-    /// How many numbers it takes.
+    /// The number of terms.
     pub fn terms(&self) -> usize {
         match self {
             Basis::Fitted(shape) => shape.terms(),
@@ -79,7 +79,7 @@ impl Basis {
         }
     }
 
-    /// Adds to each of these sums, one a number, a weight times what that number is multiplied by at a cosine in [0, 1].
+    /// For each term, adds `weight` times its function at a cosine in [0, 1] to its sum.
     pub fn add(&self, c: f64, weight: f64, sums: &mut [f64]) {
         match self {
             Basis::Fitted(shape) => shape.add(c, weight, sums),
@@ -91,7 +91,7 @@ impl Basis {
         }
     }
 
-    /// What multiplies each number in the mean over the hemisphere, `2 ∫ w c dc`, by Gauss's rule, within 1e-14.
+    /// The weight of each number in the mean over the hemisphere, `2 ∫ w c dc`, by Gauss's rule, within 1e-14.
     pub fn averages(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.terms()];
         for (c, weight) in RULE.over(0.0, 1.0) {
@@ -101,7 +101,7 @@ impl Basis {
         sums
     }
 
-    /// The numbers as steps of a graph.
+    /// The numbers as nodes of a graph.
     pub(super) fn build<'b>(&self, x: &Inputs<'b>) -> Vec<Expr<'b>> {
         match self {
             Basis::Fitted(shape) => {
@@ -112,7 +112,7 @@ impl Basis {
         }
     }
 
-    /// The mean over the hemisphere: the sum of the numbers, each times its constant. It is limited to [0, 1].
+    /// The mean over the hemisphere: the sum of the numbers, each times its constant, clamped to [0, 1].
     pub(super) fn build_average<'b>(&self, x: &Inputs<'b>) -> Expr<'b> {
         let numbers = self.build(x);
         let averages = self.averages().into_iter().skip(1);
@@ -127,11 +127,11 @@ impl Basis {
 pub struct FittedAverage {
     /// Builds it. The inputs have no cosine.
     pub build: Build,
-    /// The most by which it differs from the mean.
+    /// Its largest difference from the true mean.
     pub max_abs: f64,
-    /// Over which arguments, in words.
+    /// The arguments that this holds for, in words.
     pub over: &'static str,
-    /// What published fits of the same are off by, with their source.
+    /// The errors of published fits of the same mean, with their source.
     pub published: &'static str,
 }
 
@@ -142,8 +142,8 @@ impl Method {
         fitted.or_else(|| self.affine.map(Basis::Affine))
     }
 
-    /// The mean over the hemisphere with the method's inputs as run-time arguments: of what is affine in numbers of a material, and
-    /// of what has a fit. None for other methods.
+    /// The mean over the hemisphere with the method's inputs as run-time arguments. None for methods that have neither a basis nor
+    /// a fit.
     pub fn average_in(
         &self,
         precision: Precision,
@@ -161,7 +161,7 @@ impl Method {
     }
 
     /// A coefficient of a fitted method from this method's inputs as run-time arguments, three channels. None for methods that
-    /// find none.
+    /// compute none.
     pub fn coefficient_in(
         &self,
         precision: Precision,
@@ -174,7 +174,7 @@ impl Method {
         Some(check_in(precision, fold_in(precision, &whole)))
     }
 
-    /// The numbers that terms are multiplied by, from values of the method's inputs, three channels each. None where there are none.
+    /// The number of each term, from values of the method's inputs, three channels each. None where there are none.
     pub fn numbers(&self, values: &Values) -> Option<Vec<[f64; 3]>> {
         let basis = self.basis()?;
         let arguments = self.arguments::<f64>(values, None);
@@ -193,8 +193,8 @@ impl Method {
 /// cos θ at which the empirical term meets the exact law: 60 degrees.
 pub const COS_60: f64 = 0.5;
 
-/// An index per channel, and reflectances at a few angles. Where a channel is one wavelength these are the law's; where it is a
-/// whole spectrum they are the spectrum's, and the index stands for it.
+/// An index per channel, and reflectances at a few angles. Where a channel is one wavelength, these follow from the index by the
+/// exact law. Where it is a whole spectrum, they are the spectrum's, and the index represents it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnownSurface {
     /// The real part of the index per channel.
@@ -203,20 +203,20 @@ pub struct KnownSurface {
     pub k: [f64; 3],
     /// Reflectance at 0 degrees.
     pub f0: [f64; 3],
-    /// At 81.79 degrees.
+    /// Reflectance at 81.79 degrees.
     pub f82: [f64; 3],
-    /// At 60 degrees.
+    /// Reflectance at 60 degrees.
     pub f60: [f64; 3],
     /// cos θ at which λ of the corrected method is matched.
     pub matching_cos: f64,
     /// Reflectance there.
     pub matching: [f64; 3],
-    /// At the two angles where Belcour's curves are weighed.
+    /// Reflectance at the two angles that determine Belcour's weights.
     pub belcour: [[f64; 3]; 2],
 }
 
 impl KnownSurface {
-    /// A surface that is known by its index alone.
+    /// The surface with this index.
     pub fn of_index(n: [f64; 3], k: [f64; 3], matching_cos: f64) -> KnownSurface {
         let law = |c: f64| each(|i| optics::conductor(n[i], k[i], c).unpolarised());
         KnownSurface {
@@ -225,7 +225,7 @@ impl KnownSurface {
         }
     }
 
-    /// A surface for which this index stands, by what it reflects at a cosine.
+    /// The surface that this index represents, with its reflectance as a function of the cosine.
     pub fn with(
         n: [f64; 3],
         k: [f64; 3],
@@ -261,7 +261,7 @@ mod tests {
     use crate::language::ir::Value;
     use crate::language::methods::{ALL, find};
 
-    /// A method's number, for one channel.
+    /// A number of a method, for one channel.
     fn number(method: &Method, affine: &Affine, place: usize) -> Checked {
         let builder = Builder::new();
         let inputs = Inputs::without_cosine(&builder, method.inputs, true, Precision::F32);
@@ -269,7 +269,7 @@ mod tests {
         check_in(Precision::F32, fold_in(Precision::F32, &whole)).unwrap()
     }
 
-    /// Values of inputs with which hardly any method here meets its limit.
+    /// Values of inputs for which hardly any method here is clamped.
     const TRIED: [[f64; 3]; 5] = [
         [0.04, 0.4, 0.0],
         [0.3, 0.5, 0.05],
@@ -278,12 +278,12 @@ mod tests {
         [0.95, 0.9, 0.0],
     ];
 
-    /// The largest difference between the sum, limited to [0, 1], and the method's own graph.
+    /// The largest difference between the sum, clamped to [0, 1], and the method's own graph.
     fn difference(method: &Method, affine: &Affine) -> f64 {
         let function = method.function(false).unwrap();
         let mut most = 0.0;
         for tried in TRIED {
-            // Weights of Belcour's curves are small, other inputs are reflectances or shares of them.
+            // Weights of Belcour's curves are small. Other inputs are reflectances or fractions of them.
             let small = |i: usize| method.inputs[i].name.ends_with("_weight");
             let given: Vec<f64> = (0..method.inputs.len())
                 .map(|i| if small(i) { tried[2] } else { tried[i] })
@@ -329,7 +329,7 @@ mod tests {
             };
         }
         assert!(found > 0);
-        // And the other way round: weights of another method are found out.
+        // And the other way round: the weights of another method are detected.
         let mut wrong = find("hoffman_f82").unwrap().affine.unwrap();
         wrong.weights = find("fitted_f82").unwrap().affine.unwrap().weights;
         assert!(difference(find("hoffman_f82").unwrap(), &wrong) > 0.01);

@@ -1,9 +1,9 @@
-//! What becomes of a method in half precision: what it promises there, or why it cannot be saved.
+//! Methods in half precision: what a method promises there, or why it is not written.
 //!
-//! A number has 11 bits there, the largest is 65504, the smallest normal one 6.1e-5. So squares of squares overflow
-//! (an extinction coefficient of 16 has 65536 as its fourth power), guards of 1e-37 are 0, and a difference of
-//! two numbers near 1 is off by 5e-4. A method whose formula does not bear that builds another one where
-//! [`Inputs::is_half`](super::Inputs::is_half), in its own file: most often 1 less a small quotient in place of a quotient near 1.
+//! A number has 11 bits there, the largest is 65504, the smallest normal one 6.1e-5. So fourth powers overflow
+//! (that of an extinction coefficient of 16 is 65536), guards of 1e-37 become 0, and a difference of
+//! two numbers near 1 is off by 5e-4. A method whose formula does not survive that builds another one, in its own file, where
+//! [`Inputs::is_half`](super::Inputs::is_half). Most often it is 1 minus a small quotient instead of a quotient near 1.
 
 use super::method::Over;
 
@@ -14,27 +14,27 @@ pub enum InHalf {
     Kept(HalfClaim),
     /// Only specialised to materials, for this reason: constants are folded in f64.
     Specialised(&'static str),
-    /// It cannot be saved, for this reason.
+    /// Not written at all, for this reason.
     Refused(&'static str),
 }
 
-/// What functions of materials are to keep within in half precision.
+/// The error that functions of materials should keep within in half precision.
 pub const HALF_AIM: f64 = 0.002;
 
-/// A promised code error in half precision. Tests hold it in both directions.
+/// A promised code error in half precision. Tests check that it is neither exceeded nor slack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfClaim {
-    /// The most by which the library function, rounded to f16 after every operation, differs from f64 at the same
-    /// inputs, over these media and every f16 from 0 to 1.
+    /// The largest difference between the library function, rounded to f16 after every operation, and f64 at the same
+    /// inputs, over these media and every f16 cosine from 0 to 1.
     pub max_abs: f64,
     /// The media.
     pub over: Over,
-    /// What is promised less of other media; may be empty.
+    /// The weaker promise for other media; may be empty.
     pub beyond: &'static str,
-    /// The most by which functions of materials differ so, but for those of `data/records/half.csv`: a power of a rounded 1 - c is as
-    /// many roundings off as its exponent says, and large coefficients cancel.
+    /// The largest such difference of functions of materials, except those of `data/records/half.csv`. A power of a rounded 1 - c is
+    /// off by as many roundings as its exponent says, and large coefficients cancel.
     pub of_materials: f64,
-    /// The largest values of arguments, by name, where half precision overflows beyond and single precision does not.
+    /// The largest values of arguments, by name, beyond which half precision overflows and single precision does not.
     pub ends: &'static [(&'static str, f64)],
 }
 
@@ -44,12 +44,12 @@ impl InHalf {
         InHalf::within_but(max_abs, "")
     }
 
-    /// The same, with what happens beyond.
+    /// The same, with a remark on other media.
     pub const fn within_but(max_abs: f64, beyond: &'static str) -> InHalf {
         InHalf::within_over(max_abs, Over::Half, beyond)
     }
 
-    /// It is written, and promises this over some media, with what happens beyond.
+    /// It is written, and promises this over these media, with a remark on others.
     pub const fn within_over(max_abs: f64, over: Over, beyond: &'static str) -> InHalf {
         InHalf::Kept(HalfClaim {
             max_abs,

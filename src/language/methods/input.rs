@@ -1,5 +1,5 @@
-//! The inputs of methods: one vocabulary with units, domain, where their values come from, and the values that they are
-//! tried with. One that a single method takes stands in that method's file.
+//! The inputs of methods, one vocabulary: their units, domains, the source of their values, and the values that tests
+//! try. An input of a single method stands in that method's file.
 
 use super::affine::KnownSurface;
 use crate::language::ir::{Builder, COSINE, Expr, Ty};
@@ -14,16 +14,16 @@ pub struct Input {
     pub ty: Ty,
     /// What it is, and its unit.
     pub meaning: &'static str,
-    /// Where it lies in single precision.
+    /// Its range in single precision.
     pub range: Range,
     /// Where its value comes from.
     pub source: InputSource,
-    /// Whether a result may reach its value where that exceeds 1: F0 of a colour beyond the gamut. Other results end at 1.
+    /// Whether a result may exceed 1, up to this input's value: F0 of a colour outside the gamut. Other results end at 1.
     pub raises_limit: bool,
-    /// Values within reason that tests try, in all combinations with those of other inputs: a usual one first, then the
-    /// ends of what people give and what is hard.
+    /// Reasonable values that tests try, in all combinations with those of other inputs: a usual one first, then the
+    /// extremes that people enter, and hard cases.
     pub tried: &'static [f64],
-    /// Values within its range and past it, ascending, where the scan for failures looks.
+    /// Values inside and outside its range, ascending, that the scan for failures tries.
     pub scanned: &'static [f64],
 }
 
@@ -38,13 +38,13 @@ pub enum InputSource {
     Artist(f64),
     /// A fit to the material's reflectance over all angles.
     Fit,
-    /// The texture of a lookup table, which is no number.
+    /// The texture of a lookup table, which is not a number.
     Texture,
     /// The layout of that texture. This is what `bake` writes unless asked otherwise.
     TextureLayout(f64),
 }
 
-/// Where an argument lies, both ends included. Within its arguments' ranges a function gives a number.
+/// The range of an argument, both ends included. A function returns a number if all arguments lie in their ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// The least value.
@@ -120,7 +120,7 @@ impl Input {
         matches!(self.source, Material(_) | MaterialOrNone(_))
     }
 
-    /// A value of a channel; none where 0 stands for none.
+    /// The value of a channel; none where the input may be missing and the value says so by being 0 or less.
     pub fn present(&self, value: f64) -> Option<f64> {
         let may_lack = matches!(self.source, InputSource::MaterialOrNone(_));
         (!may_lack || value > 0.0).then_some(value)
@@ -135,7 +135,7 @@ impl Input {
     }
 }
 
-/// Indices of anything: of what is thinner than its medium, of what is nearly matched, of glass, diamond and lead telluride.
+/// Relative indices: below 1, nearly matched, of glass, diamond and lead telluride, and beyond.
 const INDICES: &[f64] = &[
     1.5,
     1e-3,
@@ -149,23 +149,23 @@ const INDICES: &[f64] = &[
     12.0,
     1e3,
 ];
-/// Reflectances, and what gold's red is in sRGB.
+/// Reflectances, and gold's red in sRGB, 1.06.
 const REFLECTANCES: &[f64] = &[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0, 1.06];
-/// Reflectances, and what nothing reflects.
+/// Reflectances, possible and impossible.
 const REFLECTANCES_AND_BEYOND: &[f64] = &[
     -1.0, -0.1, -1e-9, 0.0, 1e-9, 1e-4, 0.02, 0.04, 0.1, 0.3, 0.5, 0.8, 0.95, 0.99, 0.9999, 1.0,
     1.0001, 1.06, 1.5, 4.0, 100.0,
 ];
-/// Shares, and what lies beyond them.
+/// Fractions, and values outside [0, 1].
 pub(super) const SHARES_AND_BEYOND: &[f64] = &[
     -0.5, -1e-6, 0.0, 1e-6, 0.04, 0.3, 0.5, 0.9, 1.0, 1.0001, 1.5,
 ];
 /// Exponents of 1 - c.
 pub(super) const POWERS: &[f64] = &[5.0, 0.2, 1.0, 40.0];
-/// Exponents, and what no curve has.
+/// Exponents, usual and absurd.
 pub(super) const POWERS_AND_BEYOND: &[f64] =
     &[0.0, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 8.0, 20.0, 100.0, 1000.0];
-/// Shares.
+/// Fractions.
 pub(super) const SHARES: &[f64] = &[1.0, 0.0, 0.3];
 
 /// The inputs that several methods take. Those of a single method stand in its file.
@@ -267,7 +267,7 @@ impl<'b> Inputs<'b> {
         }
     }
 
-    /// Declares these inputs alone, for what depends on no cosine. In the scalar form every input is a scalar.
+    /// Declares these inputs only, for functions without a cosine. In the scalar form every input is a scalar.
     pub fn without_cosine(
         builder: &'b Builder,
         inputs: &[Input],
@@ -300,7 +300,7 @@ impl<'b> Inputs<'b> {
         }
     }
 
-    /// What the formula is computed in: one that overflows or cancels in half precision is built otherwise there.
+    /// The precision of the formula. One that overflows or cancels in half precision is built differently there.
     pub fn precision(&self) -> Precision {
         self.precision
     }
@@ -310,12 +310,12 @@ impl<'b> Inputs<'b> {
         self.precision.is_half()
     }
 
-    /// `cos_theta` as it came. Only methods that are exempt from the contract use it so.
+    /// `cos_theta` without a clamp. Only methods that are exempt from the contract use it.
     pub fn raw_cosine(&self) -> Expr<'b> {
         self.cos_theta
     }
 
-    /// `cos_theta` limited to [0, 1]: a rounded dot product may be 1 + 1 ulp, and a power of 1 - c would be NaN.
+    /// `cos_theta` clamped to [0, 1]: a rounded dot product may be 1 + 1 ulp, and a power of 1 - c would be NaN.
     pub fn cosine(&self) -> Expr<'b> {
         self.cos_theta
             .saturate()

@@ -1,10 +1,10 @@
-//! The check that methods' limit tests share: one evaluation in f64 against an expected value.
+//! The check that the limit tests of methods share: one evaluation in f64 against an expected value.
 #![cfg(test)]
 
 use super::method::Method;
 use crate::language::ir::{Value, evaluate};
 
-/// What the library function gives in f64; each argument is the same in all channels.
+/// The value of the library function in f64. Each argument is the same in all channels.
 pub fn value(method: &Method, cos_theta: f64, arguments: &[f64]) -> f64 {
     let function = method.function(false);
     let function = function.unwrap_or_else(|fault| panic!("{fault}"));

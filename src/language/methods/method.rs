@@ -1,14 +1,11 @@
-//! What a method is: a plain record in a static table.
+//! What a method is: a record in a static table ([`Method`]), with its promised errors ([`Claims`]), the media that it
+//! describes ([`Class`]) and the origin of its form ([`Origin`]).
 //!
-//! The media that methods describe.
-//!
-//! Whose a method's form is, and how its source is cited.
-//!
-//! How well fitted methods follow classes of materials: metals, semiconductors, and dielectrics of n 1.2 or more, in air.
-//!
-//! The largest error over all angles and channels of each material, as median and 90th percentile: over the pages of the
-//! catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The figures stand in the
-//! methods' own files. The test `fits::classes_are_followed_as_promised` holds each in both directions.
+//! Fitted methods also promise how well they follow classes of materials ([`ByClass`]): metals, semiconductors, and
+//! dielectrics of n 1.2 or more, in air. The figure is the largest error over all angles and channels of each material, as
+//! median and 90th percentile: over the pages of the catalogue, and over the pages of `data/outside.csv`, which had no part
+//! in any choice of a shape. The figures stand in the methods' own files. The test `fits::classes_are_followed_as_promised`
+//! checks that each is neither exceeded nor slack.
 
 use std::collections::BTreeMap;
 
@@ -26,14 +23,15 @@ use crate::physics::num::{Num, Precision};
 
 /// A formula for reflectance.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Method {
-    /// Its one name: file, `--method`, function after the prefix, row in every report.
+    /// Its one name: of its file, in `--method`, of its function after the prefix, and as a row in reports.
     pub name: &'static str,
-    /// One line.
+    /// A description in one line.
     pub summary: &'static str,
-    /// The formula, in ASCII, a line each.
+    /// The lines of its formula, in ASCII.
     pub formula: &'static [&'static str],
-    /// Who published it, or what it is built on.
+    /// The publication that it is from, or is built on.
     pub source: Citation,
     /// Whether its form is the source's.
     pub origin: Origin,
@@ -45,7 +43,7 @@ pub struct Method {
     pub class: Class,
     /// The polarisation that it describes.
     pub light: Light,
-    /// The domain in which it holds, and what it does outside.
+    /// The domain in which it holds, and its behaviour outside.
     pub domain: &'static str,
     /// What it promises.
     pub claims: Claims,
@@ -55,28 +53,28 @@ pub struct Method {
     pub half: InHalf,
     /// Builds the formula.
     pub build: Build,
-    /// The formula that constants are folded into, where other steps are cheaper then: with F0 known, F0 + (1 - F0) w is one
-    /// multiplication and addition a channel; without it F0 (1 - w) + w is, since 1 - w is one number for three channels.
+    /// A form that is cheaper once constants are folded in. With F0 known, F0 + (1 - F0) w is one multiplication and addition a
+    /// channel. At run time F0 (1 - w) + w is, since 1 - w is one number for three channels.
     pub for_constants: Option<Build>,
-    /// Of a method that finds the coefficients of a fitted one from its inputs: these, as functions without a cosine, so that a shader
-    /// finds them once a pixel.
+    /// For a method that computes the coefficients of a fitted one from its inputs: these, as functions without a cosine, so that
+    /// a shader computes them once a pixel.
     pub coefficients: Option<CoefficientsFromInputs>,
     /// The formula without the steps that keep it stable for every argument, if these steps cost something. A material gets
     /// this form if the record of code bounds says that its function loses no digits without them.
     pub plain: Option<Build>,
-    /// A better method for a material with these constants, if there is one: the other method and the values of its inputs,
-    /// from the values of this method's inputs.
+    /// A better method for a material with these constants, if there is one. It maps the values of this method's inputs to
+    /// the other method and the values of its inputs.
     pub replacement: Option<Better>,
-    /// The shape of a fitted method: the functions that its coefficients multiply.
+    /// For a fitted method, its shape: the functions that its coefficients multiply.
     pub shape: Option<Shape>,
-    /// The numbers of a material that F is affine in before its limit, of a method that is not fitted.
+    /// For a method that is not fitted: the numbers of a material that F is affine in before clamping.
     pub affine: Option<Affine>,
-    /// The mean over the hemisphere, of a method for which it does not follow from [`Method::basis`].
+    /// The mean over the hemisphere, where it does not follow from [`Method::basis`].
     pub average: Option<FittedAverage>,
 }
 
 impl Method {
-    /// What most methods have: it keeps the contract, for light as it comes from lamps, and has nothing further. The rest is empty.
+    /// The defaults of most methods: it keeps the contract, for unpolarised light, without optional parts. The rest is empty.
     pub const BASE: Method = Method {
         name: "",
         summary: "",
@@ -121,15 +119,15 @@ pub struct CoefficientsFromInputs {
     pub fitted: &'static str,
     /// The coefficients from the inputs.
     pub build: for<'b> fn(&Inputs<'b>) -> [Expr<'b>; 4],
-    /// The most that a coefficient in unfused f32 is off, for the media of the method's code error. It is absolute: terms that are
-    /// larger than their sum cancel. Tests hold it in both directions.
+    /// The largest error of a coefficient in unfused f32, for the media of the method's code error. It is absolute, because terms
+    /// that are larger than their sum cancel. Tests check that it is neither exceeded nor slack.
     pub code_abs: f64,
 }
 
 /// From arguments to a formula.
 pub type Build = for<'b> fn(&Inputs<'b>) -> Expr<'b>;
 
-/// Gives the method, and the values of its inputs, that a specialised function is made of instead.
+/// The method that a specialised function is made of instead, and the values of its inputs.
 pub type Better = fn(&Values) -> Option<(&'static Method, Values)>;
 
 /// Values of inputs by name; a scalar input uses the first number.
@@ -147,7 +145,7 @@ pub enum Forms {
 /// The light that a method describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Light {
-    /// As from most lamps and the sun.
+    /// As from most lamps and the sun: the mean of both polarisations.
     Unpolarised,
     /// Electric field perpendicular to the plane of incidence.
     S,
@@ -160,40 +158,40 @@ pub enum Light {
 pub enum Contract {
     /// It does.
     Kept,
-    /// It does not: it is kept for comparison. Says where it fails.
+    /// It does not, and is kept for comparison. The text says where it fails.
     Exempt(&'static str),
 }
 
-/// What a method promises. Tests hold each figure in both directions: not exceeded, and not slack.
+/// What a method promises. Tests check each figure in both directions: not exceeded, and not slack.
 #[derive(Clone, Copy, Debug)]
 pub struct Claims {
     /// Model error: maximum absolute difference to the exact law, over stated sets of media and all angles.
     pub model: &'static [Claim],
-    /// Code error: the most ulp by which unfused f32 differs from f64 at the same inputs, over these media and all
-    /// angles; differences within 2⁻²² do not count. 0 for what a texture is read for: its sampler decides.
+    /// Code error: the largest difference in ulp between unfused f32 and f64 at the same inputs, over these media and all
+    /// angles. Differences within 2⁻²² do not count. 0 for a method that reads a texture, where the sampler decides.
     pub code_ulp: f64,
     /// The media that the code error is stated over.
     pub code_over: Over,
-    /// The code error over all that artists feed, where a method takes colours.
+    /// The code error over all colours that artists may enter, where a method takes colours.
     pub colours: Option<Colours>,
     /// How well a fitted method follows classes of materials.
     pub by_class: &'static [ByClass],
 }
 
-/// A promised code error of a method that artists feed.
+/// A promised code error of a method whose inputs artists enter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colours {
-    /// The most by which f32, unfused or fused, differs from f64 at the same inputs, over every argument from 0 to 1 and every
-    /// angle.
+    /// The largest difference between f32, unfused or fused, and f64 at the same inputs, over every argument from 0 to 1 and
+    /// every angle.
     pub max_abs: f64,
-    /// Arguments that it holds for from and up to other values.
+    /// Arguments for which it holds over another range than 0 to 1.
     pub ends: &'static [(&'static str, Range)],
-    /// What is promised less beyond these; may be empty.
+    /// The weaker promise beyond these; may be empty.
     pub beyond: &'static str,
 }
 
 impl Colours {
-    /// At most this.
+    /// An error of at most this, over arguments from 0 to 1.
     pub const fn within(max_abs: f64) -> Option<Colours> {
         Some(Colours {
             max_abs,
@@ -216,7 +214,7 @@ impl Colours {
 /// A promised model error.
 #[derive(Clone, Copy, Debug)]
 pub struct Claim {
-    /// Over which media.
+    /// The media that it is stated over.
     pub over: Over,
     /// The promise; 0 where the method is the exact law.
     pub max_abs: f64,
@@ -233,13 +231,13 @@ pub enum Over {
     Metals,
     /// From nearly matched to far beyond any material, n 1.0001 to 12 and k 0 to 13 (0 for dielectrics), and metals.
     Wide,
-    /// What half precision is held to: n 1.001 to 12 and k 0 to 60 (0 for dielectrics), and metals.
+    /// The media of claims in half precision: n 1.001 to 12 and k 0 to 60 (0 for dielectrics), and metals.
     Half,
 }
 
 impl Over {
-    /// A medium of the set, n and k, from two shares in [0, 1]. [`Over::Wide`] and
-    /// [`Over::Half`] are dense where formulas break, near n = 1 and k = 0; their metals are those of [`Over::Metals`].
+    /// A medium of the set, n and k, from two parameters in [0, 1]. [`Over::Wide`] and [`Over::Half`] are dense where formulas
+    /// break, near n = 1 and k = 0. Their metals are those of [`Over::Metals`].
     pub fn medium(self, n_share: f64, k_share: f64) -> (f64, f64) {
         match self {
             Over::Dielectrics => (1.3 + 1.2 * n_share, 0.0),
@@ -312,7 +310,7 @@ impl Method {
         check_in(precision, fold_in(precision, &whole))
     }
 
-    /// The function with these constants folded in; inputs that have no value stay arguments.
+    /// The function with these constants folded in. Inputs without a value stay arguments.
     ///
     /// # Errors
     /// With these constants the graph breaks a rule of [`crate::language::ir::RULES`]: one is not finite in f32, for example.
@@ -352,13 +350,13 @@ impl Method {
         Some(library.and_then(fold))
     }
 
-    /// The method whose formula a function specialised to these constants has: another one's, where that does the work better.
+    /// The method whose formula a function specialised to these constants uses: this one, or a better one.
     pub fn specialised_as(&'static self, values: &Values) -> &'static Method {
         let better = self.better(values);
         better.map_or(self, |(method, values)| method.specialised_as(&values))
     }
 
-    /// What does a specialised function's work better, where all inputs have a value.
+    /// The better method for a specialised function, if there is one and all inputs have a value.
     fn better(&self, values: &Values) -> Option<(&'static Method, Values)> {
         let mut names = self.inputs.iter().map(|input| input.name);
         let complete = names.all(|name| values.contains_key(name));
@@ -366,7 +364,7 @@ impl Method {
         better(values)
     }
 
-    /// These values as the library function takes them after `cos_theta`, and the texture where it reads one; an input
+    /// These values as the library function takes them after `cos_theta`, and the texture where it reads one. An input
     /// without a value is a bug.
     pub fn arguments<N: Num>(&self, values: &Values, table: Option<&Texels>) -> Vec<Value<N>> {
         let argument = |input: &Input| match input.ty {
@@ -382,7 +380,7 @@ impl Method {
         self.media(self.claims.code_over)
     }
 
-    /// Where an argument lies in this precision.
+    /// The range of an argument in this precision.
     pub fn range(&self, input: &Input, precision: Precision) -> Range {
         let claim = self.half.claim().filter(|_| precision.is_half());
         let ends = claim.map_or(&[][..], |claim| claim.ends);
@@ -407,7 +405,7 @@ impl Method {
         self.inputs.iter().any(|input| input.ty == Ty::Texture)
     }
 
-    /// Whether the method's inputs are coefficients, in which it is linear: they are fitted.
+    /// Whether the method's inputs are fitted coefficients, in which it is linear.
     pub fn is_fitted(&self) -> bool {
         self.shape.is_some()
     }
@@ -423,7 +421,7 @@ impl Method {
 pub enum Class {
     /// k = 0.
     Dielectric,
-    /// k of a quarter of n and more.
+    /// k of at least a quarter of n.
     Metal,
     /// Any k.
     Any,
@@ -439,7 +437,7 @@ impl Class {
         }
     }
 
-    /// What it describes, in words.
+    /// The media in words.
     pub fn described(self) -> &'static str {
         match self {
             Class::Dielectric => "dielectrics (k = 0)",
@@ -448,7 +446,7 @@ impl Class {
         }
     }
 
-    /// What it describes, in words that refuse another medium.
+    /// The media in words, for a message that refuses another medium.
     pub fn media(self) -> &'static str {
         match self {
             Class::Dielectric => "dielectrics only, and this absorbs (k > 0)",
@@ -458,17 +456,17 @@ impl Class {
     }
 }
 
-/// The least k of a metal, as a share of n: semiconductors have less where one sees them.
+/// The least k of a metal, as a fraction of n: semiconductors have less at visible wavelengths.
 const LEAST_METALLIC: f64 = 0.25;
 
-/// Whose a method's form is.
+/// Where the form of a method comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The source's.
+    /// From the source.
     Published,
-    /// The source's but for what is said here.
+    /// From the source, with the changes stated here.
     Adapted(&'static str),
-    /// Ours. Says what the source is of.
+    /// Ours. The text says what was taken from the source.
     Ours(&'static str),
 }
 
@@ -500,13 +498,13 @@ impl Method {
 /// Median and 90th percentile of the largest errors of some materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// Half of them err no more.
+    /// Half of the materials err no more.
     pub median: f64,
-    /// Nine of ten err no more.
+    /// The 90th percentile: nine of ten err no more.
     pub ninth: f64,
 }
 
-/// What a fitted method promises of a class.
+/// What a fitted method promises for a class of materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByClass {
     /// `metal`, `semiconductor` or `dielectric`.
@@ -515,13 +513,12 @@ pub struct ByClass {
     pub catalogue: Spread,
     /// Over pages that are not in the catalogue.
     pub outside: Spread,
-    /// Nine of ten of both together err no more. A fit that errs more misses its class.
+    /// The 90th percentile over both together. A fit that errs more misses its class.
     pub limit: f64,
 }
 
 impl ByClass {
-    /// A promise of a class: median and 90th percentile over the catalogue and outside it, and what nine of ten of both err at
-    /// most.
+    /// A promise for a class: median and 90th percentile over the catalogue and outside it, and the 90th percentile over both.
     pub(super) const fn of_class(
         class: &'static str,
         catalogue: [f64; 2],
@@ -549,7 +546,7 @@ pub fn promises_by_class() -> impl Iterator<Item = (&'static Method, &'static By
     ALL.iter().copied().flat_map(own)
 }
 
-/// What a method promises of a class, where it promises anything.
+/// What a method promises for a class, if anything.
 pub fn by_class(method: &Method, class: &str) -> Option<&'static ByClass> {
     let mut own = method.claims.by_class.iter();
     own.find(|row| row.class == class)

@@ -1,9 +1,13 @@
 //! The methods, one file each: a formula for reflectance with its source, inputs, domain and promised errors.
 //!
 //! To add one, write its file in `formulas`: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
-//! function and its limit tests. Then run `tests/lists`. ARCHITECTURE.md says the next steps.
-//! Fitted methods take their place here like all others, with their coefficients as inputs.
-//! The room knows no target.
+//! function and its limit tests. Then run `tests/lists`. ARCHITECTURE.md lists the next steps.
+//! Fitted methods are methods like all others, with their coefficients as inputs.
+//! This room knows no target.
+
+use std::str::FromStr;
+
+use crate::physics::names::UnknownName;
 
 mod affine;
 mod formulas;
@@ -38,6 +42,17 @@ pub fn find(name: &str) -> Option<&'static Method> {
     found.or_else(|| renamed::find_renamed(name))
 }
 
+impl FromStr for &'static Method {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<&'static Method, UnknownName> {
+        find(name).ok_or_else(|| {
+            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
+            UnknownName::new("method", name, &names)
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{ALL, Input, find_input};
@@ -61,7 +76,7 @@ mod tests {
         }
     }
 
-    /// Compilers that warn of an argument without a use are told not to, since a function may be a constant. All others use all.
+    /// Compilers' warnings of unused arguments are off, since a function may be a constant. All other functions use every argument.
     #[test]
     fn what_computes_something_uses_every_argument() {
         for method in ALL {
@@ -75,7 +90,7 @@ mod tests {
         }
     }
 
-    /// A name means one thing: inputs of one name are one input, and stand in one order wherever they meet.
+    /// A name means one thing: inputs of the same name are the same input, and have the same order in every method.
     #[test]
     fn inputs_of_one_name_are_one() {
         for method in ALL {

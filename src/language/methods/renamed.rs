@@ -1,8 +1,8 @@
-//! Methods that were renamed: the old name works for one minor version, with a remark, and is then removed.
+//! Renamed methods: the old name works for one minor version, with a remark, and is then removed.
 
 use super::Method;
 
-/// A name that a method had.
+/// A method's old name and its new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Renamed {
     /// The name before.
@@ -16,11 +16,11 @@ pub struct Renamed {
 /// Every old name that still works. A test fails when one has expired.
 pub const RENAMED: &[Renamed] = &[];
 
-/// Every name that a version of this program wrote files under and that is no method's today, those of renamed methods too. A run
-/// without flags removes such files; under a name that stands nowhere it removes none.
+/// Former names of methods, renamed ones included, under which earlier versions of this program wrote files. A run without
+/// flags removes such files. It removes none under a name that is not listed.
 pub const FORMER: &[&str] = &[];
 
-/// The name of today for one that was renamed.
+/// The renaming of an old name, if there is one.
 pub fn renamed(name: &str, all: &[Renamed]) -> Option<Renamed> {
     all.iter().find(|renamed| renamed.old == name).copied()
 }

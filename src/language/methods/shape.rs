@@ -1,13 +1,13 @@
 //! The shapes of fitted methods: short forms in cos θ that are linear in their coefficients, so that coefficients can be
 //! blended, filtered and integrated over a spectrum.
 //!
-//! `F = c0 + f1 (c1 + f2 (c2 + ...))`: each factor f is a function of c = cos θ alone, shared between channels, and a coefficient
+//! `F = c0 + f1 (c1 + f2 (c2 + ...))`: each factor f is a function of c = cos θ alone, shared between channels. A coefficient
 //! costs one multiplication and one addition a channel.
 //!
-//! The mean over the hemisphere, `2 ∫ F c dc`, is linear too: what multiplies a coefficient is a constant of the shape
+//! The mean over the hemisphere, `2 ∫ F c dc`, is linear too: each coefficient is multiplied by a constant of the shape
 //! ([`Shape::averages`]). Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
 //! <https://blog.selfshadow.com/publications/s2017-shading-course/>, and Turquin, "Practical multiple scattering compensation for
-//! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, ask for it.
+//! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, need it.
 
 use std::fmt;
 use std::sync::LazyLock;
@@ -16,7 +16,7 @@ use super::input::{Input, InputSource, Inputs};
 use crate::language::ir::Expr;
 use crate::physics::num::Legendre;
 
-/// A factor, for a cosine c in [0, 1].
+/// A factor of a shape, as a function of a cosine c in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factor {
     /// `(1 - c)^p`.
@@ -27,7 +27,7 @@ pub enum Factor {
     Cosine,
     /// `c² + e`.
     Square(f64),
-    /// `c + p`: a part of the following.
+    /// `c + p`: used by the next ones.
     Shifted(f64),
     /// `1 / (c + p)`.
     Reciprocal(f64),
@@ -39,18 +39,18 @@ pub enum Factor {
     Bent(f64),
 }
 
-/// A shape.
+/// The shape of a fitted method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
-    /// What stands before each bracket, the outermost first.
+    /// The factor before each bracket, outermost first.
     pub factors: &'static [Factor],
 }
 
-/// The rule for means: factors are smooth, and more points change nothing.
+/// The quadrature rule for means: factors are smooth, and more points change nothing.
 static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
 
 impl Shape {
-    /// The formula, for a method whose inputs are its coefficients. It is limited to [0, 1], which costs nothing on a GPU.
+    /// The formula, for a method whose inputs are its coefficients. It is clamped to [0, 1], which is free on a GPU.
     pub fn build<'b>(&self, x: &Inputs<'b>) -> Expr<'b> {
         let mut made = Made::of(x);
         let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
@@ -62,12 +62,12 @@ impl Shape {
         sum.saturate()
     }
 
-    /// How many coefficients it has.
+    /// The number of coefficients.
     pub fn terms(&self) -> usize {
         self.factors.len() + 1
     }
 
-    /// Adds to each of these sums, one a coefficient, a weight times what that coefficient multiplies at a cosine in [0, 1].
+    /// For each coefficient, adds `weight` times its function at a cosine in [0, 1] to its sum.
     pub fn add(&self, c: f64, weight: f64, sums: &mut [f64]) {
         let mut term = weight;
         sums[0] += term;
@@ -77,8 +77,8 @@ impl Shape {
         }
     }
 
-    /// What multiplies each coefficient in the mean over the hemisphere, of the form before its limit: twice the integral of its
-    /// factors times c, over c from 0 to 1, by Gauss's rule, within 1e-14.
+    /// The weight of each coefficient in the mean over the hemisphere, before clamping: twice the integral of its factors
+    /// times c, over c from 0 to 1, by Gauss's rule, within 1e-14.
     pub fn averages(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.terms()];
         for (c, weight) in RULE.over(0.0, 1.0) {
@@ -106,7 +106,7 @@ impl Factor {
     }
 }
 
-/// A factor as formulas have it.
+/// A factor as it is written in formulas.
 impl fmt::Display for Factor {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -136,7 +136,7 @@ impl fmt::Display for Shape {
     }
 }
 
-/// Factors as steps of a graph, each made once.
+/// Factors as nodes of a graph, each made once.
 struct Made<'b> {
     c: Expr<'b>,
     is_half: bool,
@@ -192,7 +192,7 @@ impl<'b> Made<'b> {
     }
 }
 
-/// A whole power by products, the lower factors first, so that powers share what they can.
+/// An integer power by products, the lower factors first, so that powers share what they can.
 fn product<'b>(
     b: Expr<'b>,
     exponent: u32,
@@ -220,8 +220,8 @@ fn power(b: Expr<'_>, exponent: u32) -> Expr<'_> {
     product(b, exponent, times).unwrap_or_else(|| b.builder().number(1.0))
 }
 
-/// `(1 - c)^p` in half precision: 1 less what is small at grazing, where a rounded 1 - c would be as many roundings off as the
-/// power says. `1 - (1 - x) (1 - y) = x + y - x y`.
+/// `(1 - c)^p` in half precision: 1 minus a term that is small at grazing, where a power of a rounded 1 - c would be off by p
+/// roundings. `1 - (1 - x) (1 - y) = x + y - x y`.
 fn power_in_half(c: Expr<'_>, exponent: u32) -> Expr<'_> {
     fn times<'b>(one: Expr<'b>, other: Expr<'b>, reached: u32) -> Expr<'b> {
         let both = one + other - one * other;

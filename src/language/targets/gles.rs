@@ -1,7 +1,7 @@
-//! GLSL ES 3.00, as OpenGL ES 3.0 and WebGL 2 take it.
+//! GLSL ES 3.00, for OpenGL ES 3.0 and WebGL 2.
 //!
-//! Everything is declared `highp`, in half precision `mediump`: the exact forms need it, and the default precision is the
-//! including shader's.
+//! Everything is declared `highp`, or `mediump` in half precision. The exact forms need `highp`, and the default precision
+//! belongs to the including shader.
 
 use super::glsl;
 use super::spelling::Spelling;
@@ -44,7 +44,7 @@ pub static TARGET: Target = Target {
     stack: Stack::OpenGlEs(&HARNESS),
 };
 
-/// OpenGL ES 3.0 has no compute shaders: a vertex shader gives its result to transform feedback, exact to the last bit.
+/// OpenGL ES 3.0 has no compute shaders, so a vertex shader writes its result to transform feedback, exact to the last bit.
 static HARNESS: Harness = Harness {
     before: "#version 300 es\nprecision highp float;\n",
     member: "uniform highp {type} fg_{name};\n",
@@ -89,7 +89,7 @@ const VALIDATORS: &[Validator] = &[Validator {
     compiler: &GLSLANG,
     options: "-S frag FILE",
     frame: Frame {
-        // All declarations say their precision, so that a shader without a default one can include them.
+        // All declarations state their precision, so that a shader without a default precision can include them.
         beginnings: &[
             "#version 300 es\nprecision highp float;\n#line 1\n",
             "#version 300 es\nprecision mediump float;\n#line 1\n",

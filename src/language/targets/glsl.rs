@@ -1,4 +1,4 @@
-//! GLSL 4.50, as desktop OpenGL and Vulkan front ends take it.
+//! GLSL 4.50, for desktop OpenGL and for front ends of Vulkan.
 
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
@@ -33,7 +33,7 @@ pub static TARGET: Target = Target {
     stack: Stack::None,
 };
 
-/// What runs a user's GLSL of the desktop, once glslang has made SPIR-V of it.
+/// The harness that runs a user's desktop GLSL, which glslang compiles to SPIR-V.
 pub static DESKTOP: Harness = Harness {
     before: "#version 450\n",
     member: "    layout(offset = {offset}) {type} {name};\n",
@@ -94,7 +94,7 @@ pub(super) const SPELLING: Spelling = Spelling {
     ..C_FAMILY
 };
 
-/// Shared with GLSL ES: each declaration says it, since a statement `precision` would leak into the including shader.
+/// Shared with GLSL ES. Each declaration states its precision, since a `precision` statement would leak into the including shader.
 pub(super) const HALF_SPELLING: Spelling = Spelling {
     precision: Precision::F16,
     param: "mediump {type} {name}",
@@ -104,7 +104,7 @@ pub(super) const HALF_SPELLING: Spelling = Spelling {
     ..SPELLING
 };
 
-/// Keywords and words kept for the future, from section 3.6 of GLSL 4.50 and 3.7 of GLSL ES 3.00, and the built-in
+/// Keywords and words reserved for future use, from section 3.6 of GLSL 4.50 and 3.7 of GLSL ES 3.00, and the built-in
 /// functions that a function of the same name would hide.
 #[rustfmt::skip]
 pub(super) const RESERVED: &[&str] = &[

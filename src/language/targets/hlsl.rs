@@ -1,7 +1,7 @@
-//! HLSL, as FXC and DXC take it, under language versions 2018 and 2021 alike: no vector condition before `?`.
+//! HLSL for FXC and DXC, under language versions 2018 and 2021 alike: no vector condition before `?`.
 //!
-//! Every function takes the cosine, and one that is a constant does not use it: DXC may not warn of that. Its text cannot say so, since
-//! glslang takes no `(void)` and older compilers want a name for every argument.
+//! Every function takes the cosine, but a constant one does not use it. DXC's warning about that is switched off, because the text
+//! cannot silence it: glslang rejects `(void)`, and older compilers require a name for every argument.
 
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{
@@ -116,7 +116,7 @@ void fg_main(uint3 at : SV_DispatchThreadID)
 ",
 };
 
-/// A matrix of HLSL is made of rows.
+/// HLSL constructs a matrix from rows.
 static BATCH: Batch = Batch {
     input: "",
     place: "fg_points[at.x * {stride} + {at}]",
@@ -187,7 +187,7 @@ const HALF_VALIDATORS: &[Validator] = &[
     },
 ];
 
-/// Microsoft's compiler of HLSL.
+/// Microsoft's HLSL compiler.
 pub static DXC: Compiler = Compiler {
     name: "dxc",
     command: Some("dxc"),
@@ -224,7 +224,7 @@ CALLS
 ",
 };
 
-/// Keywords, reserved words and the intrinsic functions that a name would hide, from the reference's appendix.
+/// Keywords, reserved words and the intrinsic functions that a name would hide, from the appendix of the reference.
 #[rustfmt::skip]
 const RESERVED: &[&str] = &[
     "abort", "abs", "AcceptHitAndEndSearch", "acos", "AddUint64", "all", "AllMemoryBarrier",

@@ -1,9 +1,13 @@
-//! The targets, one file each: how a language spells the operations, which words it reserves, how a page of it
-//! looks, who validates it.
+//! The targets, one file each: how a language spells the operations, which words it reserves, how its files are laid
+//! out, and which compilers validate them.
 //!
-//! To add one, write its file and its templates, then run `tests/lists`, which writes the list below. ARCHITECTURE.md says the
-//! next steps.
-//! The room knows no method.
+//! To add one, write its file and its templates, then run `tests/lists`, which writes the list below. ARCHITECTURE.md lists
+//! the next steps.
+//! This room knows no method.
+
+use std::str::FromStr;
+
+use crate::physics::names::UnknownName;
 
 mod spelling;
 mod target;
@@ -35,6 +39,18 @@ pub static ALL: &[&Target] = &[
     &spirv::TARGET,
     &wgsl::TARGET,
 ];
+
+/// Each by its name.
+#[rustfmt::skip]
+#[allow(missing_docs)]
+impl Target {
+    pub const GLES: &'static Target = &gles::TARGET;
+    pub const GLSL: &'static Target = &glsl::TARGET;
+    pub const HLSL: &'static Target = &hlsl::TARGET;
+    pub const MSL: &'static Target = &msl::TARGET;
+    pub const SPIRV: &'static Target = &spirv::TARGET;
+    pub const WGSL: &'static Target = &wgsl::TARGET;
+}
 // END list
 
 /// Why a name cannot be used in one of the languages, if it cannot.
@@ -57,4 +73,15 @@ pub fn name_fault(name: &str) -> Option<String> {
 /// ```
 pub fn find(name: &str) -> Option<&'static Target> {
     ALL.iter().find(|target| target.name == name).copied()
+}
+
+impl FromStr for &'static Target {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<&'static Target, UnknownName> {
+        find(name).ok_or_else(|| {
+            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
+            UnknownName::new("target", name, &names)
+        })
+    }
 }

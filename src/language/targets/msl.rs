@@ -1,5 +1,5 @@
-//! The Metal Shading Language. Names of the standard library are written in full, so that an including file need not
-//! (and may) say `using namespace metal`.
+//! The Metal Shading Language. Names of the standard library are qualified, so that an including file may say
+//! `using namespace metal` but need not.
 
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
@@ -53,7 +53,7 @@ const VALIDATORS: &[Validator] = &[Validator {
     frame: Frame::NONE,
 }];
 
-/// What both precisions share.
+/// The spelling that both precisions share.
 const SHARED: Spelling = Spelling {
     texture: "metal::texture2d<float> {name}, metal::sampler {name}_sampler",
     cube: "metal::texturecube<float> {name}, metal::sampler {name}_sampler",
@@ -75,7 +75,7 @@ const HALF_FORMS: [(Op, Form); 15] = forms(
     "metal::half3({0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb)",
 );
 
-/// The library's functions take both kinds of number.
+/// The library's functions accept both precisions.
 const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 15] {
     [
         (Op::Splat, Form::Call(rgb)),
@@ -105,14 +105,14 @@ const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 15] {
     ]
 }
 
-/// Apple's compiler of Metal.
+/// Apple's Metal compiler.
 static METAL: Compiler = Compiler {
     name: "metal",
     command: Some("xcrun"),
     get: "Xcode, on macOS only",
 };
 
-/// C++14's keywords, Metal's own, and the library names that a file with `using namespace metal` would clash with.
+/// C++14's keywords, Metal's own, and the library names that would clash in a file with `using namespace metal`.
 #[rustfmt::skip]
 const RESERVED: &[&str] = &[
     "abs", "acos", "alignas", "alignof", "all", "and", "and_eq", "any", "as_type", "asin", "asm", "assert", "atan",

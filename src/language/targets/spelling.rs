@@ -1,4 +1,4 @@
-//! How languages spell operations. C's family agrees on most; a target's table says where it differs.
+//! How languages spell operations. The C family agrees on most, and each target's table says where it differs.
 
 use crate::language::ir::{Op, Ty};
 use crate::physics::num::Precision;
@@ -12,7 +12,7 @@ pub enum Form {
     Prefix(&'static str),
     /// `name(a, b)`
     Call(&'static str),
-    /// `a` followed by this, as in `(1.0).xxx`.
+    /// `a` followed by this suffix, as in `(1.0).xxx`.
     Postfix(&'static str),
     /// `name(a, 0.0, 1.0)`
     CallUnit(&'static str),
@@ -22,13 +22,13 @@ pub enum Form {
     Ternary,
     /// `name(no, yes, condition)`
     CallSelect(&'static str),
-    /// This, with `{0}` and so on for the arguments, and `{w}` for the letter of a row.
+    /// This text, with `{0}` and so on for the arguments, and `{w}` for the letter of a row.
     Pattern(&'static str),
     /// Not written as an operation: constants and arguments.
     Leaf,
 }
 
-/// Precedences, from loose to tight.
+/// Operator precedences, from loose to tight.
 pub mod precedence {
     /// `a ? b : c`
     pub const TERNARY: u8 = 1;
@@ -44,44 +44,44 @@ pub mod precedence {
     pub const TIGHT: u8 = 6;
 }
 
-/// A language's table. In patterns `{type}`, `{name}`, `{value}` and `{params}` stand for what they say.
+/// How a language is written. Its patterns hold the placeholders `{type}`, `{name}`, `{value}` and `{params}`.
 #[derive(Debug)]
 pub struct Spelling {
-    /// What numbers are computed in.
+    /// The precision of its numbers.
     pub precision: Precision,
-    /// A line comment's start.
+    /// The start of a line comment.
     pub comment: &'static str,
     /// The scalar type.
     pub scalar: &'static str,
     /// The colour type.
     pub rgb: &'static str,
-    /// An argument.
+    /// The declaration of an argument.
     pub param: &'static str,
-    /// An argument that is a texture, with its sampler where the language has one apart: `{name}_sampler`.
+    /// The declaration of a texture argument, with its sampler `{name}_sampler` where the language has a separate one.
     pub texture: &'static str,
-    /// An argument that is a cube of textures, likewise.
+    /// The declaration of a cube map argument, likewise.
     pub cube: &'static str,
-    /// The types of two and of four numbers, and of a matrix of 4 by 4.
+    /// The types of two numbers, of four numbers and of a 4 by 4 matrix.
     pub vec2: &'static str,
     /// See `vec2`.
     pub vec4: &'static str,
     /// See `vec2`.
     pub mat4: &'static str,
-    /// A named step.
+    /// The declaration of a named step.
     pub local: &'static str,
     /// The head of a function, without its brace.
     pub head: &'static str,
-    /// What follows a number.
+    /// The suffix of a number.
     pub suffix: &'static str,
-    /// Whether `max(colour, scalar)` is legal, so that a scalar need not be spread.
+    /// Whether `max(colour, scalar)` is legal, so that a scalar need not be splatted.
     pub mixed_min_max: bool,
     /// Whether the language has a preprocessor, and library files an include guard.
     pub guard: bool,
-    /// Where the language differs from C's family.
+    /// Where the language differs from the C family.
     pub differs: &'static [(Op, Form)],
 }
 
-/// What GLSL, HLSL and MSL share; each says where it differs.
+/// What GLSL, HLSL and MSL share. Each states where it differs.
 pub(super) const C_FAMILY: Spelling = Spelling {
     precision: Precision::F32,
     comment: "//",
@@ -119,7 +119,7 @@ impl Spelling {
         }
     }
 
-    /// A number: the shortest digits that give back the same in this precision, always with a point.
+    /// A number: the fewest digits that read back as the same value in this precision, always with a decimal point.
     pub fn number(&self, value: f64) -> String {
         let digits = match self.precision {
             Precision::F32 => format!("{:?}", value as f32),
@@ -135,7 +135,7 @@ impl Spelling {
     }
 }
 
-/// The decimal number with the fewest digits that is rounded to the same f16 as this: five tell all of them apart.
+/// The decimal number with the fewest digits that rounds to the same f16 as this. Five digits tell all f16 apart.
 fn shortest_half(value: f64) -> f64 {
     let half = Precision::F16.rounded(value);
     let with = |digits: usize| format!("{half:.digits$e}").parse().unwrap_or(half);
@@ -145,7 +145,7 @@ fn shortest_half(value: f64) -> f64 {
         .unwrap_or(half)
 }
 
-/// How GLSL, HLSL and MSL agree to write an operation.
+/// How GLSL, HLSL and MSL all write an operation.
 fn c_family(op: Op) -> Form {
     match op {
         Op::Number | Op::Param => Form::Leaf,

@@ -1,8 +1,8 @@
 //! SPIR-V for Vulkan: ready modules, lowered by naga from WGSL.
 //!
-//! SPIR-V has no useful library form (a module without entry points needs the Linkage capability, which Vulkan
-//! forbids), so each method and material comes as two modules: a fragment shader that takes the normal and the view
-//! direction, and a compute shader that maps an array of cosines. The templates say their interfaces.
+//! SPIR-V has no useful library form: a module without entry points needs the Linkage capability, which Vulkan
+//! forbids. So each method and material comes as two modules: a fragment shader that takes the normal and the view
+//! direction, and a compute shader that maps an array of cosines. The templates document their interfaces.
 
 use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
 use super::wgsl;
@@ -52,14 +52,14 @@ const VALIDATORS: &[Validator] = &[Validator {
     frame: Frame::NONE,
 }];
 
-/// Khronos's validator of SPIR-V.
+/// Khronos's SPIR-V validator.
 static SPIRV_VAL: Compiler = Compiler {
     name: "spirv-val",
     command: Some("spirv-val"),
     get: "Debian package spirv-tools",
 };
 
-/// What the templates name themselves.
+/// Names that the templates define themselves.
 const OWN: &[&str] = &[
     "main",
     "normal",

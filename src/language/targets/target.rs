@@ -1,20 +1,21 @@
-//! What a target is: a plain record in a static table.
+//! What a target is: a record in a static table, with its harnesses, pages and validators.
 
 use super::spelling::Spelling;
 use crate::physics::num::Precision;
 
 /// An output language.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Target {
-    /// Its one name: `--target`, folder, row in reports.
+    /// Its one name: in `--target`, as a folder, and as a row in reports.
     pub name: &'static str,
-    /// One line.
+    /// A description in one line.
     pub summary: &'static str,
     /// The specification, with a link.
     pub source: &'static str,
-    /// Of its files, without the dot.
+    /// The file extension, without the dot.
     pub extension: &'static str,
-    /// What else files of this language end in, as engines name them.
+    /// Other extensions that engines use for files of this language.
     pub other_extensions: &'static [&'static str],
     /// Whether `--target all` and a run without `--target` write it.
     pub by_default: bool,
@@ -24,34 +25,34 @@ pub struct Target {
     pub half: HalfText,
     /// Words that no name may be.
     pub reserved: &'static [&'static [&'static str]],
-    /// Beginnings that no name may have.
+    /// Prefixes that no name may have.
     pub reserved_prefixes: &'static [&'static str],
-    /// The page around the functions; a binary target may have several.
+    /// The kinds of file around the functions; a binary target may have several.
     pub pages: &'static [Page],
-    /// The template of the catalogue's array of coefficients; none where constants alone are no file.
+    /// The template of the catalogue's array of coefficients; none where constants alone do not make a file.
     pub catalogue: Option<&'static str>,
-    /// What becomes of the rendered page.
+    /// How a rendered page becomes a file.
     pub finish: Finish,
-    /// Compilers that are not ours and can judge it.
+    /// Third-party compilers that can validate its files.
     pub validators: &'static [Validator],
-    /// Whether a comment may stand in a comment: the first end then ends the inner one only.
+    /// Whether block comments nest, so that the first end mark closes the inner one only.
     pub nests_comments: bool,
     /// What runs its files on this machine.
     pub stack: Stack,
 }
 
-/// What runs the files of a target. Text runs in a program around it.
+/// What runs the files of a target. A text file runs inside a program around it.
 #[derive(Clone, Copy, Debug)]
 pub enum Stack {
     /// wgpu, as a compute shader in WGSL.
     Wgpu(&'static Harness),
     /// OpenGL ES 3.0, as a vertex shader whose result transform feedback reads.
     OpenGlEs(&'static Harness),
-    /// Vulkan, once DXC has made SPIR-V of a compute shader in HLSL.
+    /// Vulkan, after DXC has compiled a compute shader in HLSL to SPIR-V.
     DxcToVulkan(&'static Harness),
     /// Vulkan, which takes the module as it is.
     SpirvModule,
-    /// Nothing: its files are read again and compiled only.
+    /// Nothing: its files are only re-read and compiled.
     None,
 }
 
@@ -62,7 +63,7 @@ pub enum Stack {
 /// where the language has no other.
 #[derive(Debug)]
 pub struct Harness {
-    /// What stands before the file.
+    /// The text before the file.
     pub before: &'static str,
     /// The declaration of a run-time argument: `{type}`, `{name}`, and its `{offset}` in the block.
     pub member: &'static str,
@@ -82,27 +83,27 @@ pub struct Harness {
     pub count: &'static str,
     /// The cosine of this invocation.
     pub cosine: &'static str,
-    /// Three numbers of the `{value}` of a function that gives one.
+    /// Three numbers from the `{value}` of a function that returns one.
     pub splat: &'static str,
-    /// Whether a number of one precision must be converted to another in so many words.
+    /// Whether converting a number between precisions needs an explicit conversion.
     pub converts: bool,
     /// How functions of many arguments are called.
     pub batch: &'static Batch,
-    /// What stands behind the file: `{block}`, `{texture}`, `{cosines}`, `{count}`, and the function's `{value}`.
+    /// The text after the file: `{block}`, `{texture}`, `{cosines}`, `{count}`, and the function's `{value}`.
     pub after: &'static str,
 }
 
-/// The text behind a file that calls its functions at points, whose arguments stand in a buffer of four numbers a place. The bindings
-/// are those of [`Harness`], with places in the place of cosines; in GLSL ES places are attributes.
+/// The text after a file that calls its functions at points. Their arguments stand in a buffer of slots, four numbers each. The
+/// bindings are those of [`Harness`], with the slots instead of the cosines. In GLSL ES the slots are vertex attributes.
 #[derive(Debug)]
 pub struct Batch {
-    /// The declaration of a place as an attribute: `{at}`; nothing where there is a buffer.
+    /// The declaration of a slot as an attribute: `{at}`; empty where there is a buffer.
     pub input: &'static str,
-    /// A place of the point at hand: `{at}` of `{stride}`.
+    /// A slot of the current point: `{at}` of `{stride}`.
     pub place: &'static str,
-    /// A matrix of `{type}` from its four `{columns}`.
+    /// A matrix of type `{type}` from its four `{columns}`.
     pub matrix: &'static str,
-    /// The declaration of a cube of textures.
+    /// The declaration of a cube map.
     pub cube: &'static str,
     /// The cube as an argument.
     pub cube_argument: &'static str,
@@ -117,24 +118,24 @@ pub struct Batch {
 pub struct HalfText {
     /// Names, types, numbers and operations.
     pub spelling: Spelling,
-    /// What must stand before all code of a file.
+    /// The directive that must precede all code of a file.
     pub directive: &'static str,
-    /// What makes it half precision, or not, for the head of a file.
+    /// A remark for the head of a file: what makes its numbers half precision, or does not.
     pub remark: &'static str,
-    /// Compilers that can judge it, as [`Target::validators`].
+    /// Compilers that can validate it, like [`Target::validators`].
     pub validators: &'static [Validator],
 }
 
 /// A kind of file that a target writes for each method or material.
 #[derive(Debug)]
 pub struct Page {
-    /// Goes between the name and the extension, with its dot: `.frag`, or nothing.
+    /// The text between the name and the extension, with its dot: `.frag`, or nothing.
     pub suffix: &'static str,
     /// Its template, in Tera's language.
     pub template: &'static str,
 }
 
-/// What becomes of a rendered page.
+/// How a rendered page becomes a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
     /// It is the file.
@@ -145,49 +146,49 @@ pub enum Finish {
     Spirv,
 }
 
-/// A compiler that is not ours.
+/// A third-party compiler.
 #[derive(Debug)]
 pub struct Compiler {
     /// Its name.
     pub name: &'static str,
-    /// Its command; none where it is part of this program.
+    /// Its command; none where it is linked into this program.
     pub command: Option<&'static str>,
     /// Where to get it.
     pub get: &'static str,
 }
 
-/// How a compiler judges a target's files.
+/// How a compiler validates a target's files.
 #[derive(Debug)]
 pub struct Validator {
-    /// The compiler's name, and what tells its ways apart.
+    /// The compiler's name, and what distinguishes this use of it.
     pub name: &'static str,
-    /// Who judges.
+    /// The compiler.
     pub compiler: &'static Compiler,
-    /// What the command is called with: `FILE` stands for the file, `OUT` for what it writes.
+    /// The arguments of the command: `FILE` stands for the file, `OUT` for its output.
     pub options: &'static str,
-    /// What makes a program of a file.
+    /// The text that turns a file into a program.
     pub frame: Frame,
 }
 
-/// The text around a file of functions that makes a program of it.
+/// The text around a file of functions that turns it into a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// What may stand before the file: a program for each.
+    /// Texts that may precede the file: a program is made with each.
     pub beginnings: &'static [&'static str],
-    /// What stands after it. The line `CALLS` becomes a call of each function, added to `sum`: so nothing is dead code.
+    /// The text after it. The line `CALLS` becomes a call of each function, added to `sum`, so that nothing is dead code.
     /// Their arguments are `at` and `at.x`, `a_texture` and `a_sampler`.
     pub ending: &'static str,
 }
 
 impl Frame {
-    /// The file is judged as it is.
+    /// The file is validated as it is.
     pub const NONE: Frame = Frame {
         beginnings: &[""],
         ending: "",
     };
 }
 
-/// Khronos's reference compiler of GLSL, which reads HLSL too.
+/// Khronos's reference GLSL compiler, which reads HLSL too.
 pub static GLSLANG: Compiler = Compiler {
     name: "glslang",
     command: Some("glslangValidator"),
@@ -195,7 +196,7 @@ pub static GLSLANG: Compiler = Compiler {
 };
 
 impl Validator {
-    /// How it judges, for people.
+    /// The command line, for people to read.
     pub fn command(&self) -> String {
         let Some(command) = self.compiler.command else {
             return "in process".to_owned();
@@ -222,7 +223,7 @@ impl Stack {
 }
 
 impl Target {
-    /// What files of this language end in.
+    /// All extensions of files of this language.
     pub fn endings(&self) -> impl Iterator<Item = &'static str> {
         [self.extension]
             .into_iter()
@@ -237,7 +238,7 @@ impl Target {
         }
     }
 
-    /// Compilers that can judge code in this precision.
+    /// Compilers that can validate code in this precision.
     pub fn validators_in(&self, precision: Precision) -> &'static [Validator] {
         match precision {
             Precision::F32 => self.validators,
@@ -245,7 +246,7 @@ impl Target {
         }
     }
 
-    /// What must stand before all code of a file in this precision, or nothing.
+    /// The directive that must precede all code of a file in this precision, or nothing.
     pub fn directive_in(&self, precision: Precision) -> &'static str {
         match precision {
             Precision::F32 => "",

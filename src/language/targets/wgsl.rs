@@ -1,4 +1,4 @@
-//! WGSL, as WebGPU takes it.
+//! WGSL, for WebGPU.
 
 use super::spelling::{Form, Spelling};
 use super::target::{
@@ -88,7 +88,7 @@ fn {entry}(@builtin(global_invocation_id) at: vec3<u32>) {
 ",
 };
 
-/// The cosines are all f32 from a first one on, by their bits.
+/// A harness without a buffer of cosines: they are consecutive f32, by their bits, from a first one.
 pub static STREAM: Harness = Harness {
     cosines: "@group(0) @binding(1) var<uniform> fg_first: u32;",
     count: "arrayLength(&fg_reflectances)",
@@ -96,7 +96,7 @@ pub static STREAM: Harness = Harness {
     ..PROGRAM
 };
 
-/// tint judges a file with calls of its functions behind it.
+/// tint validates a file followed by calls of its functions.
 const fn tint(ending: &'static str) -> Validator {
     Validator {
         name: "tint",
@@ -118,14 +118,14 @@ const NAGA_VALIDATOR: Validator = Validator {
 
 const TINT_OPTIONS: &str = "--format wgsl -o OUT FILE";
 
-/// wgpu's compiler.
+/// wgpu's shader compiler.
 static NAGA: Compiler = Compiler {
     name: "naga",
     command: None,
     get: "always there",
 };
 
-/// Chrome's compiler of WGSL.
+/// Chrome's WGSL compiler.
 static TINT: Compiler = Compiler {
     name: "tint",
     command: Some("tint"),

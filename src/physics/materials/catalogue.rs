@@ -1,6 +1,7 @@
-//! The catalogue: the files of `data/materials/`, embedded in the program and read when asked for.
+//! The catalogue, and users' files.
 //!
-//! A user's file of any kind that is known: our own, a page of refractiveindex.info, a table.
+//! The catalogue's files are those of `data/materials/`, embedded in the program and parsed on demand. A user's file may be of
+//! our own format, a page of refractiveindex.info, or a table.
 
 use include_dir::{Dir, include_dir};
 
@@ -53,11 +54,11 @@ pub fn list() -> Result<Vec<Material>, FileFault> {
 }
 
 impl Material {
-    /// Reads a file by what its name ends in: `.yml` and `.yaml` are pages of refractiveindex.info, `.csv`, `.tsv` and
-    /// `.txt` are tables, all else is our own format.
+    /// Reads a file by its extension: `.yml` and `.yaml` are pages of refractiveindex.info, `.csv`, `.tsv` and
+    /// `.txt` are tables, all others are our own format.
     ///
     /// # Errors
-    /// The text is not what the file's name says, or not a material.
+    /// The text is not of the format that the extension says, or not a material.
     pub fn read(file: &str, text: &str) -> Result<Material, FileFault> {
         match page(file, text) {
             Some(page) => page?.material(None),
@@ -66,7 +67,7 @@ impl Material {
     }
 }
 
-/// The page or table in a file, where its name says that it is one.
+/// The page or table in a file, if its extension says that it is one.
 pub fn page(file: &str, text: &str) -> Option<Result<Page, FileFault>> {
     let ending = file.rsplit('.').next().unwrap_or("").to_lowercase();
     match ending.as_str() {

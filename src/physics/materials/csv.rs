@@ -1,4 +1,4 @@
-//! Tables as comma-separated values: what refractiveindex.info exports, and plain files. A header names the unit.
+//! Tables of n and k as comma-separated values: exports of refractiveindex.info, and plain files. A header names the unit.
 //!
 //! ```csv
 //! wl,n
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! `wl` is in micrometres, as the site exports it. Otherwise the first column is `wavelength_nm`, `wavelength_um`, `nm`
-//! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons, tabs and blanks do for commas, and
-//! `Wavelength (nm)` is `wavelength_nm`. So are the tables that Filmetrics and others give as `.txt` and `.tsv`.
+//! or `um`, followed by `n`, `k`, or `n,k`. A header begins a table. Semicolons, tabs or blanks may replace commas, and
+//! `Wavelength (nm)` is read as `wavelength_nm`. The `.txt` and `.tsv` tables of Filmetrics and others have this form.
 
 use super::decimal::{Unit, clipped};
 use super::file::FileFault;
@@ -86,7 +86,7 @@ impl Page {
     }
 }
 
-/// A table that is being read, and where its header stands.
+/// A table that is being read, and the place of its header.
 struct Table {
     rows: TableReader,
     separator: char,
@@ -109,10 +109,10 @@ struct Header {
     separator: char,
 }
 
-/// What stands for blanks as separators.
+/// The separator that stands for any blanks.
 const BLANK: char = ' ';
 
-/// The header that a line is, if it is one.
+/// The header in a line, if the line is one.
 fn header(line: &str) -> Option<Header> {
     let separators = [';', '\t', ',', BLANK];
     separators
@@ -121,7 +121,7 @@ fn header(line: &str) -> Option<Header> {
 }
 
 fn header_with(line: &str, separator: char) -> Option<Header> {
-    // Between blanks a unit in brackets would stand alone.
+    // With blanks as separators, a unit in brackets would be a cell of its own.
     let line = match separator {
         BLANK => line.replace(" (", "(").replace(" [", "["),
         _ => line.to_owned(),
@@ -142,7 +142,7 @@ fn header_with(line: &str, separator: char) -> Option<Header> {
     })
 }
 
-/// The unit in the name of a wavelength's column.
+/// The unit in the name of a wavelength column.
 fn unit(name: &str) -> Option<Unit> {
     let bare = ["wavelength_", "lambda_", "wl_", "\u{3bb}_"]
         .into_iter()
@@ -156,7 +156,7 @@ fn unit(name: &str) -> Option<Unit> {
     }
 }
 
-/// n and k by the words of a header, with what stands in brackets.
+/// `n` or `k` for the usual names of these columns. Other names are returned unchanged.
 fn quantity(name: &str) -> &str {
     match name {
         "refractive_index" | "refractive_index_n" | "n_refractive_index" | "index" => "n",
@@ -176,7 +176,7 @@ fn plain(cell: &str) -> String {
     words.join("_")
 }
 
-/// The cells of a line. Blanks at its end are none, and a separator there begins none that is empty.
+/// The cells of a line. Blanks and a separator at its end add no empty cell.
 fn cells(line: &str, separator: char) -> impl Iterator<Item = &str> {
     let line = line.trim_end();
     let line = line.strip_suffix(separator).unwrap_or(line);

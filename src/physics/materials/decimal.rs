@@ -1,9 +1,9 @@
-//! A number in the text of a table: decimal, with a point, finite. What is not is named, with what was meant.
+//! Parses a number in a table: decimal, with a point, finite. Errors name what was found, and what was probably meant.
 
-/// The unit that a text gives wavelengths in.
+/// The unit of the wavelengths in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Micrometres, as refractiveindex.info has them.
+    /// Micrometres, as on refractiveindex.info.
     Um,
     /// Nanometres.
     Nm,
@@ -23,8 +23,8 @@ pub fn finite(token: &str) -> Result<f64, String> {
     }
 }
 
-/// A wavelength in nanometres, above 0. Micrometres become nanometres in their decimals: 0.2261 is 226.1, which
-/// 0.2261 times 1000 is not.
+/// A wavelength in nanometres, above 0. Micrometres are converted in decimal: 0.2261 becomes 226.1, which
+/// 0.2261 * 1000.0 is not.
 pub fn nm(token: &str, unit: Unit) -> Result<f64, String> {
     let number = finite(token)?;
     let nm = match unit {
@@ -41,7 +41,7 @@ pub fn nm(token: &str, unit: Unit) -> Result<f64, String> {
     }
 }
 
-/// A number's text with three more in its exponent.
+/// A number's text with its exponent raised by three.
 fn thousandfold(token: &str) -> Option<f64> {
     let shifted = match token.split_once(['e', 'E']) {
         None => format!("{token}e3"),
@@ -53,7 +53,7 @@ fn thousandfold(token: &str) -> Option<f64> {
     shifted.parse().ok()
 }
 
-/// The number that a text is nearly: a comma for a point, an exponent without its letter or with Fortran's.
+/// The number that was probably meant: with a comma for a point, or an exponent without its letter or with Fortran's.
 fn likely_number(token: &str) -> Option<String> {
     let is_number = |text: &String| text.parse::<f64>().is_ok_and(f64::is_finite);
     let sign = token
@@ -70,7 +70,7 @@ fn likely_number(token: &str) -> Option<String> {
     candidates.into_iter().flatten().find(is_number)
 }
 
-/// The beginning of a text that someone else wrote, for a message.
+/// The beginning of an untrusted text, for a message.
 pub fn clipped(text: &str) -> String {
     const LONGEST: usize = 40;
     let mut start: String = text.chars().take(LONGEST).collect();
@@ -80,7 +80,7 @@ pub fn clipped(text: &str) -> String {
     start
 }
 
-/// A number for a message: five digits of it, with an exponent where it is small or large.
+/// A number for a message: five digits, with an exponent if it is small or large.
 pub fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
     if rounded != 0.0 && !(1e-4..1e15).contains(&rounded.abs()) {

@@ -1,4 +1,4 @@
-//! The material file: TOML, checked field by field.
+//! The material file, TOML checked field by field, and the place of faults in it.
 //!
 //! ```toml
 //! name = "my_gold"                  # snake_case: it becomes part of function and file names
@@ -20,11 +20,9 @@
 //! ]
 //! ```
 //!
-//! In place of `data`, n and k can stand apart: `n = [[nm, n], …]`, or `n_formula = { number = 2, from_nm = 300,
+//! Instead of `data`, n and k can be given separately: `n = [[nm, n], …]`, or `n_formula = { number = 2, from_nm = 300,
 //! to_nm = 2500, coefficients = [0, 1.04, …] }` with the formulas of [`super::formula`], which take micrometres; and
 //! `k = [[nm, k], …]`, or nothing where k is 0.
-//!
-//! A user's text: where a fault stands in it.
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -88,14 +86,14 @@ const FIELDS: [&str; 15] = [
     "n_formula",
 ];
 
-/// What a number in a row is: name, least value, greatest value.
+/// A column of a row: name, least value, greatest value.
 type Column = (&'static str, f64, f64);
 /// 1 nm to 1 mm covers all of optics.
 const NM: Column = ("wavelength_nm", 1.0, 1e6);
 const N: Column = ("n", LEAST_N, GREATEST);
-/// A k below 0 would be gain.
+/// A k below 0 would mean gain.
 const K: Column = ("k", 0.0, GREATEST);
-/// The longest formula of refractiveindex.info has 17.
+/// More than any formula of refractiveindex.info has: 17.
 pub const MOST_COEFFICIENTS: usize = 64;
 
 impl Material {
@@ -161,7 +159,7 @@ impl Material {
 }
 
 impl Material {
-    /// What in its numbers a material file does not allow, if anything.
+    /// The first of its numbers that a material file does not allow, if any, in words.
     pub fn limits_fault(&self) -> Option<String> {
         let curve = |curve: &DispersionCurve, column| match curve {
             DispersionCurve::Table(table) => table
@@ -245,7 +243,7 @@ pub fn name_fault(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether Windows keeps a name for a device, whatever its ending is: COM1 to COM9 and LPT1 to LPT9 are ports.
+/// Whether Windows reserves a name for a device, with any extension: COM1 to COM9 and LPT1 to LPT9 are ports.
 fn is_device(name: &str) -> bool {
     let port = name
         .strip_prefix("com")
@@ -254,7 +252,7 @@ fn is_device(name: &str) -> bool {
         || port.is_some_and(|port| matches!(port.as_bytes(), [b'1'..=b'9']))
 }
 
-/// n and k: together in `data`, or apart.
+/// n and k: together in `data`, or separate.
 fn curves(raw: &Raw, place: &FileText) -> Result<Curves, FileFault> {
     let table =
         |rows: &RawRows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
@@ -282,7 +280,7 @@ fn pick(rows: &[Vec<f64>], column: usize) -> DispersionCurve {
 }
 
 impl FileText<'_> {
-    /// Rows of numbers inside their columns' limits, by ascending wavelength.
+    /// Rows of numbers, checked to lie within their columns' limits and to ascend in wavelength.
     fn rows(
         &self,
         rows: &RawRows,
@@ -337,7 +335,7 @@ impl FileText<'_> {
         Ok(row.get_ref().iter().map(|value| *value.get_ref()).collect())
     }
 
-    /// A field without line breaks, and without what a terminal obeys.
+    /// Checks that a field has no line breaks, and nothing that a terminal obeys.
     fn one_line(&self, name: &str, field: &Spanned<String>) -> Result<(), FileFault> {
         let Some(hidden) = field.get_ref().chars().find(|c| is_hidden(*c)) else {
             return Ok(());
@@ -352,7 +350,7 @@ impl FileText<'_> {
         Err(self.fault(field.span().start, what))
     }
 
-    /// A formula whose numbers are all there.
+    /// A formula, checked to have all its numbers.
     fn formula(&self, raw: &Spanned<RawFormula>) -> Result<Formula, FileFault> {
         let fields = raw.get_ref();
         let formula = Formula {
@@ -367,7 +365,7 @@ impl FileText<'_> {
         }
     }
 
-    /// Three wavelengths in their limits.
+    /// Three wavelengths, checked to lie within limits.
     fn three(&self, rgb: &Spanned<[f64; 3]>) -> Result<[f64; 3], FileFault> {
         let (_, low, high) = NM;
         if rgb.get_ref().iter().all(|nm| (low..=high).contains(nm)) {
@@ -392,9 +390,9 @@ impl FileText<'_> {
     }
 }
 
-/// A text and its file's name: made once, so that every check of what it says is short.
+/// A text and its file's name, so that every check can report a fault with its place.
 pub struct FileText<'a> {
-    /// For messages.
+    /// The file, for messages.
     pub file: &'a str,
     /// What the file holds.
     pub text: &'a str,
@@ -406,7 +404,7 @@ impl FileText<'_> {
         FileFault::at(self.file, self.text, offset, what)
     }
 
-    /// What the parser of TOML says, with the nearest of the keys that it would take for an unknown one.
+    /// The TOML parser's error, with the nearest allowed key for an unknown one.
     pub fn toml_fault(&self, error: &toml::de::Error) -> FileFault {
         let mut what = error.message().trim().replace('\n', "; ");
         if what.starts_with("unknown field `") {
@@ -416,7 +414,7 @@ impl FileText<'_> {
             what += &offered(&nearest_names(unknown, &known));
         }
         let at = error.span().map_or(0, |span| span.start);
-        // `"C:\\mine\\x.toml"`: the place is the backslash, or the letter behind it.
+        // `"C:\\mine\\x.toml"`: the place is the backslash, or the letter after it.
         let near = self.text.get(at.saturating_sub(1)..).unwrap_or("");
         let is_escape = what.contains("escape") && near.chars().take(2).any(|c| c == '\\');
         if is_escape {
@@ -504,7 +502,7 @@ mod tests {
         }
     }
 
-    /// Each is finite, and none is an index that the laws hold for: too large, a pole between two samples, 0 or below.
+    /// Each is finite, but none gives a valid index: it is too large, has a pole between two samples, or is 0 or below.
     #[test]
     fn a_formula_must_give_an_index_all_over_its_range() {
         let apart = GOOD.split("data").next().expect("a head").to_owned();
@@ -517,7 +515,7 @@ mod tests {
             (5, "[0]", "formula 5 gives n = 0 at 300 nm"),
             (3, "[1e308, 1e308, 300]", "formula 3 gives n^2 = "),
             (3, "[2, -1, 2]", "formula 3 gives n^2 = "),
-            // A pole, with n^2 below 0 before it; and poles so narrow that no sample comes near them.
+            // A pole, with n^2 below 0 before it. Then poles so narrow that no sample comes near them.
             (1, "[0, 1, 0.600123]", " at 424.35 nm"),
             (2, "[0, 1e-12, 0.36]", "formula 2 gives n^2 = "),
             (4, "[2, 1e-9, 0, 0.6, 2]", "formula 4 gives n^2 = "),

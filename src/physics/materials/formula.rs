@@ -1,5 +1,7 @@
-//! The dispersion formulas 1 to 9 of refractiveindex.info. L is the vacuum wavelength in micrometres, a coefficient
-//! that is not given is 0; what goes with a factor must be given ([`Formula::missing_partner`]).
+//! n and k as functions of wavelength ([`DispersionCurve`]): a table, linear between its points, or a formula ([`Formula`]).
+//!
+//! The formulas are the dispersion formulas 1 to 9 of refractiveindex.info. L is the vacuum wavelength in micrometres. A missing
+//! coefficient is 0, but the exponent or pole that belongs to a factor must be given ([`Formula::missing_partner`]).
 //!
 //! ```text
 //! 1  n² - 1 = C1 + Σ C(2i) L² / (L² - C(2i+1)²)                      Sellmeier
@@ -15,14 +17,12 @@
 //!
 //! Source: M. N. Polyanskiy, *Refractiveindex.info database of optical constants*, Scientific Data 11, 94 (2024),
 //! <https://doi.org/10.1038/s41597-023-02898-2>, and the document "Dispersion formulas" of that database.
-//!
-//! How n and k depend on the wavelength: a table with straight lines between its points, or a formula.
 
 use super::decimal::short;
 use crate::physics::num::{Interval, Num};
 use crate::physics::spectra::Spectrum;
 
-/// A formula with its coefficients and the range it was fitted to.
+/// A dispersion formula with its coefficients and the range that it was fitted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
     /// 1 to 9.
@@ -35,20 +35,20 @@ pub struct Formula {
     pub to_nm: f64,
 }
 
-/// The numbers that a formula can have.
+/// The formula numbers that exist.
 pub const NUMBERS: std::ops::RangeInclusive<u8> = 1..=9;
 
 /// The one pole of formula 7, in square micrometres.
 const HERZBERGER_POLE: f64 = 0.028;
 
-/// The narrowest piece of a range that is looked at, as a share of the wavelength: in a narrower one no index is limited by
-/// interval arithmetic only where the formula has a pole.
+/// The narrowest piece of a range that is examined, as a fraction of the wavelength. If interval arithmetic cannot bound the index
+/// even there, the formula has a pole.
 const NARROWEST: f64 = 1e-9;
-/// Pieces of a range that are looked at. A formula whose terms nearly cancel takes many; after so many, each piece that is left is
-/// sampled.
+/// The most pieces of a range that are examined. A formula whose terms nearly cancel takes many. After this number, each piece
+/// that is left is sampled.
 const MOST_PIECES: usize = 20_000;
 
-/// A wavelength at which a formula gives no index within limits, and what it gives there.
+/// A wavelength at which a formula gives no index within limits, and its value there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outlier {
     /// In nanometres.
@@ -57,7 +57,7 @@ pub struct Outlier {
     pub gives: String,
 }
 
-/// A wavelength, or all wavelengths of an interval: numbers that can be raised to a power.
+/// A wavelength or an interval of wavelengths: a number that can be raised to a power.
 trait Length: Num {
     fn power(self, exponent: f64) -> Self;
 }
@@ -132,13 +132,12 @@ impl Formula {
         None
     }
 
-    /// What is missing where the last term has a factor and not all that goes with it: an exponent or a pole that is taken as 0 is
-    /// another formula.
+    /// What is missing if the last term has a factor but not its exponent or pole. Taking these as 0 would make it another formula.
     pub fn missing_partner(&self) -> Option<String> {
         let (number, count) = (self.number, self.coefficients.len());
         let first = *self.terms().iter().rfind(|(first, _)| *first <= count)?;
         let (first, last) = match (number, first) {
-            // Behind the terms with a place of their own all are pairs.
+            // After the terms with fixed places, all are pairs.
             (1..=6, (pairs, 2)) => {
                 let first = pairs + (count - pairs) / 2 * 2;
                 (first, first + 1)
@@ -152,7 +151,7 @@ impl Formula {
         })
     }
 
-    /// The terms of more than one coefficient: the first one, which is a factor, and how many there are.
+    /// The terms of more than one coefficient: the index of the first, which is a factor, and their number.
     fn terms(&self) -> &'static [(usize, usize)] {
         match self.number {
             4 => &[(2, 4), (6, 4), (10, 2)],
@@ -163,7 +162,7 @@ impl Formula {
         }
     }
 
-    /// Whether the formula is one of n², and not of n.
+    /// Whether the formula gives n² and not n.
     fn gives_square(&self) -> bool {
         !matches!(self.number, 5..=7)
     }
@@ -174,7 +173,7 @@ impl Formula {
         format!("formula {number} gives n{square} = {}", short(value))
     }
 
-    /// n or n² by the wavelength in micrometres.
+    /// n or n² at a wavelength in micrometres.
     fn value<L: Length>(&self, l: L) -> L {
         let one = L::from_f64(1.0);
         match self.number {
@@ -196,12 +195,12 @@ impl Formula {
         self.coefficients.get(i - 1).copied().unwrap_or(0.0)
     }
 
-    /// C(i) as a number of this kind.
+    /// C(i) as a number of this type.
     fn constant<L: Length>(&self, i: usize) -> L {
         L::from_f64(self.c(i))
     }
 
-    /// (C(2i), C(2i+1)) from one i on, without those that add nothing.
+    /// The pairs (C(2i), C(2i+1)) from a first one on, without those that add nothing.
     fn pairs(&self, first: usize) -> impl Iterator<Item = (f64, f64)> {
         let places = first..=self.coefficients.len() / 2;
         let pairs = places.map(|i| (self.c(2 * i), self.c(2 * i + 1)));
@@ -226,7 +225,7 @@ impl Formula {
         self.sum(self.pairs(first).map(term))
     }
 
-    /// The two poles of formula 4. One that has no strength is left out: 0 to the power 0 is 1.
+    /// The two pole terms of formula 4. One with a factor of 0 is left out: 0 to the power 0 is 1.
     fn poles<L: Length>(&self, l: L) -> L {
         let pole = |first: usize| match self.c(first) {
             0.0 => L::from_f64(0.0),
@@ -281,13 +280,13 @@ pub enum DispersionCurve {
     Formula(Formula),
 }
 
-/// What is done beyond the measured range.
+/// What is done outside the measured range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Extrapolate {
     /// Nothing: it is refused.
     #[default]
     Refuse,
-    /// The value at the nearer end is held; whoever asks for it says so in every output.
+    /// The value at the nearer end is held. Every output then says so.
     Hold,
 }
 
@@ -304,7 +303,7 @@ impl Extrapolate {
     }
 }
 
-/// The ends of a range count as inside in spite of rounding: as a share of the wavelength.
+/// The tolerance at the ends of a range, as a fraction of the wavelength, so that they count as inside in spite of rounding.
 const END: f64 = 1e-9;
 
 impl DispersionCurve {
@@ -375,7 +374,7 @@ mod tests {
         assert!((got - n).abs() <= within, "{got} {n}");
     }
 
-    /// Each with an index that its maker prints, or that follows by hand.
+    /// Each with an index that the manufacturer prints, or that follows by hand.
     #[test]
     fn each_formula_gives_a_known_index() {
         let malitson = [
@@ -411,7 +410,7 @@ mod tests {
             1.5 + 0.1 + 0.25,
             1e-14,
         );
-        // A share of 1/4 is n² = 1.5/0.75.
+        // A value of 1/4 is n² = 1.5/0.75.
         check(8, &[0.25], 500.0, 2.0_f64.sqrt(), 1e-15);
         check(
             9,
@@ -449,7 +448,7 @@ mod tests {
         assert!(is_said, "formula {number} of {count}: {found:?}");
     }
 
-    /// All counts of the formulas that pages of the database have, and those beside them.
+    /// All numbers of coefficients that occur in the database, and those next to them.
     #[test]
     fn a_factor_has_what_goes_with_it() {
         for number in [1, 2, 3, 5, 6] {
@@ -480,7 +479,7 @@ mod tests {
         misses(9, 2, Some("C2 wants all up to C3"));
         misses(9, 4, Some("C4 wants all up to C6"));
         misses(9, 5, Some("C4 wants all up to C6"));
-        // A factor of 0 adds nothing, whatever goes with it.
+        // A factor of 0 adds nothing, whatever its exponent or pole.
         let zeros = Formula {
             number: 4,
             coefficients: vec![2.0, 1.0, 2.0, 0.1, 2.0, 0.0, 0.0],

@@ -1,9 +1,9 @@
-//! A material: its names and sources, and its index of refraction at any wavelength that was measured.
+//! A material ([`Material`]): its names and sources, and its index of refraction at any measured wavelength. Also a medium given
+//! as a number ([`ConstantIndex`]).
 //!
-//! A medium that is a number: one refractive index at all wavelengths, no absorption.
-//!
-//! It stands for what has no page: a coat of index 1.5, an oil whose label states n. It has no dispersion, so that colours differ
-//! slightly from those in a measured medium with the same index in green.
+//! The latter has one refractive index at all wavelengths and no absorption. It is for media without a page: a coat of index 1.5,
+//! an oil whose label states n. Without dispersion, colours differ slightly from those in a measured medium with the same index
+//! in green.
 
 use core::fmt;
 
@@ -18,16 +18,16 @@ pub const LEAST_N: f64 = 1e-3;
 /// The greatest n and k: no index measured between 1 nm and 1 mm comes near it.
 pub const GREATEST: f64 = 1e4;
 
-/// A material as its file tells it.
+/// A material as its file describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Its one name.
+    /// Its one name, in snake_case.
     pub name: String,
-    /// One line.
+    /// A description in one line.
     pub summary: String,
     /// Metal, semiconductor or dielectric.
     pub kind: MaterialKind,
-    /// What it is whoever measured it: alternatives share it, and the recommended one bears it as its name.
+    /// The substance, which alternative measurements share. The recommended one has it as its name.
     pub substance: String,
     /// The licence of the numbers.
     pub licence: String,
@@ -35,13 +35,13 @@ pub struct Material {
     pub reference: String,
     /// Where to read about it.
     pub link: String,
-    /// The page of refractiveindex.info that it was taken from; may be empty.
+    /// The page of refractiveindex.info that the numbers are from; may be empty.
     pub page: String,
     /// Temperature, film thickness and the like; may be empty.
     pub conditions: String,
     /// What a user should know: why it is recommended, what was done to the numbers; may be empty.
     pub note: String,
-    /// Red, green and blue where it is known at these wavelengths only, as in the thesis.
+    /// The wavelengths of red, green and blue in nanometres, if it is known only at these, as in the thesis.
     pub rgb_nm: Option<[f64; 3]>,
     /// Refractive index by wavelength.
     pub n: DispersionCurve,
@@ -53,11 +53,11 @@ pub struct Material {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MaterialKind {
-    /// It conducts, and k is large.
+    /// It conducts; k is large.
     Metal,
     /// In between.
     Semiconductor,
-    /// It is transparent, k is 0 or nearly.
+    /// It is transparent; k is 0 or nearly.
     Dielectric,
 }
 
@@ -89,8 +89,8 @@ pub struct Index {
 }
 
 impl Index {
-    /// The index seen from a medium: the complex quotient. From a medium that absorbs more than the material, its k
-    /// would be below 0; the law reflects as much for m and its conjugate, so that |k| stands for it.
+    /// The index relative to a medium: the complex quotient. In a medium that absorbs more than the material, k
+    /// would be below 0. The law gives the same reflectance for m and its conjugate, so |k| is used.
     pub fn relative_to(self, medium: Index) -> Index {
         let square = medium.n * medium.n + medium.k * medium.k;
         Index {
@@ -110,7 +110,7 @@ impl Material {
             let named = |why: String| format!("material `{}`: {letter} {why}", self.name);
             curve.at(nm, beyond).map_err(named)
         };
-        // A page's table can hold rows beyond these limits: of a fit gone wrong, or of a metamaterial.
+        // A page's table can hold rows beyond these limits: from a bad fit, or of a metamaterial.
         let within = |value: f64, letter: &str, least: f64| match value {
             value if (least..=GREATEST).contains(&value) => Ok(value),
             _ => Err(format!(
@@ -125,7 +125,7 @@ impl Material {
         Ok(Index { n, k })
     }
 
-    /// The wavelengths at which both n and k are known, in nanometres; the first is above the second where there is none.
+    /// The range of wavelengths in nanometres in which both n and k are known. The first is above the second if there is none.
     pub fn range_nm(&self) -> (f64, f64) {
         let (from, to) = self.n.range_nm();
         match self.k.as_ref().map(DispersionCurve::range_nm) {
@@ -149,30 +149,30 @@ impl Material {
         places
     }
 
-    /// Whether it is a spectrum of this substance.
+    /// Whether it is of this substance, and known as a spectrum.
     pub fn is_spectrum_of(&self, substance: &str) -> bool {
         self.substance == substance && self.rgb_nm.is_none()
     }
 
-    /// Whether it is the one to take of all measurements of its substance.
+    /// Whether it is the recommended measurement of its substance.
     pub fn is_recommended(&self) -> bool {
         self.name == self.substance
     }
 }
 
-/// The least index of a medium that is a number: a vacuum's.
+/// The least index of a medium given as a number: a vacuum's.
 pub const LEAST_INDEX: f64 = 1.0;
 /// The greatest: above every transparent medium of the catalogue.
 pub const GREATEST_INDEX: f64 = 10.0;
 
-/// Wavelengths in nanometres at which it is known: all that a material file may name.
+/// The range in nanometres of a medium given as a number: all that a material file may name.
 const KNOWN_NM: (f64, f64) = (1.0, 1e6);
 
 /// The refractive index of a medium without absorption and dispersion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantIndex(f64);
 
-/// A number that is no index of a medium.
+/// A number that is not a valid index of a medium.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "`{given}` is no refractive index of a medium; a number from {LEAST_INDEX} to {GREATEST_INDEX} is allowed, such as 1.5, or a material's name"
@@ -182,7 +182,7 @@ pub struct IndexFault {
 }
 
 impl ConstantIndex {
-    /// The index that a word says; none where the word is no number.
+    /// The index that a word states; none if the word is not a number.
     ///
     /// # Errors
     /// The number lies outside its limits.
@@ -219,7 +219,7 @@ impl ConstantIndex {
             conditions: String::new(),
             note: String::new(),
             rgb_nm: None,
-            // Cauchy's formula with its first coefficient alone is the number itself, without rounding.
+            // Cauchy's formula with only its first coefficient is the number itself, without rounding.
             n: DispersionCurve::Formula(Formula {
                 number: 5,
                 coefficients: vec![self.0],

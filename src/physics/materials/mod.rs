@@ -1,7 +1,7 @@
 //! Materials: named media with measured n(λ) and k(λ), their sources and licences.
 //!
-//! The catalogue lies in `data/materials/`, one file each, and is part of the binary. A user's own file has the same
-//! format ([`Material::parse`]). To add a material to the catalogue, add its file.
+//! The catalogue lies in `data/materials/`, one file a material, and is embedded in the binary. A user's own file has the
+//! same format ([`Material::parse`]). To add a material to the catalogue, add its file.
 
 mod catalogue;
 mod csv;

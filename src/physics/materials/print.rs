@@ -1,6 +1,4 @@
-//! A material as the text of its file.
-//!
-//! Who measured a material's numbers, where it stands, and their licence: as far as its file says so.
+//! A material as text: its file, and its source and licence in one line, as far as its file states them.
 
 use super::formula::{DispersionCurve, Formula};
 use super::material::Material;
@@ -35,7 +33,7 @@ impl Material {
     }
 }
 
-/// A field of text: TOML's basic strings escape as JSON's do. What a terminal obeys is escaped too.
+/// A text field: TOML's basic strings escape like JSON's. What a terminal obeys is escaped too.
 fn text(name: &str, value: &str) -> String {
     let quoted = serde_json::Value::from(value).to_string();
     format!("{name} = {}", escaped(&quoted))
@@ -88,7 +86,7 @@ fn rows(name: &str, columns: &str, rows: impl Iterator<Item = Vec<f64>>) -> Vec<
     lines
 }
 
-/// Numbers in the fewest digits that give them back; very small ones with an exponent, and very large ones, which
+/// Numbers with the fewest digits that read back the same. Very small ones get an exponent, and so do very large ones, which
 /// would be integers that TOML cannot hold.
 fn list(values: &[f64]) -> String {
     let number = |value: &f64| {
@@ -104,11 +102,11 @@ fn list(values: &[f64]) -> String {
     )
 }
 
-/// What a material's file says of what its source does not.
+/// The text in a material's file for what its source does not state.
 pub(super) const NOT_GIVEN: &str = "not given";
 
 impl Material {
-    /// `Data: reference. link. Licence CC0-1.0`, without what is not given; none where nothing is.
+    /// `Data: reference. link. Licence CC0-1.0`, without the parts that are not given; none if all are missing.
     pub fn data_line(&self) -> Option<String> {
         let source = self.source_words(". ");
         let licence = given(&self.licence).map(|licence| format!("Licence {licence}"));
@@ -116,9 +114,9 @@ impl Material {
         (!parts.is_empty()).then(|| format!("Data: {}", parts.join(". ")))
     }
 
-    /// Reference and link with this between them; none where neither is given.
+    /// Reference and link, separated by `between`; none if neither is given.
     pub fn source_words(&self, between: &str) -> Option<String> {
-        // A full stop of its own ends no sentence here.
+        // The reference's own full stop is dropped.
         let reference = given(&self.reference).map(|text| {
             if between.starts_with('.') {
                 text.trim_end_matches('.')
@@ -130,7 +128,7 @@ impl Material {
         (!parts.is_empty()).then(|| parts.join(between))
     }
 
-    /// The licence of the numbers, where it is given.
+    /// The licence of the numbers, if it is given.
     pub fn licence_words(&self) -> Option<&str> {
         given(&self.licence)
     }

@@ -1,19 +1,18 @@
-//! The rows of a table as others wrote them: checked one by one, then put in order, each wavelength once.
+//! Reads the rows of third-party tables: checked one by one, then sorted, each wavelength once. Also cuts a material to a
+//! range of wavelengths.
 //!
-//! A table is believed where it can be. What has to be done to it is said in a remark, and every remark reaches the
-//! user: rows out of order are sorted; a wavelength with several rows gets their mean; a k just below 0, which is
-//! noise of the measurement, is 0, since a passive medium has no gain.
-//!
-//! A material cut down to a range of wavelengths.
+//! A table is repaired where possible, and each repair is reported to the user in a remark. Rows out of order are sorted. A
+//! wavelength with several rows gets their mean. A k just below 0 is measurement noise and becomes 0, since a passive medium
+//! has no gain.
 
 use super::decimal::{self, Unit};
 use super::formula::DispersionCurve;
 use super::material::Material;
 
-/// The k that is still taken for noise. The worst page of refractiveindex.info that is right elsewhere has -0.148.
+/// The least k that is taken for noise. The worst page of refractiveindex.info that is right elsewhere has -0.148.
 const LEAST_K: f64 = -0.2;
 
-/// What the columns after the wavelength hold.
+/// The columns after the wavelength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Columns {
     /// n alone.
@@ -50,9 +49,9 @@ pub struct TableReader {
     least_k: f64,
 }
 
-/// What is wrong with a row, and in which of its columns, from 0.
+/// What is wrong with a row, and in which column.
 pub struct RowFault {
-    /// The column.
+    /// The column, from 0.
     pub column: usize,
     /// What was found, and what is allowed.
     pub what: String,
@@ -117,7 +116,7 @@ impl TableReader {
         Ok(0.0)
     }
 
-    /// The curves of n and of k, as far as the table has them, with what was done to it. It has a row.
+    /// The curves of n and of k, as far as the table has them. Repairs are added to the remarks. The table must have a row.
     pub fn curves(
         mut self,
         remarks: &mut Vec<String>,
@@ -193,7 +192,7 @@ fn counted(count: usize, what: &str) -> String {
 
 impl Material {
     /// The same material with its tables cut to a range of wavelengths: from the last row at or below its start to the
-    /// first at or above its end, so that every index inside stays what it was. A formula stays whole.
+    /// first at or above its end, so that no index inside changes. A formula is not cut.
     #[must_use]
     pub fn trimmed(&self, from_nm: f64, to_nm: f64) -> Material {
         let cut = |curve: &DispersionCurve| match curve {
@@ -211,7 +210,7 @@ impl Material {
     }
 }
 
-/// At least one point, the nearest, where the table lies outside.
+/// The points within a range and the next ones around it. If the table lies outside, it is the nearest point.
 fn within(points: &[(f64, f64)], from_nm: f64, to_nm: f64) -> &[(f64, f64)] {
     let after_start = points.partition_point(|point| point.0 <= from_nm);
     let start = after_start.saturating_sub(1);

@@ -1,13 +1,11 @@
-//! A material as an observer sees it: its index at some wavelengths, and how these make three channels.
+//! A material under viewing conditions: its relative index at some wavelengths, and how these give three channels.
 //!
 //! ```text
 //! R_c(θ) = Σ w_c(λ) R(λ, θ) / Σ w_c(λ)      R(λ, θ) by the exact law, from n(λ) and k(λ) relative to the medium
 //! ```
 //!
-//! With one wavelength a channel this is the thesis's way; with the observer's curves times the illuminant it is the
-//! colour of the reflected light where a perfect mirror is (1, 1, 1).
-//!
-//! Three channels of index: n and k for red, green and blue.
+//! One wavelength a channel is the thesis's way. With the observer's curves times the illuminant, it is the colour of the
+//! reflected light, where a perfect mirror is (1, 1, 1). [`Channels`] is n and k for red, green and blue.
 
 use glam::DVec3;
 
@@ -17,16 +15,16 @@ use crate::physics::num::each_channel;
 use crate::physics::optics::{self, Reflectance};
 use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
 
-/// How materials are looked at.
+/// The conditions under which reflectance becomes three channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewingConditions {
     /// Observer, illuminant, working space, adaptation, step.
     pub integration: Integration,
-    /// What becomes of colours outside the working space.
+    /// How colours outside the working space are treated.
     pub gamut: Gamut,
-    /// Red, green and blue at one wavelength each, in place of the whole spectrum.
+    /// Red, green and blue at one wavelength each, instead of the whole spectrum.
     pub wavelengths_nm: Option<[f64; 3]>,
-    /// Beyond the measured range.
+    /// What is done outside the measured range.
     pub beyond: Extrapolate,
 }
 
@@ -42,7 +40,7 @@ impl Default for ViewingConditions {
 }
 
 impl ViewingConditions {
-    /// What is seen of a spectrum, in words.
+    /// The reference for a spectrum, in words.
     pub fn reference_in_words(&self) -> String {
         format!(
             "reflectance integrated over {}{}",
@@ -52,33 +50,33 @@ impl ViewingConditions {
     }
 }
 
-/// The surface of a material in its medium, seen.
+/// The surface of a material in its medium, under viewing conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// The relative index at each of the integrator's wavelengths.
     pub indices: Vec<Index>,
     /// From a spectrum to three channels.
     pub integrator: Integrator,
-    /// What becomes of colours outside the working space.
+    /// How colours outside the working space are treated.
     pub gamut: Gamut,
-    /// What is seen, in words.
+    /// What its channels are, in words.
     pub seen: String,
-    /// Wavelengths in nanometres beyond which the nearest measured index was held: lowest and highest, where so.
+    /// The lowest and the highest measured wavelength in nanometres, if the index was held beyond it.
     pub extrapolated_nm: (Option<f64>, Option<f64>),
 }
 
-/// A material that is not known where it is looked at.
+/// Why a material has no surface under these conditions.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{advice}", crate::physics::foreign::one_line(why))]
 pub struct Unseen {
-    /// Which material, where it is known, which wavelength is wanted.
+    /// The material, its measured range and the wavelength that is wanted.
     pub why: String,
     /// What can be done.
     pub advice: String,
 }
 
 impl Surface {
-    /// The surface of a material in air or in a medium. Where either is known at three wavelengths only, these are taken.
+    /// The surface of a material in air or in a medium. If either is known at three wavelengths only, these are used.
     ///
     /// # Errors
     /// The material or the medium was not measured at a wavelength of these conditions, or the light has no white in the space.
@@ -131,7 +129,7 @@ impl Surface {
         })
     }
 
-    /// A surface that is known by its channels alone.
+    /// The surface with these channels.
     pub fn of_channels(channels: &Channels) -> Surface {
         let index = |i: usize| Index {
             n: channels.n[i],
@@ -146,13 +144,13 @@ impl Surface {
         }
     }
 
-    /// The channels, where each is one wavelength.
+    /// The channels, if each is one wavelength.
     pub fn channels(&self) -> Option<Channels> {
         let indices: [Index; 3] = self.indices.as_slice().try_into().ok()?;
         Some(Channels::of(indices))
     }
 
-    /// The reflected share of each channel in both polarisations, colours outside the working space left as they are.
+    /// The reflectance of each channel in both polarisations, without gamut mapping.
     pub fn reflectance(&self, cos_theta: f64) -> Reflectance<DVec3> {
         let each = self
             .indices
@@ -169,14 +167,14 @@ impl Surface {
         }
     }
 
-    /// The reflected share of unpolarised light, colours outside the working space left as they are.
+    /// The reflectance of each channel for unpolarised light, without gamut mapping.
     pub fn unpolarised(&self, cos_theta: f64) -> DVec3 {
         let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
         self.integrator
             .colour(&self.indices.iter().map(law).collect::<Vec<f64>>())
     }
 
-    /// The wavelengths at which an index is extrapolated, in words; none if there are none.
+    /// The wavelengths at which the index is extrapolated, in words; none if there are none.
     pub fn extrapolation(&self) -> Option<String> {
         let below = self.extrapolated_nm.0.map(|nm| format!("below {nm} nm"));
         let above = self.extrapolated_nm.1.map(|nm| format!("above {nm} nm"));
@@ -203,10 +201,10 @@ fn three_in_words([red, green, blue]: [f64; 3]) -> String {
     format!("reflectance at {red}, {green} and {blue} nm for red, green and blue")
 }
 
-/// Of a measurement that lies wholly outside: none of its values says how the material looks.
+/// The advice for a measurement wholly outside the visible range.
 const UNSEEN: &str = "; it holds nothing of what is seen: take another measurement, or, to take its nearest value all the same, add --extrapolate hold";
 
-/// What to do about a material, or a medium, that is not known everywhere: nothing where the fault lies elsewhere.
+/// The advice for a material or medium that is not known everywhere; empty where the fault lies elsewhere.
 fn advice(extrapolated: (Option<f64>, Option<f64>), three: bool) -> String {
     let hold = "to hold the last value beyond what was measured, add --extrapolate hold";
     match (extrapolated, three) {
@@ -243,7 +241,7 @@ fn extrapolated_beyond(
     (outside(from, &|nm| nm < from), outside(to, &|nm| nm > to))
 }
 
-/// The materials that are spectra of this substance and can be seen so, each with its surface.
+/// The materials that are spectra of this substance and have a surface under these conditions, each with its surface.
 pub fn surfaces_of<'a>(
     substance: &'a str,
     catalogue: &'a [Material],
@@ -256,7 +254,7 @@ pub fn surfaces_of<'a>(
     same.filter_map(move |other| Some((other, Surface::new(other, medium, viewing).ok()?)))
 }
 
-/// Red, green and blue in nanometres, as the thesis chose them: the middles of the three bands.
+/// Red, green and blue in nanometres, as in the thesis: the middles of the three bands.
 pub const THESIS_NM: [f64; 3] = [685.0, 535.0, 475.0];
 
 /// The relative index of refraction per channel.
@@ -269,7 +267,7 @@ pub struct Channels {
 }
 
 impl Material {
-    /// n and k at three wavelengths, linearly interpolated. Outside the measured range this fails and says so.
+    /// n and k at three wavelengths, linearly interpolated.
     ///
     /// # Errors
     /// A wavelength lies outside the measured range, or an index outside its limits.
@@ -280,7 +278,7 @@ impl Material {
 }
 
 impl Channels {
-    /// Of an index per channel.
+    /// The channels from an index each.
     pub fn of(indices: [Index; 3]) -> Channels {
         Channels {
             n: indices.map(|index| index.n),
@@ -288,7 +286,7 @@ impl Channels {
         }
     }
 
-    /// Whether nothing is absorbed.
+    /// Whether all k are 0.
     pub fn is_transparent(&self) -> bool {
         self.k == [0.0; 3]
     }

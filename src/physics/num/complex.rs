@@ -1,7 +1,6 @@
 //! [`Complex`]: complex numbers over any [`Num`].
 //!
-//! The modulus is scaled, so that it neither overflows nor loses small parts. The product is the plain one: |z| up to
-//! 1e150.
+//! The modulus is scaled, so that it neither overflows nor loses small parts. The product is not: |z| must stay below 1e150.
 
 use std::ops::{Add, Mul, Sub};
 

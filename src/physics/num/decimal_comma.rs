@@ -1,9 +1,9 @@
-//! Numbers whose decimals stand behind a comma, as many languages write them. A comma stands between numbers here.
+//! Numbers with a decimal comma, as many languages write them. Here a comma separates numbers.
 
-/// What is said of a word such as `1,5`, or `0,9,0,8,0,7` in the place of three numbers, where it was refused.
+/// The message for a refused word such as `1,5`, or `0,9,0,8,0,7` where three numbers are wanted.
 pub const POINT_NOT_COMMA: &str = "decimals stand behind a point, not a comma: 1.5, not 1,5";
 
-/// Whether a word reads as numbers with decimal commas: one number, or three. Digits stand on both sides of each comma.
+/// Whether a word reads as one or three numbers with decimal commas, with digits on both sides of each comma.
 pub fn has_decimal_commas(word: &str) -> bool {
     let parts: Vec<&str> = word.trim_start_matches('-').split(',').collect();
     let is_whole = |part: &&str| !part.is_empty() && part.bytes().all(|c| c.is_ascii_digit());

@@ -1,14 +1,12 @@
-//! [`Half`]: IEEE 754 binary16, rounded after every operation.
+//! [`Num`] for [`Half`] (IEEE 754 binary16, rounded after every operation), and for `f32` and `f64`.
 //!
-//! Each operation is done in `f32` and the result rounded to 11 bits. For `+ - * /` and `sqrt` the two
+//! Each operation of [`Half`] is done in `f32` and the result rounded to 11 bits. For `+ - * /` and `sqrt` the two
 //! roundings equal one, because 24 ≥ 2·11 + 2 (S. A. Figueroa, *When is double rounding innocuous?*, ACM
 //! SIGNUM Newsletter 30(3), 1995, <https://doi.org/10.1145/221332.221334>). `exp2` and `log2` are `libm`'s `f32`
 //! functions, then rounded: at most 0.501 ulp of binary16.
 //!
-//! `f32` and `f64`, the machine's own numbers, as [`Num`].
-//!
-//! `+ - * /` and `sqrt` round correctly (IEEE 754). `exp2` and `log2` come from the `libm` crate, below 1 ulp,
-//! because the standard library's call the platform's C library and may differ from machine to machine.
+//! In `f32` and `f64`, `+ - * /` and `sqrt` round correctly (IEEE 754). `exp2` and `log2` come from the `libm` crate, with
+//! errors below 1 ulp. The standard library's call the platform's C library and may differ between machines.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -30,8 +28,8 @@ impl Half {
     }
 }
 
-/// `x` cut to `f32` with the last bit set when anything was lost ("round to odd"), so that a second rounding
-/// gives what one would have given. `half::f16::from_f64` drops the low 32 bits instead, and so misses ties.
+/// `x` truncated to `f32`, with the last bit set when anything was lost ("round to odd"). A second rounding then
+/// gives the same as a single one. `half::f16::from_f64` drops the low 32 bits instead, and so misses ties.
 fn rounded_to_odd(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) == x || x.is_nan() {

@@ -1,10 +1,10 @@
-//! [`Interval`]: what a step of a formula can reach, for range analysis.
+//! [`Interval`]: the values that a step of a formula can have, for range analysis.
 //!
-//! Every result contains each real number that the operation gives on members of its operands: an end that was
-//! rounded is moved outward by one step of `f64`, an end that is exact stays (so 1 − [0, 1] is [0, 1]). `exp2` and
+//! Every result contains each real number that the operation gives on members of its operands. An end that was
+//! rounded is moved outward by one step of `f64`. An end that is exact stays, so 1 − [0, 1] is [0, 1]. `exp2` and
 //! `log2` are widened by 1e-15 of their value, which is more than `libm`'s error of 1 ulp (2.2e-16). Ends may be
-//! infinite; they are never NaN. The method is that of R. E. Moore, *Interval Analysis*, Prentice-Hall, 1966; the
-//! exactness tests are those of double-double arithmetic (see `dd.rs`).
+//! infinite but never NaN. The method is that of R. E. Moore, *Interval Analysis*, Prentice-Hall, 1966. Exactness is
+//! tested as in double-double arithmetic (see `dd.rs`).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -30,7 +30,7 @@ impl Interval {
         hi: f64::INFINITY,
     };
 
-    /// The numbers between two ends, given in either order; everything, when an end is a NaN.
+    /// The numbers between two ends, given in either order. Everything, if an end is a NaN.
     #[inline]
     pub fn new(one_end: f64, other_end: f64) -> Interval {
         if one_end.is_nan() || other_end.is_nan() {
@@ -297,7 +297,7 @@ impl Num for Interval {
         widened(libm::log2(self.lo.max(0.0)), libm::log2(self.hi.max(0.0)))
     }
 
-    /// Yes or No when it holds or fails for every pair of members.
+    /// Yes or No if it holds or fails for every pair of members, else Either.
     #[inline]
     fn less(self, other: Interval) -> Truth {
         if self.hi < other.lo {
@@ -309,14 +309,14 @@ impl Num for Interval {
         }
     }
 
-    /// Tighter than `self * self`, which takes the two factors for independent.
+    /// Tighter than `self * self`, which treats the two factors as independent.
     #[inline]
     fn squared(self) -> Interval {
         let size = self.abs();
         size * size
     }
 
-    /// Decreasing, so the ends change places; from an interval that reaches 0 it reaches +∞.
+    /// It decreases, so the ends swap. An interval that reaches 0 gives one that reaches +∞.
     #[inline]
     fn inverse_sqrt(self) -> Interval {
         let root = self.sqrt();

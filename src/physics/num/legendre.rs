@@ -1,21 +1,21 @@
-//! Quadrature by Gauss and Legendre: exact for polynomials of degree 2 n - 1 with n points.
+//! Gauss-Legendre quadrature: exact for polynomials up to degree 2 n - 1 with n points.
 //!
 //! Source: Gauss, "Methodus nova integralium valores per approximationem inveniendi", Commentationes Societatis Regiae
 //! Scientiarum Gottingensis Recentiores 3, 1815, <https://archive.org/details/methodusnovainte00gaus>. The points are the zeros of
 //! Legendre's polynomial, by Newton's method from `cos(π (i + 3/4) / (n + 1/2))`; the weights are `2 / ((1 - x²) P'(x)²)`.
 
-/// A rule of n points.
+/// A quadrature rule of n points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legendre {
     /// Points in (0, 1), ascending, and their weights, whose sum is 1; within 1e-15.
     points: Vec<(f64, f64)>,
 }
 
-/// Newton's method doubles the digits: three at the start, sixteen after three steps.
+/// Newton's method doubles the digits each step: three at the start, sixteen after three steps. Two more are margin.
 const ITERATIONS: usize = 5;
 
 impl Legendre {
-    /// The rule of so many points.
+    /// The rule with this many points.
     pub fn new(points: usize) -> Legendre {
         let points = (0..points).rev().map(|from_end| point(points, from_end));
         Legendre {

@@ -1,8 +1,7 @@
-//! Numbers: the trait that a formula computes with, and the kinds of number that implement it.
+//! Numbers: the trait that a formula computes with, and the number types that implement it.
 //!
-//! One formula, evaluated in several precisions, is how code error is measured: the same graph runs in
-//! [`Half`] (rounded after every operation), `f32`, `f64` and [`Dd`] (double-double), and in [`Interval`],
-//! which answers what a step can reach at all.
+//! Code error is measured by evaluating one formula in several precisions. The same graph runs in [`Half`] (rounded after
+//! every operation), `f32`, `f64` and [`Dd`] (double-double), and in [`Interval`], which gives the range of each step.
 
 mod complex;
 mod dd;
@@ -28,7 +27,7 @@ pub use parallel::in_parallel;
 pub use precision::{Precision, ulp_distance, ulp_of};
 pub use vulkan_tolerance::VulkanTolerance;
 
-/// The answer to a comparison. Intervals may overlap, and then it is open.
+/// The result of a comparison. It is undecided where intervals overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// Certainly not.
@@ -46,7 +45,7 @@ impl From<bool> for Truth {
     }
 }
 
-/// The same for each of three channels. It is inlined where [`array::map`] is not.
+/// A value for each of three channels. It is inlined where [`array::map`] is not.
 #[inline]
 pub fn each_channel<T>(mut of: impl FnMut(usize) -> T) -> [T; 3] {
     [of(0), of(1), of(2)]
@@ -89,7 +88,7 @@ pub trait Num:
     /// Whether `self < other`.
     fn less(self, other: Self) -> Truth;
 
-    /// x²; an interval knows that both factors are the same.
+    /// x². For an interval it is tighter than `self * self`, since both factors are the same number.
     #[inline]
     fn squared(self) -> Self {
         self * self
@@ -107,13 +106,13 @@ pub trait Num:
         self.max(Self::from_f64(0.0)).min(Self::from_f64(1.0))
     }
 
-    /// A value of which nothing is known: a NaN, or everything.
+    /// An unknown value: a NaN, or the interval of all numbers.
     #[inline]
     fn unknown() -> Self {
         Self::from_f64(f64::NAN)
     }
 
-    /// A value that covers both, for a choice that a comparison left open. Only intervals leave one open.
+    /// A value that covers both, for a select whose comparison is undecided. Only intervals leave one undecided.
     #[inline]
     fn either(self, _other: Self) -> Self {
         self

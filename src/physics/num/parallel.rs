@@ -1,10 +1,10 @@
-//! The same work many times, shared among the processor's cores. What comes of it does not depend on how many there are.
+//! Parallel calls, distributed over the CPU's cores. The results do not depend on the number of cores.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 
-/// The results of so many calls, in order. `progress` hears how many are done, of how many.
+/// The results of `count` calls, in order. `progress` is called with the number done and the total.
 pub fn in_parallel<T: Send>(
     count: usize,
     one: &(impl Fn(usize) -> T + Sync),

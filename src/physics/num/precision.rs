@@ -1,10 +1,8 @@
-//! [`Precision`]: what generated code computes in.
-//!
-//! The unit in the last place of `f32`: the yardstick of code error.
+//! [`Precision`], in which generated code computes, and the unit in the last place of `f32`, in which code error is measured.
 
 use super::{Half, Num};
 
-/// The kind of number that generated code computes with.
+/// The precision in which generated code computes.
 #[derive(
     Clone,
     Copy,
@@ -51,7 +49,7 @@ impl Precision {
             .find(|precision| precision.name() == name)
     }
 
-    /// What the names of functions and files end in.
+    /// The suffix of names of functions and files.
     #[doc(hidden)]
     pub fn suffix(self) -> &'static str {
         match self {
@@ -65,7 +63,7 @@ impl Precision {
         self == Precision::F16
     }
 
-    /// The smallest normal number: hardware may take what is smaller for 0.
+    /// The smallest normal number. Hardware may flush smaller ones to 0.
     #[doc(hidden)]
     pub fn smallest(self) -> f64 {
         match self {
@@ -74,7 +72,7 @@ impl Precision {
         }
     }
 
-    /// The number that a constant becomes; infinite where it is too large.
+    /// A constant rounded to this precision; infinite where it is too large.
     #[doc(hidden)]
     pub fn rounded(self, x: f64) -> f64 {
         match self {

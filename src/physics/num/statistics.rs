@@ -1,9 +1,9 @@
-//! What is told of readings: the middle, how far they scatter, and how sure the middle is. All by rank, so that one reading
-//! that something else disturbed moves nothing.
+//! Robust statistics of measurements: the median, their spread, and the median's confidence interval. All are by rank, so that
+//! a single disturbed reading changes nothing. Also least squares, and the rank correlation.
 
 use std::collections::BTreeMap;
 
-/// The value below which this share of all lies; between two values it is interpolated. NaN where there are none.
+/// The value below which this fraction of all lies, interpolated linearly between two values. NaN where there are none.
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -15,12 +15,12 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
     sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
 }
 
-/// The middle.
+/// The median.
 pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 
-/// The middle of the values of each name, in the order of names: one vote a name, however many values it has.
+/// The median of the values of each name, in the order of names: one number a name, however many values it has.
 pub fn medians<'a>(values: &[f64], names: impl IntoIterator<Item = &'a str>) -> Vec<f64> {
     let mut of: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (value, name) in values.iter().zip(names) {
@@ -29,13 +29,13 @@ pub fn medians<'a>(values: &[f64], names: impl IntoIterator<Item = &'a str>) -> 
     of.into_values().map(|own| median(&own)).collect()
 }
 
-/// How far the middle half reaches, as a share of the median.
+/// The interquartile range, as a fraction of the median.
 pub fn spread(values: &[f64]) -> f64 {
     (quantile(values, 0.75) - quantile(values, 0.25)) / median(values).abs()
 }
 
-/// As many numbers below `count`, drawn with repetition, again and again: what is computed of each draw scatters as it would
-/// over measurements made anew. The same draws in every run.
+/// Bootstrap samples: each is `count` indices below `count`, drawn with replacement. A statistic of the samples scatters as it
+/// would over repeated measurements. The samples are the same in every run.
 ///
 /// Source: B. Efron, "Bootstrap Methods: Another Look at the Jackknife", Annals of Statistics 7(1), 1979,
 /// <https://doi.org/10.1214/aos/1176344552>.
@@ -46,12 +46,12 @@ pub fn resamples(count: usize) -> impl Iterator<Item = Vec<usize>> {
     (0..TIMES).map(draw)
 }
 
-/// The limits within which 95 % of the values lie: of a statistic over [`resamples`] its confidence interval.
+/// The limits within which 95 % of the values lie. For a statistic over [`resamples`] it is its confidence interval.
 pub fn interval(values: &[f64]) -> (f64, f64) {
     (quantile(values, 0.025), quantile(values, 0.975))
 }
 
-/// The line through these points by least squares: its height at 0, and how steep it is.
+/// The least-squares line through these points: its intercept and its slope.
 pub fn least_squares(x: &[f64], y: &[f64]) -> (f64, f64) {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (about, level) = (mean(x), mean(y));
@@ -62,7 +62,7 @@ pub fn least_squares(x: &[f64], y: &[f64]) -> (f64, f64) {
     (level - rate * about, rate)
 }
 
-/// Spearman's rank correlation: 1 where both are in the same order, -1 where in the opposite one.
+/// Spearman's rank correlation: 1 if both are in the same order, -1 if in opposite orders.
 pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (ranks(a), ranks(b));
     let mean = (a.len() as f64 + 1.0) / 2.0;
@@ -72,7 +72,7 @@ pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
 }
 
-/// The place of each value in order, from 1; equal values share the mean of their places.
+/// The rank of each value, from 1. Equal values share the mean of their ranks.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let rank = |value: &f64| {
         let below = values.iter().filter(|other| *other < value).count() as f64;
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn the_interval_holds_what_it_should() {
-        // Where the lower decile of what is drawn lies is known: 0.1.
+        // The lower decile of these numbers is known: 0.1.
         let mut random = fastrand::Rng::with_seed(7);
         let holds = |_| {
             let drawn: Vec<f64> = (0..75).map(|_| random.f64()).collect();

@@ -1,4 +1,4 @@
-//! f64 whose exponentials and logarithms are as far off as Vulkan lets a GPU's be.
+//! f64 with exponentials and logarithms that err as much as Vulkan allows on a GPU.
 //!
 //! Source: Khronos, *Vulkan 1.3 Specification*, appendix "Precision of Core Standard Instructions", 2022,
 //! <https://registry.khronos.org/vulkan/specs/latest/html/vkspec.html#spirvenv-precision-operation>: exp2 within
@@ -8,7 +8,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Num, Truth, ulp_of};
 
-/// A number; `LOG` and `EXP` are -1, 0 or 1: which way logarithms and exponentials err.
+/// A number. `LOG` and `EXP` are -1, 0 or 1: the sign of the errors of logarithms and exponentials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VulkanTolerance<const LOG: i8, const EXP: i8>(f64);
 

@@ -8,9 +8,9 @@
 //! <https://doi.org/10.1017/CBO9781139644181>); of n/η and k/η it is h/η + (η² − 1)/(2 n η). So k is not needed, and n comes from F0
 //! and F82 by [`index_from_f0_f82`].
 //!
-//! Domain: F0 and F82 from 0 to 1, η from 1. A pair that no index gives takes the n of the nearest F82 that its F0 allows, and `exact`
-//! is false; so does F0 = 1, a mirror, which stays one. Error: none for one index. A channel that stands for a
-//! spectrum is off, over 75 metals and semiconductors, by .0002 in the median and .012 at most at η = 1.5 (the test `effects::coat`).
+//! Domain: F0 and F82 from 0 to 1, η from 1. For a pair that no index gives, n is that of the nearest F82 that its F0 allows, and
+//! `exact` is false. The same holds for F0 = 1, a mirror, which stays one. Error: none for one index. For a channel that represents
+//! a spectrum it is .0002 in the median and .012 at most, over 75 metals and semiconductors at η = 1.5 (the test `effects::coat`).
 
 use super::interface::index_from_f0_f82;
 
@@ -23,7 +23,7 @@ pub struct UnderCoat {
     pub n: f64,
     /// The surface's k in air.
     pub k: f64,
-    /// Whether an index gives the F0 and F82 that were asked for; otherwise n and k give the nearest ones.
+    /// Whether an index gives the requested F0 and F82. Otherwise n and k give the nearest ones.
     pub exact: bool,
 }
 

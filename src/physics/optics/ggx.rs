@@ -1,5 +1,5 @@
-//! What a rough surface reflects of light from everywhere: the integral of GGX with height-correlated Smith masking over all
-//! directions of light, as a sum over half vectors, so that any reflectance can stand in it.
+//! The directional albedo of a rough surface: the integral of GGX with height-correlated Smith masking over all directions of
+//! light, as a sum over half vectors, so that any reflectance can be used in it.
 //!
 //! ```text
 //! E(F) = ∫ F(h·v) D(h) G2(v, l) / (4 (n·v) (n·l)) (n·l) dl = ∫ F(h·v) G2(v, l) / G1(v) D_v(h) dh
@@ -11,17 +11,17 @@
 //! <https://doi.org/10.2312/EGWR/EGSR07/195-206>; G2, eq. (99), and D_v of Heitz, "Understanding the Masking-Shadowing Function in
 //! Microfacet-Based BRDFs", JCGT 3(2), 2014, <https://jcgt.org/published/0003/02/03/>. Dupuy and Benyoub, "Sampling Visible GGX
 //! Normals with Spherical Caps", 2023, <https://arxiv.org/abs/2306.05044>, map D_v to equal areas of a cap: v stretched to
-//! v' = (α v_x, v_y, v_z) of unit length, a direction c on the sphere with c_z > -v'_z, and h = (α (c + v')_xy, (c + v')_z) of unit
+//! v' = (α v_x, α v_y, v_z) of unit length, a direction c on the sphere with c_z > -v'_z, and h = (α (c + v')_xy, (c + v')_z) of unit
 //! length. Here c has polar angle t from the normal and azimuth φ from v.
 //!
-//! Where light leaves below the surface nothing is seen: of each circle t an arc is left, whose end has a closed form, as have the two t
-//! at which arcs begin and end. Between those the integrand is smooth, and Gauss and Legendre's rule converges quickly.
+//! Directions l below the surface contribute nothing. So each circle t is reduced to an arc, whose end has a closed form, as have
+//! the two t at which arcs begin and end. Between those the integrand is smooth, and Gauss-Legendre quadrature converges quickly.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::physics::num::Legendre;
 
-/// The rule of the integral.
+/// The quadrature rule of the integral.
 #[derive(Clone, Debug)]
 pub struct Ggx {
     polar: Legendre,
@@ -29,14 +29,14 @@ pub struct Ggx {
 }
 
 impl Default for Ggx {
-    /// Within 2e-5 at every angle and roughness, for reflectances as steep as (1 - h·v)¹⁴.
+    /// A rule with errors within 2e-5 at every angle and roughness, for reflectances as steep as (1 - h·v)¹⁴.
     fn default() -> Ggx {
         Ggx::new(24, 16)
     }
 }
 
 impl Ggx {
-    /// A rule of so many circles in each of two pieces, and so many points on each circle's arc.
+    /// A rule of `polar` circles in each of two pieces, and `azimuth` points on each circle's arc.
     pub fn new(polar: usize, azimuth: usize) -> Ggx {
         Ggx {
             polar: Legendre::new(polar),
@@ -44,13 +44,13 @@ impl Ggx {
         }
     }
 
-    /// Hands over h·v, in [0, 1], and its weight for each point of the rule: E(F) is the sum of weight times F(h·v).
+    /// Calls `take` with h·v, in [0, 1], and its weight for each point of the rule: E(F) is the sum of weight times F(h·v).
     /// `cos_v` is n·v in [0, 1]; α is in [0, 1], and 0 is a mirror.
     pub fn each(&self, cos_v: f64, alpha: f64, mut take: impl FnMut(f64, f64)) {
         self.each_lit(cos_v, alpha, |cos_h, _, weight| take(cos_h, weight));
     }
 
-    /// The same with n·l between h·v and the weight, which is in [0, 1] too.
+    /// The same with n·l, which is in [0, 1] too, as a second argument before the weight.
     pub fn each_lit(&self, cos_v: f64, alpha: f64, mut take: impl FnMut(f64, f64, f64)) {
         if alpha == 0.0 {
             return take(cos_v, cos_v, 1.0);
@@ -59,7 +59,7 @@ impl Ggx {
         let [first, last] = view.breaks();
         for (from, to) in [(0.0, first), (first, last)] {
             for (x, weight) in self.polar.over(0.0, 1.0).filter(|_| to > from) {
-                // Points crowd at both ends, where arcs open and close with a root's slope.
+                // Points are denser at both ends, where arcs open and close like a square root.
                 let t = from + (to - from) * x * x * (3.0 - 2.0 * x);
                 let slope = 6.0 * x * (1.0 - x) * (to - from);
                 self.circle(&view, t, weight * slope, &mut take);
@@ -73,7 +73,7 @@ impl Ggx {
         let Some((from, to)) = view.arc(circle) else {
             return;
         };
-        // Both halves of a circle are alike: π of each stands for 2 π, and the cap's area is 2 π (1 + v'_z).
+        // Both halves of a circle are alike, so π of azimuth counts for 2 π. The cap's area is 2 π (1 + v'_z).
         let share = weight * circle.0 / (PI * (1.0 + view.up));
         for (azimuth, part) in self.azimuth.over(from, to) {
             let (cos_h, light, shadowing) = view.seen(circle, azimuth);
@@ -106,7 +106,7 @@ impl Viewer {
     }
 
     /// The polar angles at which circles begin to dip below the horizon, and at which nothing of them is left above it. In the
-    /// plane of incidence l lies on the horizon for h half between it and v, and v' + c lies half between v' and c.
+    /// plane of incidence, l lies on the horizon when h bisects it and v, and v' + c bisects v' and c.
     fn breaks(&self) -> [f64; 2] {
         let (angle, stretched) = (
             libm::atan2(self.s, self.c),
@@ -119,8 +119,7 @@ impl Viewer {
         [ahead.min(behind), ahead.max(behind)].map(|t| t.clamp(0.0, end))
     }
 
-    /// The azimuths of a circle, from 0 to π, for which light leaves above the surface: n·l is a positive number times
-    /// `a + b cos φ`.
+    /// The azimuths of a circle, from 0 to π, for which l lies above the surface: n·l is a positive number times `a + b cos φ`.
     fn arc(&self, (sin_t, cos_t): (f64, f64)) -> Option<(f64, f64)> {
         let (alpha, up) = (self.alpha, cos_t + self.up);
         let b = 2.0 * alpha * sin_t * (self.s * up - self.c * alpha * self.along);
@@ -172,13 +171,13 @@ mod tests {
         sum
     }
 
-    /// With α = 1 seen from above: D is 1/π, l = 2 (n·h)² - 1, G2 = 2 l/(1 + l), and ∫ G2 dl/2 = 1 - ln 2.
+    /// With α = 1 and v = n: D is 1/π, l = 2 (n·h)² - 1, G2 = 2 l/(1 + l), and ∫ G2 dl/2 = 1 - ln 2.
     #[test]
     fn it_is_what_can_be_integrated_by_hand() {
         let got = integral(&Ggx::default(), 1.0, 1.0, |_| 1.0);
         assert!((got - (1.0 - std::f64::consts::LN_2)).abs() < 1e-7, "{got}");
         assert_eq!(integral(&Ggx::default(), 0.3, 0.0, |c| c), 0.3);
-        // At 90 degrees nothing is hidden: light leaves above the surface, and G2/G1 is 1.
+        // At 90 degrees nothing is lost: all l lie above the surface, and G2/G1 is 1.
         for alpha in [1e-6, 0.0025, 0.3, 1.0] {
             let got = integral(&Ggx::default(), 0.0, alpha, |_| 1.0);
             assert!((got - 1.0).abs() < 1e-5, "{alpha}: {got}");
@@ -202,7 +201,7 @@ mod tests {
         }
     }
 
-    /// The definition, over half vectors that D spreads: tan² θ_h = α² u / (1 - u) for u even in [0, 1].
+    /// The definition, over half vectors distributed by D: tan² θ_h = α² u / (1 - u) for u uniform in [0, 1].
     fn by_definition(cos_v: f64, alpha: f64, f: impl Fn(f64) -> f64) -> f64 {
         const STEPS: (usize, usize) = (3000, 600);
         let lambda = |c: f64| 0.5 * ((1.0 + alpha * alpha * (1.0 - c * c) / (c * c)).sqrt() - 1.0);
@@ -236,7 +235,7 @@ mod tests {
             let f = |c: f64| 0.1 + 0.9 * (1.0 - c).powi(5);
             let want = by_definition(cos_v, alpha, f);
             let got = integral(&Ggx::default(), cos_v, alpha, f);
-            // So many steps leave 1.3e-4 at the worst, eight times as many 8e-6.
+            // This number of steps errs by 1.3e-4 at worst, eight times as many by 8e-6.
             assert!((got - want).abs() < 2e-4, "{cos_v} {alpha}: {got} {want}");
         }
     }

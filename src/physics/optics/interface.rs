@@ -1,4 +1,6 @@
-//! The Fresnel law, by Snell's law in complex numbers. With m = n + ik and sin²θ = 1 − cos²θ:
+//! Fresnel's law, by Snell's law in complex numbers, and its inverse: the index with a given F0 and F82.
+//!
+//! With m = n + ik and sin²θ = 1 − cos²θ:
 //!
 //! ```text
 //! w   = m cos θt = √(m² − sin²θ)              (Snell: m sin θt = sin θ; Im w ≥ 0)
@@ -12,10 +14,12 @@
 //! Domain: n ≥ 0, k ≥ 0, |m| ≤ 1e70, 0 ≤ cos θ ≤ 1; not m = 0 at cos θ = 1, where the law has no limit.
 //!
 //! Error, absolute, for given `n`, `k`, `cos_theta`: below 8ε (ε = 2.2e-16 in `f64`, 1.2e-32 in double-double), except
-//! near the critical angle: where |w| < 0.1 cos θ it is below 3ε cos θ/|w|, and never above about √ε. One rounding of
-//! `cos_theta` does as much.
+//! near the critical angle. Where |w| < 0.1 cos θ it is below 3ε cos θ/|w|, and never above about √ε. One rounding of
+//! `cos_theta` has as large an effect.
 //!
-//! The index n + ik of a given colour: R(0°) = F0 and R(81.79°) = F82. With q = √F0:
+//! # The inverse
+//!
+//! The index n + ik with R(0°) = F0 and R(81.79°) = F82. With q = √F0:
 //!
 //! ```text
 //! (m − 1)/(m + 1) = q e^(iφ)                  the circle of all m with R(0°) = F0, 0 ≤ φ ≤ π
@@ -30,12 +34,12 @@
 //! <https://doi.org/10.2312/mam.20191305>.
 //!
 //! Branch: there is only one. As φ goes from 0 to π, n falls from (1 + q)/(1 − q), a dielectric, through the metals,
-//! to (1 − q)/(1 + q), a dielectric of index below 1, and F82 rises without a turn (the first test below), for F0 = 0.04
-//! from 0.455 to 1. The solution is therefore unique and continuous in both colours.
+//! to (1 − q)/(1 + q), a dielectric of index below 1. F82 rises monotonically (the first test below), for F0 = 0.04
+//! from 0.455 to 1. So the solution is unique and continuous in both colours.
 //!
-//! Domain: 0 ≤ F0 ≤ [`LARGEST_F0`], and F82 between its values at the two ends; other pairs give the nearest F82 at
-//! the nearest F0, with `exact` false. Error: F0 is met within 1e-14 and F82 within 1e-12. F82 is even in φ, hence flat
-//! at the dielectric end: there an error ε of F82 moves k by about √ε (glass may come back with k = 1e-8).
+//! Domain: 0 ≤ F0 ≤ [`LARGEST_F0`], and F82 between its values at the two ends. Other pairs give the nearest F82 at
+//! the nearest F0, with `exact` false. Error: F0 is matched within 1e-14 and F82 within 1e-12. F82 is even in φ, hence flat
+//! at the dielectric end. There an error ε of F82 moves k by about √ε (glass may come back with k = 1e-8).
 
 use super::{COS_82, Reflectance};
 use crate::physics::num::{Complex, Num, Truth};
@@ -118,8 +122,8 @@ pub fn critical_cos<N: Num>(eta: N) -> Option<N> {
 
 /// w² = m² − sin²θ.
 ///
-/// At large angles as (m² − 1) + cos²θ, which keeps the digits of n near 1; at small ones as m² − sin²θ, which
-/// keeps those of a small m.
+/// At large angles it is computed as (m² − 1) + cos²θ, which keeps the digits of n near 1. At small ones it is computed
+/// as m² − sin²θ, which keeps those of a small m.
 #[inline]
 fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
     let one = N::from_f64(1.0);
@@ -132,25 +136,25 @@ fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
     Complex::new(real, N::from_f64(2.0) * n * k)
 }
 
-/// |(a − b)/(a + b)|². Taken as a ratio of two squares, it is exactly 1 for real a and imaginary b, and for a = 0.
+/// |(a − b)/(a + b)|². As a ratio of two squares it is exactly 1 for real a and imaginary b, and for a = 0.
 #[inline]
 fn power_ratio<N: Num>(a: Complex<N>, b: Complex<N>) -> N {
     (a - b).norm_sqr() / (a + b).norm_sqr()
 }
 
-/// Through `f64`, because it must also be right where a comparison with a NaN says no.
+/// Whether x is 0, by way of `f64`: [`Num::less`] answers no for a NaN.
 #[inline]
 fn is_zero<N: Num>(x: N) -> bool {
     x.to_f64() == 0.0
 }
 
-/// F0 is limited to this: at 1 the circle is the line n = 0, and no index but an infinite one has F82 < 1.
+/// F0 is clamped to this. At 1 the circle is the line n = 0, and only an infinite index has F82 < 1.
 pub const LARGEST_F0: f64 = 0.999_999;
 
-/// Given colours are met when F82 differs by no more.
+/// The given colours count as matched if F82 differs by no more.
 const EXACT_WITHIN: f64 = 1e-12;
 
-/// Halvings of [0, π]: more than the exponents and digits of φ near 0 that change F82 in its last place.
+/// Halvings of [0, π] in the bisection: more than it takes to resolve every φ near 0 that changes F82 in its last place.
 const HALVINGS: u32 = 100;
 
 /// An index that gives two reflectances.
@@ -160,7 +164,7 @@ pub struct EffectiveIndex {
     pub n: f64,
     /// Extinction coefficient, ≥ 0.
     pub k: f64,
-    /// Whether it gives the reflectances that were asked for; otherwise the nearest ones that some index gives.
+    /// Whether it gives the requested reflectances. Otherwise it gives the nearest ones that some index gives.
     pub exact: bool,
 }
 

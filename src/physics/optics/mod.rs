@@ -1,8 +1,8 @@
-//! Optics: the exact laws of reflection, the truth that every generated formula is held against.
+//! Optics: the exact laws of reflection, the reference for every generated formula.
 //!
-//! Conventions: light arrives in a medium of index 1 (or any, when `n` and `k` are taken relative to it) at the
-//! plane surface of a medium m = n + ik, with k ≥ 0 absorbing. `cos_theta` is the cosine between the surface's
-//! normal and the direction of the light, in [0, 1]. `eta` is the relative index n_t/n_i; below 1 there is a
+//! Conventions: light arrives from a medium of index 1 (or any, when `n` and `k` are taken relative to it) at the
+//! plane surface of a medium m = n + ik, with k > 0 absorbing. `cos_theta` is the cosine of the angle between the surface
+//! normal and the direction of the light, in [0, 1]. `eta` is the relative index n_t/n_i. Below 1 there is a
 //! critical angle, past which the reflectance is exactly 1. At 90 degrees every reflectance is exactly 1, except
 //! that an index-matched surface (n = 1, k = 0) reflects 0 at every angle, 90 degrees included.
 
@@ -40,7 +40,7 @@ pub fn cosine(degrees: f64) -> f64 {
     }
 }
 
-/// The reflected share of the power, for the two linear polarisations.
+/// The reflected fraction of the power, for the two linear polarisations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflectance<N> {
     /// Electric field perpendicular to the plane of incidence (s, TE).

@@ -1,4 +1,4 @@
-//! Differences of colours that the eye sees: CIELAB and CIEDE2000.
+//! Colour differences: CIELAB and CIEDE2000, and the colour error of three-channel reflectance.
 //!
 //! ```text
 //! L* = 116 f(Y/Yw) − 16,  a* = 500 (f(X/Xw) − f(Y/Yw)),  b* = 200 (f(Y/Yw) − f(Z/Zw))
@@ -8,12 +8,13 @@
 //! Source: CIE 015:2018, *Colorimetry*, <https://doi.org/10.25039/TR.015.2018>; CIEDE2000 with its test pairs in G. Sharma,
 //! W. Wu, E. N. Dalal, *The CIEDE2000 Color-Difference Formula*, Color Research and Application 30(1), 2005, 21-30,
 //! <https://doi.org/10.1002/col.20070>. Computed by the crate `palette`. Unit: about 1 is the least difference that is
-//! seen side by side, above 5 the formula was never fitted and says only "much".
+//! visible side by side. Above 5 the formula was never fitted, and only says "much".
 //!
-//! Colour error: what is lost by taking reflectance as three numbers.
+//! # Colour error
 //!
-//! Red, green and blue of a reflectance hold for the light that they were integrated under. A renderer multiplies them
-//! with any light, and again at each bounce, and neither is what spectra do:
+//! The colour error is what is lost by taking reflectance as three numbers. Red, green and blue of a reflectance hold for the
+//! light that they were integrated under. A renderer multiplies them by any light, and again at each bounce. Spectra behave
+//! differently in both cases:
 //!
 //! ```text
 //! true     XYZ = Σ x̄ȳz̄(λ) S(λ) R(λ)^b / Σ ȳ(λ) S(λ)
@@ -21,11 +22,11 @@
 //! error        = ΔE₀₀ of both, adapted by Bradford from w to the white of the space
 //! ```
 //!
-//! The light enters the renderer with its own colour, not whitened; then the eye adapts to it, and both colours are seen
-//! beside the white of the space, for which CIELAB and ΔE₀₀ were made. (Lab relative to w without Bradford gives a fifth
+//! The light enters the renderer with its own colour, not whitened. Then the eye adapts to it, and both colours are compared
+//! relative to the white of the space, for which CIELAB and ΔE₀₀ were made. (Lab relative to w without Bradford gives a fifth
 //! less.) From D65 to A, after one bounce, gold errs by 8.6, brass by 4.3, aluminium by 0.1.
 //!
-//! A third error: it is the fault of three channels, never added to the model error or to the code error.
+//! This is a third kind of error, caused by having three channels. It is never added to the model error or to the code error.
 
 use glam::DVec3;
 use palette::color_difference::Ciede2000;
@@ -48,9 +49,9 @@ pub struct Lab {
 }
 
 impl Lab {
-    /// The colour `xyz` beside a white. Both in the same unit; the white above 0 in each of X, Y and Z.
+    /// The colour `xyz` relative to a white. Both have the same unit, and the white is above 0 in each of X, Y and Z.
     pub fn from_xyz(xyz: DVec3, white: DVec3) -> Lab {
-        // The white of `E` is (1, 1, 1): the division is ours.
+        // `palette`'s white `E` is (1, 1, 1), so we divide by the white ourselves.
         let relative = xyz / white;
         let lab = palette::Lab::<E, f64>::from_color_unclamped(palette::Xyz::new(
             relative.x, relative.y, relative.z,
@@ -76,11 +77,11 @@ pub fn ciede2000(one: Lab, other: Lab) -> f64 {
     Ciede2000::difference(one, other)
 }
 
-/// The colour error, as ΔE₀₀, of a reflectance under the light `other` after some bounces (1 to 3 are of use; 0 is no
+/// The colour error, as ΔE₀₀, of a reflectance under the light `other` after some bounces (1 to 3 are useful; 0 is no
 /// surface at all, and the error is 0).
 ///
-/// `reflectance` stands at the wavelengths of the integration's step, `rgb` is its colour by the same integration, after
-/// whatever was done about the gamut. A list of another length, or a light without power, gives NaN.
+/// `reflectance` is given at the wavelengths of the integration's step. `rgb` is its colour by the same integration, after
+/// gamut mapping. A list of another length, or a light without power, gives NaN.
 pub fn colour_error(
     reflectance: &[f64],
     rgb: DVec3,
@@ -198,8 +199,8 @@ mod colour_error_tests {
     use crate::physics::spectra::{Integrator, Space, Spectrum};
     use glam::DVec2;
 
-    /// Gold, n and k by wavelength in nm: P. B. Johnson, R. W. Christy, Phys. Rev. B 6, 4370, 1972, table I, as
-    /// refractiveindex.info tells it (CC0), main/Au/nk/Johnson.
+    /// Gold, n and k by wavelength in nm: P. B. Johnson, R. W. Christy, Phys. Rev. B 6, 4370, 1972, table I, as given by
+    /// refractiveindex.info (CC0), main/Au/nk/Johnson.
     const GOLD: [(f64, [f64; 2]); 16] = [
         (367.9, [1.48, 1.895]),
         (381.5, [1.46, 1.933]),
@@ -235,7 +236,7 @@ mod colour_error_tests {
         let rgb = integrator.colour(&reflectance);
         let error =
             |bounces| colour_error(&reflectance, rgb, &Illuminant::A, bounces, &integration);
-        // Computed apart with another program.
+        // Computed independently by another program.
         assert!((error(1) - 8.605).abs() < 1e-3, "{}", error(1));
         assert!((error(2) - 15.852).abs() < 1e-3, "{}", error(2));
         assert!(error(0) < 1e-9);

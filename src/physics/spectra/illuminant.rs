@@ -4,9 +4,9 @@
 //! S_A(λ) = 100 (560/λ)⁵ (exp(1.435e7 / (2848 · 560)) − 1) / (exp(1.435e7 / (2848 λ)) − 1)      λ in nm
 //! ```
 //!
-//! Source: CIE 015:2018, *Colorimetry*, 4th edition, <https://doi.org/10.25039/TR.015.2018>: A is
-//! this formula (Planck's law of 2856 K in the constants of today), D65, FL11 and LED-B3 are tables, and a table is
-//! taken as linear between its rows. E is equal power. Units do not matter: colours are relative to the light's own Y.
+//! Source: CIE 015:2018, *Colorimetry*, 4th edition, <https://doi.org/10.25039/TR.015.2018>. A is this formula (Planck's
+//! law at 2856 K with today's constants). D65, FL11 and LED-B3 are tables, linear between their rows. E is equal power.
+//! Units do not matter: colours are relative to the light's own Y.
 
 use std::sync::LazyLock;
 
@@ -28,7 +28,7 @@ pub enum Illuminant {
     F11,
     /// A white lamp of blue diodes and phosphor, about 4100 K.
     LedB3,
-    /// A user's.
+    /// A user's light.
     Table {
         /// The file's name, without folders.
         name: String,
@@ -45,7 +45,7 @@ static LED_B3: LazyLock<Spectrum<f64>> =
     LazyLock::new(|| embedded(include_str!("../../../data/spectra/led_b3.csv")));
 
 impl Illuminant {
-    /// Those that have a name of their own.
+    /// The standard illuminants, which have names.
     pub const NAMED: [Illuminant; 5] = [
         Illuminant::D65,
         Illuminant::A,
@@ -66,7 +66,7 @@ impl Illuminant {
         }
     }
 
-    /// The illuminant of this name, in capitals or small letters.
+    /// The standard illuminant of this name, in upper or lower case.
     ///
     /// ```
     /// use fresnel_gen::physics::spectra::Illuminant;
@@ -80,7 +80,7 @@ impl Illuminant {
     }
 
     /// A light from a user's table: wavelength in nm and power in any unit, 0 to 1e30, in two columns. It must cover
-    /// 380 to 780 nm and shine somewhere in there. `file` is its name, for messages and for [`Illuminant::name`].
+    /// 380 to 780 nm and have power somewhere in there. `file` is its name, for messages and for [`Illuminant::name`].
     ///
     /// # Errors
     /// The text is not a table of two columns, a value lies outside its limits, or the table does not cover 380 to 780 nm.
@@ -101,7 +101,7 @@ impl Illuminant {
         })
     }
 
-    /// The same light by another name, if it is a user's table: a standard one keeps its name.
+    /// The same light under another name, if it is a user's table. A standard one keeps its name.
     pub fn named(self, name: &str) -> Illuminant {
         match self {
             Illuminant::Table { power, .. } => Illuminant::Table {
@@ -112,8 +112,8 @@ impl Illuminant {
         }
     }
 
-    /// Its relative power at each wavelength of a sum in equal steps (nm, ascending). A user's table with rows between them, as of a
-    /// lamp with lines, counts with the mean about each wavelength ([`Spectrum::mean_about`]), so that no line falls between two steps.
+    /// Its relative power at each wavelength of a sum in equal steps (nm, ascending). Where a user's table has rows between them,
+    /// such as a lamp's lines, the mean about each wavelength is taken ([`Spectrum::mean_about`]), so that no line is lost.
     pub fn powers(&self, wavelengths: &[f64]) -> Vec<f64> {
         let (Illuminant::Table { power, .. }, [first, second, ..]) = (self, wavelengths) else {
             return wavelengths.iter().map(|nm| self.power(*nm)).collect();
@@ -151,7 +151,7 @@ fn incandescent(nm: f64) -> f64 {
     100.0 * ratio * ratio * ratio * ratio * ratio * planck(560.0) / planck(nm)
 }
 
-/// The line and what is wrong, when the rows do not light what is summed.
+/// The line and what is wrong, if the rows do not cover the summed range with power.
 fn range_fault(rows: &[SpectrumRow<2>]) -> Option<(usize, String)> {
     let (first, last) = (rows.first()?, rows.last()?);
     let (from, to) = (first.values[0], last.values[0]);
@@ -178,7 +178,7 @@ fn range_fault(rows: &[SpectrumRow<2>]) -> Option<(usize, String)> {
     })
 }
 
-/// A light that is nowhere brighter is none: products with it would lose their digits.
+/// A light whose power is nowhere above this is refused: products with it would lose their digits.
 const LEAST_POWER: f64 = 1e-30;
 
 fn spectrum(rows: &[SpectrumRow<2>]) -> Spectrum<f64> {
@@ -190,7 +190,7 @@ fn embedded(text: &str) -> Spectrum<f64> {
     spectrum(&rows("an embedded table", text, COLUMNS).expect("a test reads it"))
 }
 
-/// A name as headers and reports can hold it.
+/// A name that headers and reports can hold.
 fn without_controls(name: &str) -> String {
     name.chars().filter(|c| !c.is_control()).collect()
 }

@@ -1,27 +1,26 @@
-//! The integrator: a table of weights that makes a colour of a reflectance spectrum.
+//! The integrator, a table of weights that turns a reflectance spectrum into a colour ([`Integrator`]), and the choices that
+//! define it ([`Integration`]).
 //!
 //! ```text
 //! colour = Σ w(λ) R(λ) / Σ w(λ)        w(λ) = M A x̄ȳz̄(λ) S(λ) / Σ ȳ(λ) S(λ)
 //! ```
 //!
-//! M goes from XYZ to the space, A is the adaptation. Both sums run in the same order, so that R = 1 gives exactly
-//! (1, 1, 1), bit for bit, whatever the choices. Source: CIE 015:2018, *Colorimetry*, <https://doi.org/10.25039/TR.015.2018>;
-//! division by the mirror as in the tables of renderers since S. Lagarde, *Feeding a physically based shading model*,
+//! M maps XYZ to the space, A is the adaptation. Both sums run in the same order, so that R = 1 gives exactly (1, 1, 1), bit
+//! for bit, for all choices. Source: CIE 015:2018, *Colorimetry*, <https://doi.org/10.25039/TR.015.2018>. Division by the
+//! mirror is usual in tables for renderers since S. Lagarde, *Feeding a physically based shading model*,
 //! 2011, <https://seblagarde.wordpress.com/2011/08/17/feeding-a-physical-based-lighting-mode/>.
 //!
-//! Error: steps of 5 nm differ from 1 nm by at most 2e-4 for 86 metals under D65. The rows of a
-//! user's light that lie between the steps count too ([`super::Illuminant::powers`]): its lines are whole, and what they light is linear within a step.
+//! Error: steps of 5 nm differ from 1 nm by at most 2e-4 for 86 metals under D65. The rows of a user's light that lie between
+//! the steps count too ([`super::Illuminant::powers`]): its lines are complete, and reflectance is taken as linear within a step.
 //!
-//! X, Y and Z of light: its power, weighted by an observer and summed.
+//! X, Y and Z of light are its power, weighted by an observer and summed:
 //!
 //! ```text
 //! XYZ = Σ x̄ȳz̄(λ) S(λ) R(λ) / Σ ȳ(λ) S(λ)        R: what a surface reflects; Y = 1 for a mirror; S: Illuminant::powers
 //! ```
 //!
-//! Source: CIE 015:2018, *Colorimetry*, 4th edition, <https://doi.org/10.25039/TR.015.2018>. A plain sum over
+//! Source: CIE 015:2018, *Colorimetry*, 4th edition, <https://doi.org/10.25039/TR.015.2018>. It is a plain sum over
 //! equal steps, both ends counted in full. Domain: a light with some power at the wavelengths; without any, NaN.
-//!
-//! The choices that make a colour of a spectrum.
 
 use glam::DVec3;
 
@@ -30,10 +29,10 @@ use super::observer::Observer;
 use super::space::{Adaptation, Space};
 use super::wavelength::{FIRST_NM, LAST_NM, Step};
 
-/// Wavelengths, and what reflectance at each adds to red, green and blue.
+/// Wavelengths, and the weights of the reflectance at each in red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integrator {
-    /// In nm. [`Integrator::colour`] wants reflectance at these.
+    /// In nm. [`Integrator::colour`] takes reflectance at these.
     pub wavelengths: Vec<f64>,
     /// One for each wavelength.
     pub weights: Vec<DVec3>,
@@ -41,7 +40,7 @@ pub struct Integrator {
     pub mirror: DVec3,
 }
 
-/// A light that has no red, green or blue in a space: no reflectance can be divided by it.
+/// A light with almost no red, green or blue in a space, so that no reflectance can be divided by it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "under the illuminant `{illuminant}` a mirror is {mirror} in {space}; a reflectance can only be divided by a colour that is above 0 in all channels. Choose another illuminant, a wider space, or the adaptation `bradford`"
@@ -56,8 +55,8 @@ pub struct NoWhite {
 }
 
 impl Integrator {
-    /// The table for these choices. All named illuminants have one in all spaces; a user's light of nearly one
-    /// wavelength may have none.
+    /// The table for these choices. All standard illuminants have one in all spaces. A user's nearly monochromatic light may
+    /// have none.
     ///
     /// # Errors
     /// A mirror has a channel near zero under this light, so that weights cannot be divided by it.
@@ -87,7 +86,7 @@ impl Integrator {
         }
     }
 
-    /// Red, green and blue taken at one wavelength each (nm), as in tables of n and k for three channels.
+    /// Red, green and blue at one wavelength each (nm), as in tables of n and k for three channels.
     pub fn three_wavelengths(nm: [f64; 3]) -> Integrator {
         Integrator::of(nm.to_vec(), vec![DVec3::X, DVec3::Y, DVec3::Z])
     }
@@ -102,11 +101,11 @@ impl Integrator {
     }
 }
 
-/// The darkest channel of a light (its Y being 1) that colours are divided by. Below, the sum of positive and negative
-/// weights keeps few digits. The least of the named lights is A's blue in sRGB, 0.22.
+/// The least channel of a light, relative to its Y, that colours are divided by. Below it, the sum of positive and negative
+/// weights keeps few digits. The least of the standard illuminants is A's blue in sRGB, 0.22.
 const LEAST_MIRROR: f64 = 1e-3;
 
-/// How much reflectance at each wavelength (nm, in equal steps) adds to X, Y and Z: x̄ȳz̄ S / Σ ȳ S.
+/// The weights of reflectance at each wavelength (nm, in equal steps) in X, Y and Z: x̄ȳz̄ S / Σ ȳ S.
 #[inline]
 pub fn xyz_weights(observer: Observer, light: &Illuminant, wavelengths: &[f64]) -> Vec<DVec3> {
     let products = wavelengths
@@ -118,7 +117,7 @@ pub fn xyz_weights(observer: Observer, light: &Illuminant, wavelengths: &[f64]) 
     products.into_iter().map(|xyz| xyz / luminance).collect()
 }
 
-/// Σ weight · value, from the first to the last.
+/// Σ weight · value, in order.
 #[inline]
 pub fn weighted_sum(weights: &[DVec3], values: impl IntoIterator<Item = f64>) -> DVec3 {
     weights
@@ -127,18 +126,18 @@ pub fn weighted_sum(weights: &[DVec3], values: impl IntoIterator<Item = f64>) ->
         .fold(DVec3::ZERO, |sum, (weight, value)| sum + *weight * value)
 }
 
-/// Who looks, under which light, in which space. The default is CIE 1931, D65, sRGB, division by the mirror, 5 nm.
+/// The choices that turn a spectrum into a colour. The default is CIE 1931, D65, sRGB, division by the mirror, 5 nm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Integration {
-    /// Whose eye.
+    /// The standard observer.
     pub observer: Observer,
     /// The light.
     pub illuminant: Illuminant,
-    /// The space of the result.
+    /// The colour space of the result.
     pub space: Space,
     /// How a mirror becomes (1, 1, 1).
     pub adaptation: Adaptation,
-    /// The distance of the wavelengths.
+    /// The distance between wavelengths.
     pub step: Step,
 }
 
@@ -158,14 +157,14 @@ impl Integration {
         )
     }
 
-    /// What is to be said of the adaptation beside colours in this space.
+    /// A remark on the adaptation for colours in this space, if one is due.
     pub fn adaptation_remark(&self) -> Option<&'static str> {
         let is_other = self.space == Space::AcesCg && self.adaptation != Adaptation::Bradford;
         is_other.then_some(ACES_ADAPTS)
     }
 }
 
-/// Which adaptation ACES pipelines use, where it is another.
+/// The remark where ACES pipelines use another adaptation.
 const ACES_ADAPTS: &str = "a mirror is made white by dividing each channel; ACES pipelines adapt by Bradford: --adaptation bradford";
 
 #[cfg(test)]
@@ -284,7 +283,7 @@ mod tests {
             error.contains("`laser.csv`") && error.contains("linear sRGB"),
             "{error}"
         );
-        // Between all wavelengths of the sum there is nothing to divide by at all.
+        // The light's only line lies between the wavelengths of the sum, where there is nothing to divide by.
         let text = "380,0\n521,0\n522,1\n523,0\n780,0\n";
         let unseen = Illuminant::parse("unseen.csv", text).expect("it is a light");
         let choices = Integration {
@@ -308,8 +307,8 @@ mod tristimulus_tests {
 
     #[test]
     fn whites_of_the_illuminants() {
-        // D65 in steps of 1 nm, computed apart with another program; then x and y as CIE publishes them, D65, E, A and
-        // F11 in CIE 15:2004, LED-B3 in CIE 015:2018, of sums over a longer range.
+        // D65 in steps of 1 nm, computed independently by another program. Then x and y as CIE publishes them, for sums over a
+        // longer range: D65, E, A and F11 in CIE 15:2004, LED-B3 in CIE 015:2018.
         let d65 = white(&Illuminant::D65, Step::Nm1);
         assert!(
             d65.abs_diff_eq(DVec3::new(0.950423, 1.0, 1.088610), 5e-7),

@@ -1,13 +1,12 @@
-//! Spectra: from reflectance at every wavelength to one colour, and how far colours lie apart.
+//! Spectra: from reflectance at every wavelength to one colour, and differences between colours.
 //!
-//! The way of a colour, one file a step: [`Step`] gives the wavelengths; [`Observer`] and [`Illuminant`] say how much
-//! each counts for X, Y and Z; [`Space`] turns XYZ into linear red, green and blue; [`Adaptation`] says how a mirror
-//! comes out white; [`Integrator`] is all of this as one table of weights; [`Gamut`] is what happens to colours that
-//! a screen cannot show. [`ciede2000`] is a difference that the eye sees, [`colour_error`] what is lost by taking
-//! reflectance as three numbers at all.
+//! The steps to a colour: [`Step`] gives the wavelengths. [`Observer`] and [`Illuminant`] give the weight of each in X, Y and
+//! Z. [`Space`] turns XYZ into linear red, green and blue. [`Adaptation`] makes a mirror white. [`Integrator`] is all of this
+//! as one table of weights. [`Gamut`] handles colours outside [0, 1]. [`ciede2000`] is a perceptual difference, and
+//! [`colour_error`] is what is lost by taking reflectance as three numbers at all.
 //!
-//! Wavelengths are in nanometres, colours are linear and lie in [`glam::DVec3`] as (X, Y, Z) or (red, green, blue). The
-//! tables lie in `data/spectra/` and are part of the program.
+//! Wavelengths are in nanometres. Colours are linear, in [`glam::DVec3`] as (X, Y, Z) or (red, green, blue). The tables lie
+//! in `data/spectra/` and are embedded in the program.
 
 mod difference;
 mod illuminant;

@@ -1,4 +1,4 @@
-//! Standard observers: how much light of each wavelength counts for X, Y and Z.
+//! Standard observers: the colour matching functions for X, Y and Z.
 
 use std::sync::LazyLock;
 
@@ -7,10 +7,10 @@ use glam::DVec3;
 use super::spectrum::Spectrum;
 use super::table::rows;
 
-/// A standard observer of 2 degrees.
+/// A 2 degree standard observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Observer {
-    /// CIE 1931, which sRGB and all common colour spaces are defined by.
+    /// CIE 1931, by which sRGB and all common colour spaces are defined.
     #[default]
     Cie1931,
     /// CIE 2015, from cone fundamentals (CIE 170-2:2015). Its table begins at 390 nm; below, it is taken as 0.
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn known_values() {
-        // 106.8569 over the whole table, as CIE's tables print it; 380 to 780 nm is all that is ever summed.
+        // 106.8569 over the whole table, as CIE's tables print it. Only 380 to 780 nm is ever summed.
         let sum = |first: u16, last: u16| -> f64 {
             (first..=last)
                 .map(|nm| Observer::Cie1931.at(nm.into()).y)

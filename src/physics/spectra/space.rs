@@ -1,17 +1,18 @@
-//! Colour spaces of renderers: linear red, green and blue by their primaries and white.
+//! Colour spaces of renderers ([`Space`]), colours outside the gamut ([`Gamut`]), and chromatic adaptation ([`Adaptation`]).
+//!
+//! A space is linear red, green and blue, defined by its primaries and its white:
 //!
 //! ```text
 //! XYZ = P diag(P⁻¹ w) RGB      P: the primaries, w: the white, as columns (x/y, 1, (1 − x − y)/y)
 //! ```
 //!
 //! Source: SMPTE RP 177-1993, *Derivation of Basic Television Color Equations*,
-//! <https://doi.org/10.5594/SMPTE.RP177.1993>. The matrices are computed in f64 from the chromaticities, not taken from
-//! the rounded ones of the standards, which move a white by up to 1e-4.
+//! <https://doi.org/10.5594/SMPTE.RP177.1993>. The matrices are computed in f64 from the chromaticities. The rounded ones in
+//! the standards move a white by up to 1e-4.
 //!
-//! Gamut: what becomes of a reflectance above 1 or below 0, because the space has no such colour.
-//!
-//! Saturated gold has a red of 1.03 to 1.06 in sRGB. That is right for the sum of light, but a path tracer gains energy
-//! by it and a texture of unsigned numbers cannot hold it.
+//! Gamut: a reflectance may be above 1 or below 0, where the space has no such colour. Saturated gold has a red of 1.03 to
+//! 1.06 in sRGB. That is right for the sum of light, but a path tracer gains energy by it, and a texture of unsigned numbers
+//! cannot hold it.
 //!
 //! Adaptation: the eye takes the colour of the light for white, and so must a reflectance.
 //!
@@ -21,8 +22,8 @@
 //!
 //! Source: K. M. Lam, *Metamerism and Colour Constancy*, thesis, University of Bradford, 1985; the matrix and this linear
 //! form as in ICC.1:2022, annex E, <https://www.color.org/specification/ICC.1-2022-05.pdf>. Domain: lights with positive
-//! cone responses, as all lights near white have; a single violet or red line may not. For gold
-//! under D65 both ways differ by less than 2e-4, far from D65 they differ more.
+//! cone responses. All lights near white have them; a single violet or red line may not. For gold under D65 both adaptations
+//! differ by less than 2e-4, and far from D65 by more.
 
 use glam::{DMat3, DVec3};
 
@@ -33,17 +34,17 @@ pub enum Space {
     #[default]
     Srgb,
     /// Display P3: the primaries of SMPTE EG 432-1:2010 with the white of sRGB.
-    P3,
+    DisplayP3,
     /// Rec. 2020: ITU-R BT.2020-2 (2015), table 3.
     Rec2020,
     /// ACEScg: the primaries AP1 of the Academy's S-2014-004 (2016) with the white of ACES, near D60.
     AcesCg,
 }
 
-/// Files round chromaticities to three digits.
+/// The tolerance for chromaticities in files, which round to three digits.
 const ROUNDING: f64 = 1e-3;
 
-/// D65 as the standards of screens round it.
+/// D65 as rounded in the standards of displays.
 const WHITE_D65: [f64; 2] = [0.3127, 0.3290];
 
 /// The white of ACES: Academy TB-2018-001, *Derivation of the ACES White Point CIE Chromaticity Coordinates*.
@@ -51,13 +52,13 @@ const WHITE_ACES: [f64; 2] = [0.32168, 0.33767];
 
 impl Space {
     /// All of them.
-    pub const ALL: [Space; 4] = [Space::Srgb, Space::P3, Space::Rec2020, Space::AcesCg];
+    pub const ALL: [Space; 4] = [Space::Srgb, Space::DisplayP3, Space::Rec2020, Space::AcesCg];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Space::Srgb => "srgb",
-            Space::P3 => "p3",
+            Space::DisplayP3 => "p3",
             Space::Rec2020 => "rec2020",
             Space::AcesCg => "acescg",
         }
@@ -67,7 +68,7 @@ impl Space {
     pub fn title(self) -> &'static str {
         match self {
             Space::Srgb => "linear sRGB",
-            Space::P3 => "linear Display P3",
+            Space::DisplayP3 => "linear Display P3",
             Space::Rec2020 => "linear Rec. 2020",
             Space::AcesCg => "ACEScg",
         }
@@ -77,7 +78,7 @@ impl Space {
     pub fn primaries(self) -> [[f64; 2]; 3] {
         match self {
             Space::Srgb => [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]],
-            Space::P3 => [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060]],
+            Space::DisplayP3 => [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060]],
             Space::Rec2020 => [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046]],
             Space::AcesCg => [[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]],
         }
@@ -86,12 +87,12 @@ impl Space {
     /// Chromaticity (x, y) of white.
     pub fn white_xy(self) -> [f64; 2] {
         match self {
-            Space::Srgb | Space::P3 | Space::Rec2020 => WHITE_D65,
+            Space::Srgb | Space::DisplayP3 | Space::Rec2020 => WHITE_D65,
             Space::AcesCg => WHITE_ACES,
         }
     }
 
-    /// Whether chromaticities (x, y) of red, green, blue and white are its own, as files round them.
+    /// Whether chromaticities (x, y) of red, green, blue and white are this space's, up to the rounding in files.
     pub fn has(self, primaries: &[[f64; 2]; 3], white: &[f64; 2]) -> bool {
         let is_near =
             |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < ROUNDING;
@@ -116,8 +117,8 @@ impl Space {
     }
 }
 
-/// The matrix from red, green and blue of these chromaticities (x, y) to XYZ; (1, 1, 1) becomes this white, Y = 1. Not finite where they span
-/// no space.
+/// The matrix from red, green and blue of these chromaticities (x, y) to XYZ; (1, 1, 1) becomes this white, Y = 1. It is not
+/// finite where they are collinear.
 pub fn rgb_to_xyz(primaries: [[f64; 2]; 3], white: [f64; 2]) -> DMat3 {
     let [red, green, blue] = primaries.map(xyz_of);
     let primaries = DMat3::from_cols(red, green, blue);
@@ -129,7 +130,7 @@ pub fn xyz_of([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
 }
 
-/// A linear channel, limited to [0, 1], as a byte of sRGB: IEC 61966-2-1:1999.
+/// A linear channel, clamped to [0, 1], as an 8-bit sRGB value: IEC 61966-2-1:1999.
 ///
 /// ```
 /// use fresnel_gen::physics::spectra::srgb_byte;
@@ -146,7 +147,7 @@ pub fn srgb_byte(linear: f64) -> u8 {
     (255.0 * encoded).round() as u8
 }
 
-/// A channel as sRGB encodes it, in [0, 1], linear: the inverse of [`srgb_byte`] without its steps.
+/// The linear value of a channel in [0, 1] with sRGB encoding: the inverse of [`srgb_byte`] without its quantisation.
 pub fn srgb_linear(encoded: f64) -> f64 {
     if encoded <= 0.040_45 {
         encoded / 12.92
@@ -158,13 +159,13 @@ pub fn srgb_linear(encoded: f64) -> f64 {
 /// What to do with colours outside [0, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Gamut {
-    /// Nothing.
+    /// They are kept.
     Keep,
-    /// Each channel goes to the nearest end of [0, 1]: the hue changes, the other channels stay right.
+    /// Each channel is clamped to [0, 1]: the hue changes, the other channels stay right.
     #[default]
     Clip,
-    /// The colour is divided by its largest channel where that is above 1, and what is below 0 becomes 0: the hue
-    /// stays, all channels are too dark. Gold in Lagarde's table is made so.
+    /// The colour is divided by its largest channel if that is above 1, and negative channels become 0. The hue
+    /// stays, but all channels are too dark. Gold in Lagarde's table is made this way.
     Scale,
 }
 
@@ -200,7 +201,7 @@ pub enum Adaptation {
     /// Red, green and blue are divided by those of a mirror.
     #[default]
     Scale,
-    /// The light is adapted to the white of the space in the cones of Bradford; then a mirror is (1, 1, 1) up to
+    /// The light is adapted to the white of the space in Bradford's cone space. A mirror is then (1, 1, 1) up to
     /// rounding, and the division makes it exact.
     Bradford,
 }
@@ -226,7 +227,7 @@ impl Adaptation {
     }
 }
 
-/// The cone responses of Bradford, by rows: sharpened long, middle and short waves of XYZ.
+/// Bradford's matrix from XYZ to sharpened responses of the long, middle and short cones, by rows.
 const CONES: [[f64; 3]; 3] = [
     [0.8951, 0.2664, -0.1614],
     [-0.7502, 1.7135, 0.0367],
@@ -274,7 +275,7 @@ mod tests {
         }
     }
 
-    /// The matrices that the standards print, row by row, to the digits that they print.
+    /// The matrices of the standards, row by row, to the digits that they print.
     #[test]
     fn the_matrices_are_the_printed_ones() {
         for (space, rows, digits) in [

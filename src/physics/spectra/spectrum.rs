@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Values by ascending wavelength. `V` is a number, or several: the three functions of an observer, n and k.
+/// Values by ascending wavelength. `V` is a number or several, such as the three functions of an observer, or n and k.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum<V> {
     points: Vec<(f64, V)>,
@@ -39,12 +39,12 @@ where
         }
         let low = self.points[after.checked_sub(1)?];
         let share = (nm - low.0) / (high.0 - low.0);
-        // Not for a NaN, which is past no wavelength and before none.
+        // None for a NaN, which is neither above nor below any wavelength.
         (share > 0.0).then(|| low.1 + (high.1 - low.1) * share)
     }
 
-    /// The mean about a wavelength in nm, with weights that fall from 1 there to 0 at this distance on both sides: what a sum over steps of that width
-    /// takes of all that lies between its wavelengths. None where no value lies within the distance.
+    /// The mean about a wavelength in nm, with weights that fall linearly from 1 there to 0 at this distance on both sides. A sum
+    /// in steps of that width then includes all that lies between its wavelengths. None where no value lies within the distance.
     pub fn mean_about(&self, nm: f64, distance: f64) -> Option<V> {
         let (first, last) = self.range();
         let (from, to) = ((nm - distance).max(first), (nm + distance).min(last));

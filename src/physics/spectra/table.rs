@@ -1,4 +1,4 @@
-//! A table of numbers by wavelength, read from text and checked row by row: the embedded tables and a user's light.
+//! Reads a table of numbers by wavelength and checks it row by row: the embedded tables and a user's light.
 //!
 //! ```text
 //! # a comment; blank lines are allowed too
@@ -6,8 +6,8 @@
 //! 380, 49.9755         wavelength in nm, ascending; then numbers from 0 to 1e30
 //! ```
 //!
-//! Numbers are separated by semicolons, or by commas, or by spaces and tabs: by the first of the three that stands in
-//! the line, so that a decimal comma beside semicolons is found and told.
+//! Numbers are separated by semicolons, by commas, or by spaces and tabs: by the first of the three that occurs in
+//! the line, so that a decimal comma beside semicolons is found and reported.
 
 use super::wavelength::FileFault;
 
@@ -18,9 +18,9 @@ const GREATEST_NM: f64 = 1e6;
 /// The largest value of a table: far above any unit of light, and sums of it stay finite.
 const GREATEST_VALUE: f64 = 1e30;
 
-/// One row, and where it stood.
+/// One row, and its line.
 pub(super) struct SpectrumRow<const N: usize> {
-    /// From 1.
+    /// The line number, from 1.
     pub line: usize,
     /// Wavelength in nm, then the other columns.
     pub values: [f64; N],
@@ -36,7 +36,7 @@ pub(super) fn rows<const N: usize>(
     let mut names_seen = false;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut fields = fields(line.split('#').next().unwrap_or(""));
-        // Spreadsheets write a separator behind each line.
+        // Spreadsheets write a separator at the end of each line.
         if fields.len() > N && fields[fields.len() - 1].text.is_empty() {
             fields.pop();
         }
@@ -108,7 +108,7 @@ pub fn is_separator(line: &str) -> bool {
         .is_some_and(|sign| sign.chars().count() <= 1)
 }
 
-/// Whether a field can be the name of a column: it does not look like a number, not even a misspelt one.
+/// Whether a field can be the name of a column: it does not look like a number, not even like a misspelt one.
 fn is_name(field: &str) -> bool {
     let begins_as_number = field.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
     !field.is_empty() && !begins_as_number && field.parse::<f64>().is_err()

@@ -1,21 +1,21 @@
-//! The text of a user's file, from its bytes: the one place that knows marks of the bytes' order and other encodings.
+//! Decodes the bytes of a user's file to text: the only place that knows byte order marks and other encodings.
 //!
-//! A mark of UTF-8 (EF BB BF) before a text is no part of it. Source: The Unicode Standard 17.0, section 23.8.
+//! A UTF-8 byte order mark (EF BB BF) before a text is not part of it. Source: The Unicode Standard 17.0, section 23.8.
 
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Why bytes are no text, and where.
+/// Why bytes are not text, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextFault {
-    /// From 1.
+    /// The line number, from 1.
     pub line: usize,
-    /// From 1, in bytes.
+    /// The column from 1, in bytes.
     pub column: usize,
     /// What they are, and what to do.
     pub what: &'static str,
 }
 
-/// The text that bytes are, without a mark.
+/// The text that the bytes encode, without a byte order mark.
 ///
 /// # Errors
 /// They are not UTF-8.
@@ -36,7 +36,7 @@ pub fn user_text(bytes: Vec<u8>) -> Result<String, TextFault> {
     })
 }
 
-/// The text of a mesh, whose names and comments may be in any encoding that has ASCII: what is not UTF-8 there is replaced.
+/// The text of a mesh. Its names and comments may be in any superset of ASCII: what is not UTF-8 is replaced.
 ///
 /// # Errors
 /// The bytes are UTF-16, or no text.
@@ -49,7 +49,7 @@ pub fn mesh_text(bytes: Vec<u8>) -> Result<String, TextFault> {
     }
 }
 
-/// The bytes of a text whose parser looks for UTF-8 itself, without a mark.
+/// The bytes of a text without a byte order mark, for parsers that check UTF-8 themselves.
 ///
 /// # Errors
 /// They are UTF-16.
@@ -58,7 +58,7 @@ pub fn without_mark(bytes: &[u8]) -> Result<&[u8], TextFault> {
     Ok(bytes.strip_prefix(MARK).unwrap_or(bytes))
 }
 
-/// Where lines end with CR alone, as Excel writes them for old Macs, LF in its place.
+/// The text with LF in place of CR, where lines end with CR alone, as Excel writes them for old Macs.
 fn with_line_feeds(text: String) -> String {
     if text.contains('\n') {
         text
@@ -95,7 +95,7 @@ mod tests {
     fn a_mark_is_no_part_of_a_text() {
         assert_eq!(text(b"\xef\xbb\xbfv 1\n").as_deref(), Ok("v 1\n"));
         assert_eq!(text(b"\xef\xbb\xbf").as_deref(), Ok(""));
-        // One before, and not two: the second is a letter.
+        // One mark is removed, not two: the second is a character.
         assert_eq!(
             text(b"\xef\xbb\xbf\xef\xbb\xbfx").as_deref(),
             Ok("\u{feff}x")

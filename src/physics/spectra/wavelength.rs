@@ -1,9 +1,7 @@
-//! The wavelengths that a spectrum is summed over: 380 to 780 nm, both ends included.
+//! The wavelengths that a spectrum is summed over, 380 to 780 nm with both ends, and faults in users' files ([`FileFault`]).
 //!
-//! The eye sees little beyond: 400 to 700 nm instead moves the colour of no metal measured by more than 9e-4, and of
-//! the luminosity of all light, the sum of ȳ, 380 to 780 nm hold all but 5 parts in a million.
-//!
-//! What is wrong with a user's file, and where.
+//! The eye sees little beyond them. Summing 400 to 700 nm instead changes the colour of no measured metal by more than 9e-4,
+//! and 380 to 780 nm holds all but 5 parts in a million of the sum of ȳ.
 
 use crate::physics::foreign::{Foreign, one_line};
 
@@ -13,10 +11,10 @@ pub const FIRST_NM: f64 = 380.0;
 /// The last wavelength of a sum, in nm.
 pub const LAST_NM: f64 = 780.0;
 
-/// What the observers see at all, in nm: the range of the tables of CIE.
+/// The range of the observers in nm, which is that of the CIE's tables.
 pub const OBSERVED_NM: (f64, f64) = (360.0, 830.0);
 
-/// The distance of the wavelengths of a sum.
+/// The distance between the wavelengths of a sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Step {
     /// 81 wavelengths. Colours of metals differ from those of 1 nm by at most 2e-4.
@@ -61,16 +59,16 @@ impl Step {
 pub struct FileFault {
     /// The file, as the user named it.
     pub file: String,
-    /// From 1.
+    /// The line number, from 1.
     pub line: usize,
-    /// From 1, in characters.
+    /// The column from 1, in characters.
     pub column: usize,
     /// What was found, and what is allowed.
     pub what: String,
 }
 
 impl FileFault {
-    /// A fault at an offset of a text, in bytes: line and column are counted there.
+    /// A fault at a byte offset of a text, from which line and column are counted.
     pub fn at(file: &str, text: &str, offset: usize, what: String) -> FileFault {
         let before = text.get(..offset).unwrap_or("");
         FileFault {

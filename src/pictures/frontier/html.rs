@@ -1,4 +1,4 @@
-//! All charts on one page: the set, the axes and what is shown are chosen there. Self-contained, for any browser.
+//! The HTML page with all charts, where a reader chooses the set, the axes and what is shown. Self-contained, for any browser.
 
 use serde::Serialize;
 use tera::Context;
@@ -9,7 +9,7 @@ use crate::pictures::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
 
-/// What the page's script reads.
+/// The data that the page's script reads.
 #[derive(Serialize)]
 struct PageData<'a> {
     least_error: f64,
@@ -51,14 +51,14 @@ struct SetColumns<'a> {
     errors: Vec<[Option<f64>; 4]>,
 }
 
-/// The page; it opens with this set, cost and error. Or why it cannot be made.
+/// The page, or why it cannot be made. It opens with this set, cost and error.
 ///
 /// # Errors
 /// The page's template cannot be filled.
 pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<String, String> {
     let json = serde_json::to_string(&page_data(data)).map_err(|why| why.to_string())?;
     let mut context = Context::new();
-    // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
+    // The JSON may hold `</script>` in a string. A JSON escape keeps that from ending the script.
     context.insert("data", &json.replace('<', "\\u003c"));
     context.insert("first", &[set, cost, error]);
     context.insert("command", &data.command);
@@ -113,7 +113,7 @@ fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
     }
 }
 
-/// Each error with four digits that count: what is seen of a point on a page.
+/// Each error with four significant digits, as much as a reader can see of a point on a page.
 fn four_digits(errors: &MethodErrors) -> [Option<f64>; 4] {
     ERRORS.map(|axis| {
         let error = (axis.value)(errors)?;

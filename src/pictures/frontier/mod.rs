@@ -1,4 +1,4 @@
-//! Error against cost: the chart as a picture, as a page, and as text. Its data stand in the room `chart`.
+//! Error against cost, as a picture, as a page, and as text. The data stand in the room `chart` of the lab.
 
 mod html;
 mod svg;

@@ -1,6 +1,5 @@
-//! The chart as a self-contained SVG: both axes in powers of ten.
-//!
-//! Where names stand beside points, so that none lies over another or over a point.
+//! The chart of error against cost as self-contained SVG, with both axes in powers of ten. Names beside points are placed so that
+//! none overlaps another or a point.
 
 use crate::lab::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
 use crate::pictures::plot::{
@@ -18,11 +17,11 @@ const FRAME: PanelFrame = PanelFrame {
 };
 /// Room for the labels of the vertical axis and for its name.
 const LEFT: f64 = 84.0;
-/// Room for the same below.
+/// Room for the labels and the name of the horizontal axis.
 const BELOW: f64 = 62.0;
 /// Room for the foot.
 const FOOT_ROOM: f64 = 34.0;
-/// How much wider than the points the axes are.
+/// The factor by which the axes are wider than the points.
 const SLACK: f64 = 1.25;
 
 const OURS: &str = BLUE;
@@ -52,7 +51,7 @@ impl Plane {
         }
     }
 
-    /// Where a point stands.
+    /// The position of a point.
     fn at(&self, point: &ChartPoint) -> (f64, f64) {
         (
             self.axes.x.at(point.cost),
@@ -81,7 +80,7 @@ fn power_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
     ticks.map(tick).collect()
 }
 
-/// The picture of a view; none where nothing of it is known.
+/// The picture of a view; `None` where it has no known points.
 pub fn chart_svg(view: &ChartView) -> Option<String> {
     let points = view.points();
     if points.is_empty() {
@@ -106,7 +105,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
     elements.extend(titles(view, &plane.axes));
     elements.push(staircase(&points, &plane));
     elements.extend(pairs(&points, &plane));
-    // A full dot lies over its hollow one where they are the same, and a user's over all.
+    // A full dot lies over a hollow one at the same place, and a user's dot over all.
     let mut layers: Vec<&ChartPoint> = points.iter().collect();
     layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
     elements.extend(layers.into_iter().map(|point| dot(point, &plane)));
@@ -119,7 +118,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
 const KEY: &str = "Blue: ours. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
 largest error is least. Square: reads a texture; its cost excludes the fetch. The line: of functions that read no texture none is both cheaper and as accurate; those that fail inside their domain are left out of it.";
 
-/// The key, with a sentence on a user's function, and what is left out.
+/// The key, with a sentence on a user's function and on what is left out.
 fn key(view: &ChartView) -> String {
     let user = view.data.entries.iter().find_map(ChartEntry::user);
     let own = user.map(|user| match view.lacks() {
@@ -142,7 +141,7 @@ fn titles(view: &ChartView, axes: &Axes) -> Vec<String> {
     axes.titles(&under, 24.0, &beside, FRAME.margin - 8.0)
 }
 
-/// The frontier, as the least error that a cost buys.
+/// The frontier as a staircase: the least error at each cost.
 fn staircase(points: &[ChartPoint], plane: &Plane) -> String {
     let Area { top, right, .. } = plane.axes.area;
     let best = points.iter().filter(|point| point.is_on_frontier);
@@ -160,7 +159,7 @@ fn staircase(points: &[ChartPoint], plane: &Plane) -> String {
     )
 }
 
-/// A line from each method with its intended inputs to itself with its best ones.
+/// A line for each method, from its point with intended inputs to its point with the best inputs.
 fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
     let best = points.iter().filter(|point| point.entry.is_best);
     let line = |best: &ChartPoint| {
@@ -219,7 +218,8 @@ fn diamond(x: f64, y: f64) -> String {
     )
 }
 
-/// Names of points, a user's first, then those of the frontier. A method at its best, on a line with itself, has one only there.
+/// Names of points: a user's first, then those of the frontier. A method's point with its best inputs has a
+/// name only on the frontier.
 fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
     const FONT: &Font = &TICK;
     let has_name = |point: &&ChartPoint| point.is_on_frontier || !point.entry.is_best;
@@ -253,7 +253,7 @@ fn led((x, y): (f64, f64), place: &LabelPlace, width: f64) -> String {
     )
 }
 
-/// A name's place: its left and its middle, and whether it stands so far off that a line leads to it.
+/// A name's place, and whether it is so far from its point that a line leads to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LabelPlace {
     /// The left end.
@@ -264,12 +264,12 @@ pub struct LabelPlace {
     pub is_led: bool,
 }
 
-/// Half of a point's width.
+/// Half the width of a point.
 pub const DOT: f64 = 4.5;
-/// From a point to its name.
+/// The gap between a point and its name.
 const GAP: f64 = 3.0;
 
-/// The area of this width and height around a point.
+/// The area with these half sizes around a point.
 fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
     Area {
         left: x - half_width,
@@ -279,8 +279,8 @@ fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
     }
 }
 
-/// A place for the name of each of these points, of this width and height, in their order, over none of all points; none where
-/// there is no room.
+/// A place for the name of each of these points, of this width and height, in order, so that no name covers any of all points.
+/// `None` where there is no room.
 pub fn place_names(
     points: &[(f64, f64)],
     widths: &[f64],
@@ -300,12 +300,12 @@ pub fn place_names(
     places
 }
 
-/// The area of a name by its left end and the middle of its height.
+/// The area of a name, from its left end and the middle of its height.
 fn beside(left: f64, middle: f64, width: f64, height: f64) -> Area {
     around((left + width / 2.0, middle), width / 2.0, height / 2.0)
 }
 
-/// Right, left, above and below, then the same further off.
+/// The candidates for a place: right, left, above and below, then the same farther off.
 fn candidates(
     (x, y): (f64, f64),
     width: f64,

@@ -1,4 +1,4 @@
-//! Passes in GLSL ES 3.00: naga translates what is around our functions, and our own text takes the place of its translation of them.
+//! Passes in GLSL ES 3.00. naga translates the code around our functions, and our own text replaces its translation of them.
 
 use naga::back::glsl;
 use naga::compact::{KeepUnused, compact};
@@ -9,21 +9,21 @@ use serde::Serialize;
 
 use crate::generator::emit::validate_wgsl;
 
-/// What could not be translated: a bug.
+/// The translation failed: a bug.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct LoweringFault(pub String);
 
-/// A vertex or fragment shader without the functions of users: they are named, and what is before and after them is given.
+/// A vertex or fragment shader without the users' functions: their names, and the text before and after them.
 #[derive(Clone, Debug, Serialize)]
 pub struct GlesProgram {
     /// The text before the first function.
     pub before: String,
     /// The functions that it calls itself, in their order.
     pub functions: Vec<String>,
-    /// Whether the calls of the method come behind these.
+    /// Whether the calls of the method follow these functions.
     pub calls: bool,
-    /// The text behind them.
+    /// The text after them.
     pub after: String,
     /// The name of the frame's block, if it reads it.
     pub block: Option<String>,
@@ -31,7 +31,7 @@ pub struct GlesProgram {
     pub textures: Vec<LoweredTexture>,
 }
 
-/// A texture with the sampler that it is read by.
+/// A texture with its sampler.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct LoweredTexture {
     /// Its name.
@@ -42,10 +42,10 @@ pub struct LoweredTexture {
     pub sampler: Option<u32>,
 }
 
-/// What calls the frame's block in fragment shaders.
+/// The name of the frame's block in fragment shaders.
 pub const FRAGMENT_FRAME: &str = "_group_0_binding_0_fs";
 
-/// What stands for the calls of a method until one is chosen. It reads the frame, as they do.
+/// Stands in for the calls of a method until one is chosen. It reads the frame, as they do.
 pub const STAND_IN: &str = "
 fn reflectance(incident: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     return incident * normal + frame.inputs[0].xyz;
@@ -61,11 +61,11 @@ fn specular(n_dot_v: f32, n_dot_l: f32, n_dot_h: f32, v_dot_h: f32, alpha: f32) 
 ";
 const CALLS: [&str; 3] = ["reflectance", "transmittance_out", "specular"];
 
-/// The entry point of a module in GLSL ES, without the functions of these names and without the calls. Off screen, rows of a picture are
-/// counted from the top, as in WebGPU.
+/// The entry point of a module in GLSL ES, without the functions of these names and without the calls. Off screen, the rows of a
+/// picture are counted from the top, as in WebGPU.
 ///
 /// # Errors
-/// naga refuses the text, or writes it in a way that this does not know.
+/// naga refuses the text, or writes it in an unexpected form.
 pub fn lowered(
     wgsl: &str,
     entry: &str,
@@ -73,7 +73,7 @@ pub fn lowered(
     is_off_screen: bool,
 ) -> Result<GlesProgram, LoweringFault> {
     let (mut module, _) = validate_wgsl(wgsl).map_err(LoweringFault)?;
-    // naga writes functions that nobody calls, too.
+    // naga also writes functions that are not called.
     module.entry_points.retain(|point| point.name == entry);
     compact(&mut module, KeepUnused::No);
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
@@ -151,7 +151,7 @@ fn translated(
     Ok((text, names))
 }
 
-/// naga puts a `_` behind a name that ends in a digit.
+/// naga appends a `_` to names that end in a digit.
 fn own_names(mut text: String, functions: &[String]) -> String {
     for name in functions {
         text = text.replace(&format!(" {name}_("), &format!(" {name}("));
@@ -159,7 +159,7 @@ fn own_names(mut text: String, functions: &[String]) -> String {
     text
 }
 
-/// The first function of these: where it begins, where the text goes on, and its name.
+/// The first of these functions in the text: where it begins, where the text goes on, and its name.
 fn next_function<'a>(text: &str, names: &[&'a str]) -> Option<(usize, usize, &'a str)> {
     let mut at = 0;
     for line in text.split_inclusive('\n') {
@@ -182,7 +182,7 @@ fn binding(module: &Module, variable: Handle<GlobalVariable>) -> Option<u32> {
     bound.map(|bound| bound.binding)
 }
 
-/// The name of the block itself; its instance is called otherwise.
+/// The name of the block itself; its instance has another name.
 fn block(module: &Module, names: &glsl::ReflectionInfo) -> Option<String> {
     let mut blocks = names.uniforms.iter();
     let found = blocks.find(|(variable, _)| binding(module, **variable) == Some(0));

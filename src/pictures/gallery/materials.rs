@@ -1,4 +1,4 @@
-//! Materials as numbers: the index, the values of each method's inputs, and what is recorded of errors and costs.
+//! Materials as numbers: the index, the values of each method's inputs, and the recorded errors and costs.
 
 use std::collections::BTreeMap;
 
@@ -24,11 +24,11 @@ pub struct MaterialNumbers {
     pub n: [f32; 3],
     /// k of red, green and blue.
     pub k: [f32; 3],
-    /// How light dies away in it.
+    /// Its absorption coefficient for red, green and blue, per metre.
     pub absorption: [f32; 3],
-    /// The values of each method's inputs, in their order.
+    /// The values of each method's inputs, in the order of the inputs.
     pub inputs: BTreeMap<&'static str, Vec<[f32; 3]>>,
-    /// The errors of each method by each measure.
+    /// The errors of each method by each metric.
     pub errors: BTreeMap<&'static str, [Option<f64>; 4]>,
 }
 
@@ -37,7 +37,7 @@ pub struct MaterialNumbers {
 pub struct MethodNumbers {
     /// Its name.
     pub name: &'static str,
-    /// One line.
+    /// What it is, in one line.
     pub summary: &'static str,
     /// Who published it.
     pub source: String,
@@ -45,7 +45,7 @@ pub struct MethodNumbers {
     pub inputs: Vec<&'static str>,
     /// Where it breaks the function contract.
     pub fails: Option<String>,
-    /// What an evaluation costs on each axis.
+    /// The cost of an evaluation on each axis.
     pub costs: Vec<Option<f64>>,
 }
 
@@ -54,11 +54,11 @@ pub struct MethodNumbers {
 pub struct OwnIndex {
     /// Whether light passes through such bodies.
     pub transparent: bool,
-    /// The first n, the step, how many.
+    /// The first n, the step, and the number of values.
     pub n: [f64; 3],
-    /// The first k, the step, how many.
+    /// The first k, the step, and the number of values.
     pub k: [f64; 3],
-    /// How many values of each method there are for an index, and the values: of each n those of each k.
+    /// For each method, the number of values per index, and the values: for each n those of each k.
     pub inputs: BTreeMap<&'static str, (usize, Packed)>,
 }
 
@@ -85,7 +85,7 @@ pub fn method_numbers(data: &ChartData) -> Vec<MethodNumbers> {
     shown().map(numbers).collect()
 }
 
-/// Where charts have a method with its intended inputs.
+/// The index of a method with its intended inputs in the chart's data.
 fn entry(data: &ChartData, method: &Method) -> Option<usize> {
     let is_own = |entry: &ChartEntry| !entry.is_best && entry.name() == method.name;
     data.entries.iter().position(is_own)
@@ -118,7 +118,7 @@ fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
     }
 }
 
-/// Errors with four digits.
+/// Errors rounded to four digits.
 fn errors_in(set: Option<&MaterialSet>, entry: Option<usize>) -> [Option<f64>; 4] {
     ERRORS.map(|axis| {
         let error = (axis.value)(set?.errors.get(entry?)?)?;
@@ -132,7 +132,7 @@ fn in_order(method: &Method, values: &Values) -> Vec<[f32; 3]> {
     found.map(|value| value.map(|x| x as f32)).collect()
 }
 
-/// The indices of a reader's choice: of glasses, and of metals without the methods that need a fit.
+/// The indices that a reader may choose: of glasses, and of metals without the methods that need a fit.
 pub fn own_indices() -> Vec<OwnIndex> {
     let glasses = [1.02, 0.02, 100.0];
     let metals = ([0.1, 0.1, 45.0], [0.5, 0.25, 31.0]);

@@ -1,7 +1,7 @@
-//! The gallery as data: every row of the scene with its texts in WGSL and GLSL ES, the numbers of materials, and what is drawn with
-//! them. A page plays it without this program; the page stands in `report/gallery.rs`.
+//! The gallery as data: every row of the pictures with its texts in WGSL and GLSL ES, the numbers of materials, and the scenes.
+//! The page runs without this program; it stands in `page.rs`.
 //!
-//! A program is put together from parts, as the page does it: the functions that users import, the calls of the chosen method, the row's
+//! The page puts each program together from parts: the functions that users import, the calls of the chosen method, the row's
 //! passes. In GLSL ES the passes are naga's translation, and the functions are our own text.
 
 mod lower;
@@ -33,42 +33,42 @@ pub use passes::FunctionTexts;
 pub use passes::{GalleryPass, SHOW, ShowPrograms};
 pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, find, methods_of, rows};
 
-/// All that the page holds.
+/// The data of the page.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
     /// The rows.
     pub rows: Vec<GalleryRow>,
     /// Methods with their costs.
     pub methods: Vec<MethodNumbers>,
-    /// Materials with the values of inputs and the errors of each method.
+    /// Materials, with the values of each method's inputs and its errors.
     pub materials: Vec<MaterialNumbers>,
     /// The values of inputs for an index that the reader chooses.
     pub own: Vec<OwnIndex>,
     /// The axes of cost: name and title.
     pub costs: Vec<[String; 2]>,
-    /// The measures of error: name and title.
+    /// The metrics of error: name and title.
     pub errors: Vec<[&'static str; 2]>,
     /// The text of every function.
     pub functions: Vec<FunctionTexts>,
     /// The frame's text in WGSL.
     pub frame: &'static str,
-    /// Where the numbers of the reader's choice stand in the frame's block.
+    /// The places in the frame's block that the reader's choice changes.
     pub layout: Layout,
     /// The views of the camera.
     pub orbits: Vec<Orbit>,
-    /// What the passes read: the sky, the room, the relief.
+    /// The textures that passes read: the sky, the room, the relief.
     pub textures: Vec<PackedTexture>,
     /// The bodies.
     pub meshes: Vec<PackedMesh>,
-    /// What puts the panels side by side.
+    /// The programs that put the panels side by side.
     pub show: ShowPrograms,
     /// Samples of a pixel along each side.
     pub samples: u32,
-    /// A margin is this part of a picture's side.
+    /// The margin of a picture is its side divided by this.
     pub margin: u32,
 }
 
-/// Places in the frame's block, in numbers.
+/// Places in the frame's block, counted in numbers.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Layout {
     index: usize,
@@ -79,7 +79,7 @@ pub struct Layout {
     size: usize,
 }
 
-/// The gallery with these materials. `progress` hears how many are done.
+/// The gallery with these materials. `progress` gets the number done and the total.
 ///
 /// # Errors
 /// A text cannot be written or translated: a bug.

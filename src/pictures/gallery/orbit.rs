@@ -1,4 +1,4 @@
-//! The places that a reader may look from: the frame's block for each, so that a page computes no camera.
+//! The positions from which a reader may look, with the frame's block for each, so that the page computes no camera.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -8,42 +8,42 @@ use crate::pictures::scene::{
     Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame,
 };
 
-/// Places around the body: every 5 degrees.
+/// Positions around the body: every 5 degrees.
 pub const AZIMUTHS: usize = 72;
-/// Elevations beside the row's own, in degrees.
+/// Elevations relative to the row's own, in degrees.
 const STEPS: [f64; 7] = [-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0];
-/// The row's own elevation among them.
+/// The index of the row's own elevation among them.
 const OWN: usize = 3;
-/// Samples a side of the picture: any number of which a margin is a whole part.
+/// Samples along a side of the picture. Any number serves of which a margin is a whole part.
 const SIDE: u32 = 100;
-/// How high the eye stands, in degrees.
+/// The lowest and the highest elevation of the eye, in degrees.
 const LOWEST: f64 = 4.0;
 const HIGHEST: f64 = 80.0;
 
 /// The views of a row's camera.
 #[derive(Clone, Debug, Serialize)]
 pub struct Orbit {
-    /// Where the eye stands first.
+    /// The eye's first position.
     pub eye: [f64; 3],
     /// The body's size.
     pub size: f64,
-    /// Places around the body.
+    /// How many positions there are around the body.
     pub azimuths: usize,
     /// Elevations in degrees.
     pub elevations: Vec<f64>,
-    /// The row's own elevation among them.
+    /// The index of the row's own elevation.
     pub first: usize,
-    /// Blocks without inputs: of each view, elevation and azimuth.
+    /// The blocks without inputs, by view, elevation and azimuth.
     pub blocks: Packed,
-    /// Numbers of such a block.
+    /// How many numbers a block has.
     pub numbers: usize,
-    /// The views, by their place.
+    /// The views, by index.
     #[serde(skip)]
     views: Vec<View>,
 }
 
 impl Orbit {
-    /// The place of a row's orbit among these, entered where it is new.
+    /// The index of a row's orbit among these. A new orbit is appended.
     pub fn of(row: &RenderRow, orbits: &mut Vec<Orbit>) -> usize {
         if let Some(receiver) = row.receiver {
             orbits.push(Orbit::of_light(row, receiver));
@@ -65,7 +65,7 @@ impl Orbit {
         orbits.len() - 1
     }
 
-    /// The light's own view: no eye is turned.
+    /// The orbit of the light's own view, which cannot be turned.
     fn of_light(row: &RenderRow, receiver: [f64; 2]) -> Orbit {
         let nothing = Glass::of_index(0.0);
         let light = LightBlock {
@@ -113,7 +113,7 @@ impl Orbit {
         }
     }
 
-    /// The place of a view.
+    /// The index of a view.
     pub fn view(&self, view: View) -> usize {
         let place = self.views.iter().position(|other| *other == view);
         place.expect("an orbit has the views of its rows")
@@ -122,11 +122,11 @@ impl Orbit {
 
 fn elevation(eye: [f64; 3], step: usize) -> f64 {
     let own = libm::asin(eye[1] / DVec3::from_array(eye).length()).to_degrees();
-    // One that looks up from below stays where it is.
+    // An eye that looks up from below stays there.
     (own + STEPS[step]).clamp(own.min(LOWEST), HIGHEST)
 }
 
-/// The eye at a place of the orbit of this one.
+/// The eye's position on its own orbit.
 pub fn eye_at(eye: [f64; 3], step: usize, azimuth: usize) -> DVec3 {
     let own = DVec3::from_array(eye);
     if (step, azimuth) == (OWN, 0) {

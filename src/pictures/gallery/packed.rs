@@ -1,4 +1,4 @@
-//! Textures and meshes as text: little-endian numbers, deflated, in base 64.
+//! Textures and meshes as text: little-endian numbers, deflated, in base64.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -31,29 +31,29 @@ impl Packed {
     }
 }
 
-/// How hard the encoder tries.
+/// The encoder's compression level.
 const LEVEL: u8 = 9;
 
-/// A texture of a page.
+/// A texture of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct PackedTexture {
     /// Its name.
     pub name: String,
-    /// Width, height, layers: six are a cube.
+    /// Width, height and layers; six layers are a cube map.
     pub size: [usize; 3],
     /// The format by its name in WebGPU.
     pub format: &'static str,
-    /// Its texels, less those of the row above.
+    /// Its texels, each byte less the one in the row above.
     pub texels: Packed,
 }
 
 /// The sky's name among textures.
 pub const SKY: &str = "Sky";
-/// Texels from pole to pole, and of a side of the room's cube map: fewer than in pictures, since every reader loads them.
+/// Texels of the sky from pole to pole.
 const SKY_HEIGHT: usize = 1024;
-/// Of a side of the room's cube map.
+/// Texels along a side of the room's cube map: fewer than in pictures, since every reader downloads them.
 pub const CUBE: usize = 512;
-/// Tables of bodies are reduced until they are at most so wide: colours, and others, which deflate badly.
+/// The greatest width of a body's tables after reduction: for colours, and for others, which deflate badly.
 const WIDEST: [usize; 2] = [512, 320];
 
 /// The sky as a texture.
@@ -64,7 +64,7 @@ pub fn sky_texture() -> PackedTexture {
     shared(SKY.to_owned(), [width, height], texels.iter().copied())
 }
 
-/// What a row reads besides what it draws: by slot.
+/// The textures that a row reads besides what it draws, by slot.
 pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
     let mut all = BTreeMap::new();
     if row.in_room {
@@ -98,7 +98,7 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
     all
 }
 
-/// The tables of a body as the page has them.
+/// The tables of a body as the page holds them.
 pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'_, Texels>)> {
     let reduced = |(slot, table): (Slot, &Texels)| {
         let [colours, others] = WIDEST;
@@ -118,13 +118,14 @@ pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'_, Texels>)> {
     body.tables().into_iter().map(reduced).collect()
 }
 
-/// Whether a table holds colours alone.
+/// Whether a table holds only colours.
 fn is_opaque(table: &Texels) -> bool {
     let is_colour = |[r, g, b, a]: &[f32; 4]| *a == 1.0 && r.min(*g).min(*b) >= 0.0;
     table.texels().iter().all(is_colour)
 }
 
-/// A number with 7 bits that count: what is finer deflates badly, and turns a normal by less than a part in a hundred of its slope.
+/// A number rounded to 7 significant bits. Finer bits deflate badly; dropping them changes a normal's slope by less than a
+/// hundredth.
 fn coarse(value: f32) -> f32 {
     const DROPPED: u32 = 23 - 6;
     let half = 1 << (DROPPED - 1);
@@ -164,7 +165,7 @@ fn halves(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
         .collect()
 }
 
-/// Each byte less the one above it: rows are alike, so that they deflate well.
+/// Each byte less the one above it. Rows resemble each other, so this deflates well.
 fn packed_rows(bytes: &[u8], row: usize) -> Packed {
     let above = |i: usize| i.checked_sub(row).map_or(0, |i| bytes[i]);
     let less: Vec<u8> = (0..bytes.len())
@@ -173,18 +174,18 @@ fn packed_rows(bytes: &[u8], row: usize) -> Packed {
     Packed::new(&less)
 }
 
-/// The sky as the page has it: fewer texels than in pictures, each as three numbers of 9 bits with a shared exponent.
+/// The sky as the page holds it: three numbers of 9 bits with a shared exponent for each texel.
 pub fn environment() -> Environment {
     sky_of(SKY_HEIGHT)
 }
 
-/// That sky after a texture has held it.
+/// The same sky after it was stored in a texture.
 pub fn unpacked_environment() -> Environment {
     let whole = environment();
     whole.mapped(|texel| from_shared_exponent(shared_exponent(texel)))
 }
 
-/// Bits of a number, the bias of the exponent: OpenGL ES 3.0, section 3.8.3.2.
+/// Bits of a number, and the bias of the exponent: OpenGL ES 3.0, section 3.8.3.2.
 const BITS: i32 = 9;
 const BIAS: i32 = 15;
 
@@ -207,18 +208,18 @@ fn from_shared_exponent(packed: u32) -> [f32; 3] {
     [0, 9, 18].map(|at| (packed >> at & 511) as f32 * unit)
 }
 
-/// A body of a page.
+/// A body of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct PackedMesh {
     /// Its name.
     pub name: String,
-    /// Of a ball of radius 1 the rows from pole to pole; the page makes its vertices.
+    /// For a ball of radius 1, the rows from pole to pole; the page makes its vertices.
     pub ball: Option<usize>,
-    /// Vertices of triangles, twelve numbers each.
+    /// Vertices of triangles, with twelve numbers each.
     pub vertices: Option<Packed>,
 }
 
-/// Rows of the ball: half of those in pictures.
+/// Rows of the ball, half as many as in pictures.
 pub const ROWS: usize = 128;
 
 impl PackedMesh {

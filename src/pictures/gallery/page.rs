@@ -1,4 +1,4 @@
-//! The gallery as one page with everything in it.
+//! The gallery as one self-contained HTML page.
 
 use tera::Context;
 
@@ -16,7 +16,7 @@ static PLAYER: &str = include_str!("../../../templates/gallery.player.js");
 pub fn gallery_page(gallery: &Gallery, command: &str) -> Result<String, String> {
     let json = serde_json::to_string(gallery).map_err(|why| why.to_string())?;
     let mut context = Context::new();
-    // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
+    // The JSON may hold `</script>` in a string. A JSON escape keeps that from ending the script.
     context.insert("data", &json.replace('<', "\\u003c"));
     context.insert("player", PLAYER);
     context.insert("script", SCRIPT);

@@ -1,8 +1,5 @@
-//! The passes of a row, as a page draws them.
-//!
-//! The text of functions, as a reader copies it.
-//!
-//! What puts the panels side by side on the page.
+//! The passes of a row as the page draws them, the text of functions as a reader copies it, and the pass that puts the panels
+//! side by side.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,31 +15,31 @@ use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
 /// A pass.
 #[derive(Clone, Debug, Serialize)]
 pub struct GalleryPass {
-    /// The entry point for vertices.
+    /// The vertex entry point.
     pub vertex: &'static str,
-    /// The entry point for pixels.
+    /// The fragment entry point.
     pub fragment: &'static str,
-    /// What is drawn; a triangle that covers the target where nothing is named.
+    /// The mesh that is drawn; `None` for a triangle that covers the target.
     pub mesh: Option<String>,
-    /// Vertices that the entry point makes itself, where there is no mesh.
+    /// The number of vertices that the entry point makes itself, where there is no mesh.
     pub count: u32,
-    /// Whether it is added to what is there.
+    /// Whether its output is added to the target.
     pub adds: bool,
     /// Whether its picture has a margin.
     pub margin: bool,
-    /// Pixels a side of its picture, where these are not the panel's.
+    /// The side of its picture in pixels, where it is not the panel's.
     pub side: Option<u32>,
-    /// Which surface is seen: none is hidden, the nearest, the farthest.
+    /// The depth test: off, the nearest surface, or the farthest.
     pub depth: &'static str,
-    /// The place of its view in the orbit.
+    /// The index of its view in the orbit.
     pub view: usize,
-    /// What it writes.
+    /// The slots that it writes.
     pub writes: Vec<String>,
-    /// What it reads, from binding 3 on.
+    /// The slots that it reads, from binding 3 on.
     pub reads: Vec<String>,
 }
 
-/// The passes of a row, whose orbit this is.
+/// The passes of a row with this orbit.
 pub fn passes_of(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
     match row.receiver {
         Some(_) => light_passes(row),
@@ -54,7 +51,8 @@ pub fn passes_of(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
     }
 }
 
-/// Light through a body onto a receiver: both sides of the body, photons, and the triangles between these.
+/// The passes of light that falls through a body onto a receiver: both sides of the body, photons, and the triangles between
+/// them.
 fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let side = |depth, side, writes: [&str; 2]| GalleryPass {
@@ -141,10 +139,10 @@ pub struct FunctionTexts {
     pub hlsl: String,
 }
 
-/// The texts of the functions of these names.
+/// The texts of the functions with these names.
 ///
 /// # Errors
-/// One cannot be written: a bug.
+/// A function cannot be written: a bug.
 pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error> {
     let mut all: BTreeMap<String, Emitted> = BTreeMap::new();
     for effect in effects::ALL {
@@ -177,21 +175,21 @@ fn written(emitted: &Emitted) -> Result<FunctionTexts, emit::Error> {
     })
 }
 
-/// Its text.
+/// The text of the pass that shows the panels.
 pub const SHOW: &str = include_str!("show.wgsl");
 
-/// Its programs.
+/// The programs of that pass.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShowPrograms {
     /// For WebGPU.
     pub wgsl: &'static str,
-    /// For WebGL 2.
+    /// The vertex shader for WebGL 2.
     pub vertex: GlesProgram,
-    /// For WebGL 2.
+    /// The fragment shader for WebGL 2.
     pub fragment: GlesProgram,
 }
 
-/// Its text in both languages.
+/// The programs in both languages.
 ///
 /// # Errors
 /// naga refuses it: a bug.

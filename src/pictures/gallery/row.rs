@@ -1,6 +1,5 @@
-//! A row of the gallery: passes, their texts, and the calls of each method.
-//!
-//! The rows of the gallery: those of pictures, and a rough ball, whose truth no tracer of ours has.
+//! The rows of the gallery: their passes, their texts, and the calls of each method. They are the rows of pictures and a rough
+//! ball, whose truth no tracer here computes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,22 +18,22 @@ use crate::pictures::scene::{
     self, BodyName, FRAME, PassRow, Paths, Place, RenderRow, RowText, Slot, View,
 };
 
-/// A row.
+/// A row of the gallery.
 #[derive(Clone, Debug, Serialize)]
 pub struct GalleryRow {
     /// Its name.
     pub name: &'static str,
-    /// One line.
+    /// What it shows, in one line.
     pub summary: &'static str,
     /// Where it must be wrong, in one line.
     pub wrong: &'static str,
-    /// The exact law of its kind of bodies.
+    /// The exact law for its kind of body.
     pub exact: &'static str,
     /// Its own method.
     pub method: &'static str,
     /// Its own material.
     pub material: &'static str,
-    /// The materials that it takes, by name.
+    /// The materials that it can be drawn with, by name.
     pub materials: Vec<String>,
     /// Whether the index depends on the wavelength.
     pub disperses: bool,
@@ -48,13 +47,13 @@ pub struct GalleryRow {
     pub calls: Vec<MethodCalls>,
     /// Programs for WebGL 2, by pass.
     pub programs: Vec<ProgramPair>,
-    /// The place of its orbit.
+    /// The index of its orbit.
     pub orbit: usize,
-    /// Half the width of the window, where light falls onto a receiver.
+    /// Half the width of the receiver's window, where light falls onto a receiver.
     pub half: Option<f64>,
-    /// The roughness that it begins with, where it has one.
+    /// The initial roughness, where it has one.
     pub roughness: Option<f64>,
-    /// The stops that it begins with.
+    /// The initial exposure, in stops.
     pub exposure: f64,
     /// The textures that it reads, by slot.
     pub images: BTreeMap<String, String>,
@@ -71,20 +70,20 @@ pub struct MethodCalls {
     pub wgsl: String,
     /// The calls in GLSL ES.
     pub gles: String,
-    /// What computes the light that leaves a body, where this method does not.
+    /// The method that computes the light that leaves a body, where this method does not.
     pub exit: Option<&'static str>,
 }
 
 /// A program for WebGL 2.
 #[derive(Clone, Debug, Serialize)]
 pub struct ProgramPair {
-    /// For vertices.
+    /// The vertex shader.
     pub vertex: GlesProgram,
-    /// For pixels.
+    /// The fragment shader.
     pub fragment: GlesProgram,
 }
 
-/// The exact law of a row's kind of bodies.
+/// The exact law for a row's kind of body.
 pub fn exact_method(row: &RenderRow) -> &'static str {
     if row.is_transparent() {
         "dielectric_exact"
@@ -93,7 +92,7 @@ pub fn exact_method(row: &RenderRow) -> &'static str {
     }
 }
 
-/// The methods that a row may be drawn by: for unpolarised light, without a table.
+/// The methods that a row may be drawn by: those for unpolarised light without a table.
 pub fn methods_of(row: &RenderRow) -> Vec<&'static Method> {
     let all = methods::ALL.iter().copied().filter(|method| {
         method.light == Light::Unpolarised
@@ -108,7 +107,7 @@ pub fn methods_of(row: &RenderRow) -> Vec<&'static Method> {
 }
 
 impl GalleryRow {
-    /// A row with its texts. Its orbit is entered among these.
+    /// A row with its texts. A new orbit is appended to `orbits`.
     ///
     /// # Errors
     /// A text cannot be written or translated: a bug.
@@ -143,7 +142,7 @@ impl GalleryRow {
             passes,
             half: row.receiver.map(|[_, half]| half),
             roughness: RowText::usual(row).is_rough().then_some(ROUGHNESS),
-            // What is gathered is bright.
+            // Gathered light is bright.
             exposure: if row.receiver.is_some() { -2.0 } else { 0.0 },
             functions: names
                 .into_iter()
@@ -162,7 +161,7 @@ impl GalleryRow {
         called.chain(&self.functions).cloned().collect()
     }
 
-    /// The module in WGSL by a method, as the page puts it together.
+    /// The WGSL module with a method, as the page puts it together.
     pub fn module(&self, method: &str, texts: &BTreeMap<String, String>) -> Option<String> {
         let calls = self.calls.iter().find(|calls| calls.method == method)?;
         let mut names: Vec<&String> = self.functions.iter().collect();
@@ -176,7 +175,7 @@ impl GalleryRow {
         Some(functions + FRAME + &calls.wgsl + self.text)
     }
 
-    /// The fragment shader of a pass in GLSL ES by a method, as the page puts it together.
+    /// The GLSL ES fragment shader of a pass with a method, as the page puts it together.
     pub fn fragment(
         &self,
         pass: usize,
@@ -193,7 +192,7 @@ impl GalleryRow {
                     .iter()
                     .filter(|name| !part.functions.contains(name)),
             );
-            // What a call computes its arguments with.
+            // The functions that compute a call's arguments.
             names.extend(self.functions.iter().filter(|name| {
                 calls.gles.contains(&format!("{name}(")) && !part.functions.contains(name)
             }));
@@ -205,8 +204,8 @@ impl GalleryRow {
     }
 }
 
-/// The names of the functions of a row's effects; and of those among them that ask for R and that no pass calls itself: each method has
-/// its own.
+/// The names of the functions of a row's effects, and of those among them that need R and that no pass calls itself. Each method
+/// has its own version of the latter.
 fn common_names(row: &'static RenderRow) -> Result<(Vec<String>, Vec<String>), LoweringFault> {
     let common = RowText::usual(row).common_functions()?;
     let asks = |emitted: &&Emitted| {
@@ -218,7 +217,7 @@ fn common_names(row: &'static RenderRow) -> Result<(Vec<String>, Vec<String>), L
     Ok((common.into_iter().map(|one| one.name).collect(), unused))
 }
 
-/// Roughness to begin with.
+/// The initial roughness.
 const ROUGHNESS: f64 = 0.3;
 
 fn method_calls(
@@ -297,7 +296,7 @@ static ROUGH: RenderRow = RenderRow {
     wrong: "light that bounces twice is missing",
 };
 
-/// All of them.
+/// All rows of the gallery.
 pub fn rows() -> Vec<&'static RenderRow> {
     scene::ALL.iter().chain([&ROUGH]).collect()
 }

@@ -1,19 +1,19 @@
-//! Vertical axes that fit what is drawn on them.
+//! Vertical axes that fit their curves.
 
 use crate::pictures::plot::{ChartAxis, Series, ticks};
 
-/// About how many intervals an axis has.
+/// The approximate number of intervals of an axis.
 const INTERVALS: usize = 5;
-/// Below this height a curve would show nothing but rounding.
+/// The least height of an axis. Below it a curve would show only rounding.
 const LEAST_SPAN: f64 = 1e-5;
 
-/// An axis that holds these values, its ends rounded outwards.
+/// An axis that holds these values, with its ends rounded outwards.
 pub fn holding(label: &str, values: impl IntoIterator<Item = f64>) -> ChartAxis {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
     });
-    // Also where there was no value at all.
+    // Also where there are no values.
     let (low, high) = if high - low < LEAST_SPAN || low > high {
         let middle = if low > high { 0.5 } else { low };
         (middle - 0.5, middle + 0.5)
@@ -35,7 +35,7 @@ pub fn holding(label: &str, values: impl IntoIterator<Item = f64>) -> ChartAxis 
     }
 }
 
-/// The axis of reflectance: 0 to 1, and further where a curve goes further.
+/// The axis of reflectance: 0 to 1, extended where a curve leaves that range.
 pub fn reflectance(series: &[Series]) -> ChartAxis {
     holding("reflectance", values(series).chain([0.0, 1.0]))
 }

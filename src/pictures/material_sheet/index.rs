@@ -15,9 +15,9 @@ const K: Look = Look {
     dashes: "9 4",
     ..N
 };
-/// Dashes that only join points.
+/// Dashes of lines that only join points.
 const JOINT: &str = "2 5";
-/// A k below this cannot be told from 0 beside n.
+/// A k below this cannot be told from 0 in a chart with n.
 const LEAST_K: f64 = 1e-3;
 
 /// n and k of the material itself, whatever surrounds it.
@@ -42,7 +42,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
         subtitle += " Its own, not divided by the medium's.";
     }
     let k = k.filter(is_seen);
-    // Beside k, n is seen from 0; alone, its dispersion is what there is to see.
+    // With k in the chart, the axis of n begins at 0. Alone, n's dispersion is what matters.
     let ground = k.as_ref().map(|_| 0.0);
     let label = if k.is_some() { "n, k" } else { "n" };
     let mut series: Vec<Series> = std::iter::once(n).chain(k).collect();
@@ -62,7 +62,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
     }
 }
 
-/// The highest value, below all numbers where there is none.
+/// The highest value; negative infinity where there is none.
 fn highest(series: &Series) -> f64 {
     let values = series.points.iter().map(|point| point.1);
     values.fold(f64::NEG_INFINITY, f64::max)
@@ -73,7 +73,7 @@ fn is_seen(k: &Series) -> bool {
     highest(k) >= LEAST_K
 }
 
-/// Why no k is drawn, where none is.
+/// The reason why no k is drawn, where none is.
 fn without_k(k: Option<&Series>) -> String {
     match k.map(highest) {
         Some(most) if most >= LEAST_K => String::new(),
@@ -83,7 +83,7 @@ fn without_k(k: Option<&Series>) -> String {
     }
 }
 
-/// Three points, and dashes to guide the eye.
+/// Three points, joined by dashes to guide the eye.
 fn joined(
     name: &str,
     curve: &DispersionCurve,
@@ -106,7 +106,7 @@ fn joined(
     }
 }
 
-/// A table with its points as dots, or a formula.
+/// A table with its points as dots, or a formula's curve.
 fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f64)>) -> Series {
     let points = match (curve, range) {
         (_, None) => Vec::new(),
@@ -126,7 +126,7 @@ fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f6
     }
 }
 
-/// The points inside a range, and where the lines to their neighbours leave it.
+/// The points inside a range, and the points where the lines to their neighbours cross its ends.
 fn within(points: &[(f64, f64)], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
     let first = points.partition_point(|point| point.0 < from);
     let last = points.partition_point(|point| point.0 <= to);
@@ -134,7 +134,7 @@ fn within(points: &[(f64, f64)], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
     points.get(neighbours).unwrap_or_default().to_vec()
 }
 
-/// What the line stands on.
+/// What the curve is based on.
 fn origin(
     n: &Series,
     curve: &DispersionCurve,

@@ -1,8 +1,8 @@
 //! The picture of a material: one sheet with its index, its reflectance and its colours, as self-contained SVG text.
 //!
-//! Four panels: n and k against wavelength, reflectance against angle per channel, reflectance against wavelength at a
-//! few angles, and swatches. All reflectance is the exact law's, and colours outside [0, 1] are kept, but for the
-//! swatches: these are what a screen shows.
+//! Four panels: n and k against wavelength, reflectance against angle per channel, reflectance against wavelength at a few
+//! angles, and swatches. All reflectance is by the exact law. Colours outside [0, 1] are kept, except in the swatches, which show
+//! what a screen shows.
 
 mod axis;
 mod index;
@@ -21,7 +21,7 @@ const PICTURE: PanelFrame = PanelFrame {
     upper: 22.0,
     lower: 16.0,
 };
-/// One of four panels.
+/// The size of each of the four panels.
 const PANEL: PanelFrame = PanelFrame {
     width: 586.0,
     height: 392.0,
@@ -29,10 +29,10 @@ const PANEL: PanelFrame = PanelFrame {
     upper: 12.0,
     lower: 8.0,
 };
-/// Where the panels begin, so that their text stands under the sheet's.
+/// The panels' left edge, which aligns their text with the sheet's.
 const LEFT: f64 = PICTURE.margin - PANEL.margin;
 
-/// A material that is drawn, and how it is seen.
+/// A material that is drawn, and its viewing conditions.
 struct DrawnMaterial<'a> {
     material: &'a Material,
     medium: Option<&'a Material>,
@@ -40,8 +40,7 @@ struct DrawnMaterial<'a> {
     surface: Surface,
 }
 
-/// The picture of a material in air or in a medium, as SVG text; `command` is what makes it, for the foot of the sheet.
-/// Fails where the viewing conditions want wavelengths at which the material or the medium was not measured.
+/// The picture of a material in air or in a medium, as SVG text. `command` makes it again and stands at the foot of the sheet.
 ///
 /// # Errors
 /// The material or the medium was not measured at a wavelength of these conditions.
@@ -96,7 +95,7 @@ impl DrawnMaterial<'_> {
         }
     }
 
-    /// Who measured it, where it stands, under which conditions; in lines.
+    /// The sources, in lines: who measured the material, where that is published, under which conditions.
     fn sources(&self) -> Vec<String> {
         let material = self.material;
         let labelled = |what: &str, text: &str| match text.trim() {
@@ -124,14 +123,14 @@ impl DrawnMaterial<'_> {
         source.into_iter().chain([known]).chain(medium).collect()
     }
 
-    /// What is seen, in a sentence.
+    /// The viewing conditions, in a sentence.
     fn seen(&self) -> String {
         let held = self.surface.extrapolation();
         let held = held.map_or(String::new(), |held| format!(" Extrapolated: {held}."));
         format!("Seen: {}.{held}", self.surface.seen)
     }
 
-    /// The wavelengths of red, green and blue, where nothing between them is known of material or medium.
+    /// The wavelengths of red, green and blue, where material or medium is known only at these.
     fn three_nm(&self) -> Option<[f64; 3]> {
         let medium = self.medium.and_then(|medium| medium.rgb_nm);
         let known = self.material.rgb_nm.or(medium);
@@ -148,7 +147,7 @@ mod tests {
         DispersionCurve::table(points.into_iter().collect()).expect("they ascend")
     }
 
-    /// A metal that shines yellow, known at each of these wavelengths.
+    /// A yellow metal, known at each of these wavelengths.
     fn brass(nm: impl IntoIterator<Item = u16>) -> Material {
         let nm: Vec<f64> = nm.into_iter().map(f64::from).collect();
         let red = |nm: f64| 1.0 / (1.0 + libm::exp((520.0 - nm) / 15.0));
@@ -188,7 +187,7 @@ mod tests {
         }
     }
 
-    /// A sheet that any viewer reads: no number is missing, no markup escapes, equal cards are equal text.
+    /// Checks that any viewer can read a sheet: no number is missing, no markup escapes, and equal input gives equal text.
     #[track_caller]
     fn check(material: &Material, viewing: &ViewingConditions) -> String {
         let svg = drawn(material, viewing).unwrap();
@@ -201,7 +200,7 @@ mod tests {
         svg
     }
 
-    /// By a reader that is not ours: it draws the sheet too, and there is ink on it.
+    /// Checks with an independent reader that draws the sheet too, and that there is ink on it.
     #[track_caller]
     fn well_formed(svg: &str) {
         let png = crate::pictures::png::png(svg, 0.5).unwrap();
@@ -219,7 +218,7 @@ mod tests {
         assert!(svg.contains("Brass &lt;polished&gt; &amp; &quot;bright&quot;"));
         assert!(svg.contains("41 measured points"));
         assert!(svg.contains("red clipped"), "yellow is outside sRGB");
-        // One more dot stands in the legend.
+        // The legend has one more dot.
         assert_eq!(svg.matches("<circle").count(), 2 * (41 + 1));
     }
 

@@ -1,6 +1,4 @@
-//! Reflectance against wavelength, at a few angles.
-//!
-//! Reflectance against angle, for red, green and blue.
+//! Reflectance against wavelength at a few angles, and reflectance against angle for red, green and blue.
 
 use glam::DVec3;
 
@@ -13,7 +11,7 @@ use crate::pictures::plot::{
 
 pub use crate::physics::optics::cosine;
 
-/// Angles in degrees, from the flat ones to where metals are palest.
+/// Angles in degrees, from near normal incidence to where metals are palest.
 const ANGLES: [(f64, &str, &str); 4] = [
     (0.0, INK, ""),
     (45.0, BLUE, "9 4"),
@@ -60,7 +58,7 @@ pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
 /// The relative index by wavelength.
 type Indices = Vec<(f64, Index)>;
 
-/// What the surface is known by, where this is three wavelengths.
+/// The relative indices at three wavelengths, where the surface is known only at these.
 fn points(drawn: &DrawnMaterial) -> Indices {
     let surface = &drawn.surface;
     let wavelengths = surface.integrator.wavelengths.iter().copied();
@@ -69,7 +67,7 @@ fn points(drawn: &DrawnMaterial) -> Indices {
     points
 }
 
-/// The visible range in which all was measured, and the index in it.
+/// The visible range in which everything was measured, and the relative index in it.
 fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
     let medium = drawn.medium.map(Material::range_nm);
     let (from, to) = drawn.material.range_nm();
@@ -95,10 +93,11 @@ fn reflectance(indices: &Indices, cos_theta: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// From 0 to 90 degrees, a quarter of a degree apart.
+/// The number of angles: from 0 to 90 degrees, a quarter of a degree apart.
 const POINTS: u32 = 361;
 
-/// Solid below, dashed above with one period: where the three coincide, each still has a third of the line.
+/// Red is solid below, and the others are dashed above it with one period. Where the three coincide, each still shows on a third
+/// of the line.
 const CHANNELS: [(&str, Look); 3] = [
     ("red", look("#d5432a", "", 3.6)),
     ("green", look(GREEN, "14 7", 2.8)),

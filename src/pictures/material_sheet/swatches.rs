@@ -1,6 +1,5 @@
-//! The colour of the reflection at a few angles, as a screen shows it, with its numbers.
-//!
-//! The wavelengths that a material sheet shows: the measured part of 360 to 830 nm, what an eye can see.
+//! The colour of the reflection at a few angles, as a screen shows it, with its numbers. Also the wavelengths that a material
+//! sheet shows: the measured part of 360 to 830 nm, the range that an eye can see.
 
 use glam::DVec3;
 
@@ -15,21 +14,21 @@ use crate::pictures::plot::{
 /// Angles in degrees; metals and glass change most beyond 75.
 const ANGLES: [f64; 7] = [0.0, 30.0, 60.0, 75.0, 82.0, 86.0, 90.0];
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
-/// A channel this far outside [0, 1] was clipped; less does not show in the numbers.
+/// A channel this far outside [0, 1] counts as clipped. Less does not show in the numbers.
 const CLIPPED: f64 = 5e-4;
-/// Three channels and two lines for what was clipped.
+/// Lines below a swatch: three channels, and two for what was clipped.
 const LINES_BELOW: f64 = 5.0;
 
 /// One swatch.
 struct Swatch {
     degrees: f64,
-    /// In the space that is seen in, colours outside it kept.
+    /// The colour in the viewing space; colours outside it are kept.
     linear: DVec3,
-    /// On a screen, before it is clipped.
+    /// The colour on a screen, before it is clipped.
     screen: DVec3,
 }
 
-/// The panel, and what it says in words.
+/// The panel, and its description in words.
 pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: PanelFrame) -> (Layout, String) {
     let to_screen = to_screen(space(drawn));
     let swatches = ANGLES.map(|degrees| {
@@ -49,7 +48,7 @@ pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: PanelFrame) -> (Layout,
     (layout, swatches.iter().map(Swatch::words).collect())
 }
 
-/// The space of the channels; three wavelengths are shown as if they were sRGB's.
+/// The space of the channels. Three wavelengths are shown as if they were sRGB's primaries.
 fn space(drawn: &DrawnMaterial) -> Space {
     match drawn.surface.channels() {
         Some(_) => Space::Srgb,
@@ -103,7 +102,7 @@ impl Swatch {
     }
 
     fn numbers(&self) -> [String; 3] {
-        // Adding zero turns a negative zero into a plain one.
+        // Adding zero turns a negative zero into a positive one.
         let number = |value: f64| {
             format!("{:.3}", (1000.0 * value).round() / 1000.0 + 0.0).replace('-', "\u{2212}")
         };
@@ -117,7 +116,7 @@ impl Swatch {
     }
 }
 
-/// All swatches in a row from `top` down, and where they end.
+/// All swatches in a row from `top` down, and their lower edge.
 fn draw(swatches: &[Swatch], frame: PanelFrame, top: f64) -> (Vec<String>, f64) {
     let names = f64::ceil(widest(&TICK, &CHANNELS)) + 10.0;
     let left = frame.margin + names;
@@ -169,7 +168,7 @@ fn widest(font: &Font, names: &[&str]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Beside points that stand alone.
+/// The margin beside points that stand alone.
 const BESIDE_NM: f64 = 20.0;
 
 /// The part of a range that is shown, if any.
@@ -178,7 +177,7 @@ pub fn shown((from, to): (f64, f64)) -> Option<(f64, f64)> {
     (inside.0 <= inside.1).then_some(inside)
 }
 
-/// The part that is shown where n or k is known.
+/// The shown part of the range where n or k is known.
 pub fn either(material: &Material) -> Option<(f64, f64)> {
     let n = shown(material.n.range_nm());
     let k = material
@@ -192,13 +191,13 @@ pub fn either(material: &Material) -> Option<(f64, f64)> {
     }
 }
 
-/// From below the least to above the greatest of three wavelengths.
+/// A range from below the least to above the greatest of three wavelengths.
 pub fn around(rgb: [f64; 3]) -> (f64, f64) {
     let [least, greatest] = [f64::min, f64::max].map(|end| rgb.into_iter().fold(rgb[0], end));
     (least - BESIDE_NM, greatest + BESIDE_NM)
 }
 
-/// The axis of a range, wide enough to look at; all that is visible where there is none.
+/// The axis of a range, wide enough to look at; the whole visible range where there is none.
 pub fn wavelength_axis(range: Option<(f64, f64)>) -> ChartAxis {
     let (mut low, mut high) = range.unwrap_or(OBSERVED_NM);
     if high - low < BESIDE_NM {
@@ -213,7 +212,7 @@ pub fn wavelength_axis(range: Option<(f64, f64)>) -> ChartAxis {
     }
 }
 
-/// Wavelengths at which a curve is drawn: both ends, and each whole nanometre between.
+/// The wavelengths at which a curve is drawn: both ends, and each whole nanometre between.
 pub fn samples((from, to): (f64, f64)) -> Vec<f64> {
     let whole = (from.floor() as i64 + 1..to.ceil() as i64).map(|nm| nm as f64);
     let mut samples: Vec<f64> = std::iter::once(from).chain(whole).chain([to]).collect();

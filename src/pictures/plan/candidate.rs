@@ -1,4 +1,4 @@
-//! The functions among which a plan chooses for a material: each method in each form whose cost is known.
+//! The functions among which a plan chooses for a material: each method, in each form whose cost is known.
 
 use std::sync::Arc;
 
@@ -14,32 +14,32 @@ use crate::language::ir::{Checked, evaluate};
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::num::{Half, Num, Precision, each_channel, in_parallel};
 
-/// What functions cost, and which of them may be taken.
+/// What functions cost, and which of them may be chosen.
 pub struct Prices<'a> {
-    /// The GPUs.
+    /// The GPU family.
     pub family: &'static Family,
-    /// What is recorded of them.
+    /// The recorded costs on these GPUs.
     pub record: CostRecord,
     /// The recorded bounds of functions.
     pub bounds: Bounds,
-    /// What functions compute in.
+    /// The precision that functions compute in.
     pub precision: Precision,
-    /// How many channels functions may give: 3, or 1 for all three alike.
+    /// How many channels functions may return: 3, or 1 for all three alike.
     pub channels: &'a [usize],
-    /// What a texture fetch costs beside the instructions around it; without it no table is taken.
+    /// The cost of a texture fetch, beside that of the instructions around it. Without it no table is chosen.
     pub fetch: Option<f64>,
 }
 
-/// A function that could be taken.
+/// A function that may be chosen.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// Its method.
     pub method: &'static Method,
     /// Its form: specialised, library, or scalar with the values of the green channel.
     pub form: FunctionForm,
-    /// What an evaluation costs.
+    /// The cost of one evaluation.
     pub cost: f64,
-    /// How that is known.
+    /// How the cost is known.
     pub basis: CostBasis,
     /// Its values at [`step_cosines`]; forms of a method share them.
     pub values: Arc<[[f64; 3]]>,
@@ -59,7 +59,7 @@ impl Candidate {
         self.form == FunctionForm::Specialised
     }
 
-    /// How many channels it gives.
+    /// How many channels it returns.
     pub fn channels(&self) -> usize {
         match self.form {
             FunctionForm::Scalar => 1,
@@ -68,12 +68,13 @@ impl Candidate {
     }
 }
 
-/// Whether plans choose a method: for unpolarised light, and one that keeps the contract.
+/// Whether plans may choose a method: it must describe unpolarised light and keep the contract.
 pub fn is_plannable(method: &Method) -> bool {
     method.light == Light::Unpolarised && method.contract == Contract::Kept
 }
 
-/// The candidates for a material, in order of methods; `is_library_only` where a material has no file to specialise to.
+/// The candidates for a material, in the order of methods. `is_library_only` means that the material has no file to specialise
+/// to.
 ///
 /// # Errors
 /// A method cannot be specialised to the material.
@@ -128,7 +129,7 @@ pub fn candidates(
 }
 
 impl Prices<'_> {
-    /// As a plan asks for them.
+    /// The prices that a plan's request asks for.
     pub fn of(request: &PlanRequest) -> Prices<'_> {
         Prices {
             family: request.family,
@@ -140,7 +141,7 @@ impl Prices<'_> {
         }
     }
 
-    /// What a form of a method costs, where that is known.
+    /// The cost of a form of a method, where it is known.
     fn cost(
         &self,
         method: &Method,
@@ -160,7 +161,7 @@ impl Prices<'_> {
         })
     }
 
-    /// What the exact law of a material costs: the reference of every saving.
+    /// The cost of a material's exact law, the reference of every saving.
     ///
     /// # Errors
     /// It cannot be specialised to the material.
@@ -173,7 +174,7 @@ impl Prices<'_> {
     }
 }
 
-/// The values of a function of `cos_theta`, with the table of the material where it reads one, as this precision computes them.
+/// The values of a function of `cos_theta` in this precision, with the material's table where the function reads one.
 fn values(function: &Checked, subject: &MaterialInMedium, precision: Precision) -> Vec<[f64; 3]> {
     match precision {
         Precision::F32 => values_in::<f32>(function, subject),

@@ -1,4 +1,4 @@
-//! The choice of a function for each material, of the least total cost. Pure.
+//! The choice of a function for each material at the least total cost, and the errors of the candidates. Pure.
 //!
 //! ```text
 //! total = Σ over materials of cost × pixels + price × number of different functions
@@ -7,8 +7,8 @@
 //! Specialised functions differ from material to material; a library function serves all materials that take it. The least total is
 //! found by branch and bound over the library functions: exact, and quick because few of them can pay for themselves.
 //!
-//! The errors of candidates in some pixels, the cheapest candidate first. What costs more than a candidate within the budget cannot be
-//! chosen, and no report says its error: then it is not judged, and its error is infinite.
+//! Candidates are judged with the cheapest first. What costs more than a candidate within the budget cannot be chosen, and no
+//! report states its error. So it is not judged, and its error is infinite.
 
 use core::cmp::Ordering;
 
@@ -21,18 +21,18 @@ use crate::physics::num::in_parallel;
 /// A function of a material, within its budget.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choosable {
-    /// What it adds to the total for all pixels of the material, without the price of a function.
+    /// Its cost for all pixels of the material, without the price of a function.
     pub cost: f64,
     /// Its error.
     pub error: f64,
-    /// Its name: the last resort among equals.
+    /// Its name, the last tie-breaker.
     pub name: String,
-    /// The library function that it is; none where it is the material's own.
+    /// The index of its library function; `None` where the function is the material's own.
     pub shared: Option<usize>,
 }
 
-/// The places of a material's functions within a budget; where none is, of those with the least error. The functions for a smaller budget
-/// are always among those for a larger one, so that a smaller budget never makes a plan cheaper.
+/// The indices of a material's functions within a budget; if there are none, of those with the least error. The functions for a
+/// smaller budget are always among those for a larger one, so a smaller budget never makes a plan cheaper.
 pub fn within(functions: &[Choosable], budget: f64) -> Vec<usize> {
     let errors = functions.iter().map(|one| one.error);
     let most = errors.fold(f64::INFINITY, f64::min).max(budget);
@@ -40,7 +40,7 @@ pub fn within(functions: &[Choosable], budget: f64) -> Vec<usize> {
     all.filter(|i| functions[*i].error <= most).collect()
 }
 
-/// The place of the chosen function of each material, which has one at least. `price` is that of a function.
+/// The index of the chosen function of each material, which has at least one. `price` is that of a function.
 pub fn choose(materials: &[Vec<Choosable>], price: f64) -> Vec<usize> {
     let highest = materials
         .iter()
@@ -72,7 +72,7 @@ struct Search<'a> {
     best: Option<(Vec<usize>, Total)>,
 }
 
-/// What a choice comes to; ties are told by the error, then by name.
+/// The total of a choice. Ties are broken by the error, then by name.
 #[derive(Clone)]
 struct Total {
     cost: f64,
@@ -101,7 +101,7 @@ impl Search<'_> {
         {
             return;
         }
-        // Without a price nothing is shared for its own sake: one pass decides.
+        // Without a price sharing saves nothing: one pass decides.
         if next == self.states.len() || self.price == 0.0 {
             return self.enter();
         }
@@ -112,7 +112,7 @@ impl Search<'_> {
         self.states[next] = State::Open;
     }
 
-    /// No choice below this node costs less.
+    /// A lower bound of the cost of all choices below this node.
     fn bound(&self) -> f64 {
         let taken = self.states.iter().filter(|state| **state == State::Taken);
         let least = |material: &Vec<Choosable>| {
@@ -123,7 +123,8 @@ impl Search<'_> {
         own + taken.count() as f64 * self.price
     }
 
-    /// What a function adds, its own price included where it is the material's own; nothing where it is left out.
+    /// The cost that a function adds. It includes the price where the function is the material's own. `None` where the function
+    /// is left out.
     fn cost(&self, one: &Choosable) -> Option<f64> {
         match one.shared {
             None => Some(one.cost + self.price),
@@ -131,7 +132,7 @@ impl Search<'_> {
         }
     }
 
-    /// The best choice where every library function is decided upon.
+    /// Records the best choice, once every library function is decided.
     fn enter(&mut self) {
         let mut choice = Vec::new();
         for material in self.materials {
@@ -174,10 +175,10 @@ pub fn total_cost<'a>(chosen: impl Iterator<Item = &'a Choosable> + Clone, price
     sum + (own + shared.len()) as f64 * price
 }
 
-/// Functions that are judged together. The truth is the first: with three channels each they fill two blocks of columns.
+/// Functions that are judged together. The truth is the first. With three channels each they fill two blocks of columns.
 const TOGETHER: usize = 5;
 
-/// What all candidates of all materials are judged with.
+/// The shared inputs of judging all candidates of all materials.
 pub(super) struct Judge {
     pub rule: RoughRule,
     pub screen: Screen,
@@ -185,7 +186,7 @@ pub(super) struct Judge {
     pub exposures: Vec<f64>,
 }
 
-/// A function in its turn: its values, and the least cost of its candidates.
+/// A function to be judged: its values, and the least cost of its candidates.
 struct Turn<'a> {
     cost: f64,
     place: usize,
@@ -193,8 +194,8 @@ struct Turn<'a> {
 }
 
 impl Judge {
-    /// The errors in some pixels, by this measure. Candidates with the same values, as a method's forms have them, err alike.
-    /// `is_enough` says of a candidate with this error whether what costs more may be left out.
+    /// The errors in some pixels, by this measure. Candidates with the same values, such as the forms of a method, have the same
+    /// error. `is_enough` says whether, at this error of a candidate, those that cost more may be left out.
     pub fn errors(
         &self,
         judged: &JudgedMaterial,
@@ -234,7 +235,7 @@ impl Judge {
     }
 }
 
-/// The truth, the function that reports hold against the plan, and all others by their cost.
+/// The truth, the shared function that the report compares the plan with, and all others by their cost.
 fn turns<'a>(
     judged: &'a JudgedMaterial,
     distinct: &[&'a [[f64; 3]]],
@@ -267,7 +268,7 @@ fn turns<'a>(
     turns
 }
 
-/// The values of candidates, each once, and for each candidate its place among them.
+/// The distinct values of candidates, and for each candidate its index among them.
 pub(super) fn distinct_values(candidates: &[JudgedCandidate]) -> (Vec<&[[f64; 3]]>, Vec<usize>) {
     let mut distinct: Vec<&[[f64; 3]]> = Vec::new();
     let mut places = Vec::new();
@@ -360,7 +361,7 @@ mod tests {
         best
     }
 
-    /// What the plan for a budget costs.
+    /// The cost of the plan for a budget.
     fn planned(materials: &[Vec<Choosable>], price: f64, budget: f64) -> f64 {
         let one = |functions: &Vec<Choosable>| -> Vec<Choosable> {
             let places = within(functions, budget).into_iter();

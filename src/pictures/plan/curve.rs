@@ -1,8 +1,8 @@
-//! Reflectance over all angles, and its mean over a rough surface, as tables that pixels look up.
+//! Tables that pixels look up: reflectance over all angles, and its mean over a rough surface.
 //!
-//! A table has a value at each of 8192 equal steps of angle and is linear between: it is off by less than 2e-7 times the second
-//! derivative in radians. The mean over GGX is linear in F, so that what its coarser table leaves out is left out of every function
-//! alike.
+//! A table has a value at each of 8192 equal steps of angle and is linear between them. Its error is less than 2e-7 times the
+//! second derivative in radians. The mean over GGX is linear in F, so what its coarser table leaves out is left out of every
+//! function alike.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -14,7 +14,7 @@ use crate::physics::optics::Ggx;
 
 /// Steps of angle between 0 and 90 degrees.
 pub const STEPS: usize = 8192;
-/// The same of rough surfaces, and steps of roughness between 0 and 1.
+/// Steps of angle for rough surfaces, and steps of roughness between 0 and 1.
 const ROUGH_STEPS: usize = 128;
 const LEVELS: usize = 32;
 
@@ -25,7 +25,7 @@ pub fn step_cosines() -> Vec<f64> {
         .collect()
 }
 
-/// A place in a table: between a step and the next one.
+/// A place in a table, between a step and the next one.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     step: u32,
@@ -50,11 +50,11 @@ impl Place {
     }
 }
 
-/// Where a pixel looks a function's values up: the same place for every function.
+/// Where a pixel looks up a function's values. The place is the same for every function.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelPlace {
     mirror: Place,
-    /// The level of roughness, and the share of the next one; none for a mirror.
+    /// The level of roughness, and the share of the next one; `None` for a mirror.
     rough: Option<(Place, usize, f64)>,
 }
 
@@ -75,7 +75,7 @@ impl PixelPlace {
         }
     }
 
-    /// The entries of the rough table that it reads: two steps of two levels. Level 0 is the mirror, and has none.
+    /// The entries of the rough table that it reads: two steps on two levels. Level 0 is the mirror and has no entries.
     fn entries(&self) -> impl Iterator<Item = usize> + use<> {
         let pair = self.rough.map(|(place, level, _)| {
             let step = place.step as usize;
@@ -88,7 +88,7 @@ impl PixelPlace {
     }
 }
 
-/// Entries of a level of the rough table.
+/// Entries in a level of the rough table.
 const ROW: usize = ROUGH_STEPS + 1;
 /// All entries of the rough table, level 0 included.
 const ENTRIES: usize = (LEVELS + 1) * ROW;
@@ -100,15 +100,15 @@ fn entry(level: usize, step: usize) -> usize {
 /// The steps that a mean reads, each once, with their weights: those of all half vectors under which a rough surface is seen.
 type StepWeights = Vec<(u32, f64)>;
 
-/// The rule of the mean: of each entry of a rough table the weights of the mirror's steps. An entry is computed when it is first
-/// needed, and serves every function of every material in every frame.
+/// The quadrature of the mean: for each entry of a rough table, the weights of the mirror's steps. An entry is computed when it
+/// is first needed, and serves every function of every material in every frame.
 pub struct RoughRule {
     ggx: Ggx,
     entries: Vec<OnceLock<StepWeights>>,
 }
 
 impl RoughRule {
-    /// Nothing is computed yet.
+    /// A rule with no entry computed yet.
     pub fn new() -> RoughRule {
         RoughRule {
             ggx: Ggx::default(),
@@ -138,7 +138,7 @@ impl RoughRule {
         })
     }
 
-    /// How many entries were computed so far.
+    /// How many entries have been computed so far.
     #[cfg(test)]
     pub fn computed(&self) -> usize {
         let computed = |entry: &&OnceLock<StepWeights>| entry.get().is_some();
@@ -150,7 +150,7 @@ impl RoughRule {
 #[derive(Clone, Debug)]
 pub struct Curve<'a> {
     mirror: &'a [[f64; 3]],
-    /// By [`entry`]; nothing stands where no pixel looks. Empty where no surface is rough.
+    /// Indexed by [`entry`]; unset where no pixel looks. Empty where no surface is rough.
     rough: Vec<[f64; 3]>,
 }
 
@@ -160,7 +160,7 @@ impl<'a> Curve<'a> {
         curves(&[mirror], places, rule).remove(0)
     }
 
-    /// The value of a pixel.
+    /// The value at a pixel's place.
     pub fn at(&self, place: &PixelPlace) -> [f64; 3] {
         let Some((rough, level, share)) = place.rough else {
             return place.mirror.of_table(self.mirror);
@@ -174,8 +174,8 @@ impl<'a> Curve<'a> {
     }
 }
 
-/// The curves of several functions, each from its values at [`step_cosines`]. A mean is taken once of all functions, and of channels
-/// that are equal only once: half vectors are many.
+/// The curves of several functions, each from its values at [`step_cosines`]. The means of all functions are taken in one pass,
+/// and equal channels are summed only once, because half vectors are many.
 pub fn curves<'a>(
     functions: &[&'a [[f64; 3]]],
     places: &[PixelPlace],
@@ -196,14 +196,14 @@ pub fn curves<'a>(
     functions.iter().zip(rough).map(curve).collect()
 }
 
-/// Columns that are summed together: a row of them is a cache line, and all rows fit the cache.
+/// Columns that are summed together. One row of them fills a cache line, and all rows fit in the cache.
 const BLOCK: usize = 8;
 
-/// The channels of functions, each that differs from all others once.
+/// The distinct channels of all functions, each stored once.
 struct Columns {
-    /// At each step the values of some columns; behind the last column stands 0.
+    /// The values of a block of columns at each step, padded with 0 after the last column.
     blocks: Vec<Vec<[f64; BLOCK]>>,
-    /// Of each function the columns of its channels.
+    /// For each function, the columns of its channels.
     of_function: Vec<[usize; 3]>,
 }
 
@@ -260,7 +260,8 @@ impl Columns {
     }
 }
 
-/// The mean of the columns of a block: the innermost loop of a plan. A release build calls what `zip` and closures come to, one by one.
+/// The mean over the columns of a block: the innermost loop of a plan. It is written without `zip` and closures, since a release
+/// build calls these one by one.
 fn block_mean(rows: &[[f64; BLOCK]], weights: &StepWeights) -> [f64; BLOCK] {
     let mut sums = [0.0; BLOCK];
     for (step, weight) in weights {
@@ -322,7 +323,7 @@ mod tests {
         }
     }
 
-    /// Half vectors are the work: an entry's are found once, and only where a pixel looks.
+    /// Finding half vectors is the main cost: those of an entry are found once, and only where a pixel looks.
     #[test]
     fn a_mean_is_taken_where_a_pixel_looks_and_its_half_vectors_are_found_once() {
         let rule = RoughRule::new();
@@ -333,11 +334,11 @@ mod tests {
         let one = [PixelPlace::at(0.4, 0.3)];
         curves(&functions, &one, &rule);
         assert_eq!(rule.computed(), 4);
-        // The same pixel shows another material, and one beside it is rougher.
+        // The same pixel shows another material, and a pixel beside it is rougher.
         let two = [one[0], PixelPlace::at(0.4, 0.32)];
         curves(&functions[..1], &two, &rule);
         assert_eq!(rule.computed(), 6);
-        // A mirror looks nothing up, and next to it there is one level only.
+        // A mirror reads no entry, and just above it there is only one level.
         curves(&functions, &[PixelPlace::at(0.4, 0.0)], &rule);
         assert_eq!(rule.computed(), 6);
         curves(&functions, &[PixelPlace::at(0.4, 0.01)], &rule);

@@ -1,4 +1,4 @@
-//! Scenes that we draw ourselves: triangles of several materials in one depth buffer, under light from all around.
+//! Scenes that this program draws itself: triangles of several materials in one depth buffer, under light from all around.
 
 use super::metric::{FramePixels, ScenePixel};
 use super::sky::SceneLight;
@@ -7,15 +7,15 @@ use crate::lab::raster::{Camera, Mesh, SurfacePoint, surface_points_of};
 /// How a part of a scene looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceLook {
-    /// Its material, by the order of the scene's materials. What has none hides what is behind it, and nothing is planned for it.
+    /// The index of its material in the scene. A part without one hides what is behind it, and nothing is planned for it.
     pub material: Option<usize>,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
     /// All other light of its pixels, before 1 - F multiplies it: in the working space, linear.
     pub other: [f32; 3],
-    /// How much of a pixel it covers, above 0 to 1.
+    /// The share of a pixel that it covers, above 0 to 1.
     pub coverage: f32,
-    /// Whether it is seen from the side alone from which the corners of its triangles go round counter-clockwise.
+    /// Whether it is seen only from the side where the corners of its triangles run counter-clockwise.
     pub is_one_sided: bool,
 }
 
@@ -25,15 +25,15 @@ pub struct DrawnScene {
     mesh: Mesh,
     /// The first triangle of each part that has triangles, in ascending order, and its look.
     parts: Vec<(u32, SurfaceLook)>,
-    /// What the other light and the coverage of a part are multiplied by at each of its corners, after the place of its first corner. In the
-    /// order of corners; parts without are not among them.
+    /// The factors of a part's other light and coverage at each corner, with the index of the part's first corner. In the order
+    /// of corners; parts without tints are left out.
     tints: Vec<(usize, Vec<[f32; 4]>)>,
     materials: usize,
     light: SceneLight,
 }
 
 impl DrawnScene {
-    /// A scene that holds nothing yet, of so many materials, or of more once a look names them.
+    /// An empty scene of this many materials, or of more once a look names them.
     pub fn new(materials: usize, light: SceneLight) -> DrawnScene {
         DrawnScene {
             mesh: Mesh::default(),
@@ -44,7 +44,7 @@ impl DrawnScene {
         }
     }
 
-    /// Puts triangles into the scene.
+    /// Adds triangles to the scene.
     pub fn add(&mut self, mesh: &Mesh, look: SurfaceLook) {
         let named = look.material.map_or(0, |material| material + 1);
         self.materials = self.materials.max(named);
@@ -59,7 +59,7 @@ impl DrawnScene {
         self.mesh.triangles.extend(moved);
     }
 
-    /// Puts triangles into the scene whose other light and coverage differ from corner to corner: red, green, blue, alpha for each, linear.
+    /// Adds triangles whose other light and coverage vary from corner to corner: red, green, blue, alpha for each, linear.
     pub fn add_tinted(&mut self, mesh: &Mesh, look: SurfaceLook, tints: Vec<[f32; 4]>) {
         if !mesh.triangles.is_empty() {
             self.tints.push((self.mesh.vertices.len(), tints));
@@ -77,7 +77,7 @@ impl DrawnScene {
         &self.mesh
     }
 
-    /// What a camera sees. A pixel shows what its centre shows.
+    /// What a camera sees. A pixel shows what lies at its centre.
     pub fn frame(&self, camera: &Camera) -> FramePixels {
         let mut frame = FramePixels::new(camera.lens.size, self.materials);
         let is_one_sided = |triangle| self.look(triangle).is_one_sided;
@@ -111,7 +111,7 @@ impl DrawnScene {
         &self.parts[after - 1].1
     }
 
-    /// What the corners of a triangle say of a point on it; 1 where they say nothing.
+    /// The tint interpolated at a point of a triangle; 1 where its part has none.
     fn tint(&self, point: &SurfacePoint) -> [f32; 4] {
         let corners = self.mesh.triangles[point.triangle as usize].map(|corner| corner as usize);
         let after = self

@@ -1,4 +1,4 @@
-//! Which material each id of a G-buffer is: TOML.
+//! The map from ids of a G-buffer to materials, as TOML.
 //!
 //! ```toml
 //! ignore = [7]              # ids that take no part in the plan; it may be left out
@@ -38,7 +38,7 @@ struct RawMaterial {
 pub enum Shown {
     /// A material, by its index in [`MaterialIds::materials`].
     Material(usize),
-    /// Nothing that takes part.
+    /// Nothing that takes part in the plan.
     Ignored,
 }
 
@@ -48,7 +48,7 @@ pub struct MaterialIds {
     /// The materials, as the file lists them.
     pub materials: Vec<MappedMaterial>,
     ids: BTreeMap<u32, Shown>,
-    /// Of each material, line and column of its `material`.
+    /// For each material, line and column of its `material`.
     places: Vec<[usize; 2]>,
     file: String,
 }
@@ -92,7 +92,7 @@ impl MaterialIds {
         Ok(ids)
     }
 
-    /// What an id shows; nothing where the map lacks it.
+    /// What an id shows; `None` where the map lacks it.
     pub fn shown(&self, id: u32) -> Option<Shown> {
         self.ids.get(&id).copied()
     }
@@ -158,7 +158,7 @@ impl MaterialIds {
     }
 }
 
-/// Refuses a text that is not there, is not in one line, or holds what a terminal obeys.
+/// Refuses a text that is empty, is not one line, or holds control characters, which a terminal would obey.
 fn check_one_line(place: &FileText, key: &str, text: &Spanned<String>) -> Result<(), FileFault> {
     let what = if text.get_ref().trim().is_empty() {
         format!("`{key}` is empty; it wants text")

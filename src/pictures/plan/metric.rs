@@ -1,4 +1,4 @@
-//! How far apart two pixels look on a screen.
+//! How far apart two pixels look on a screen, and the pixels of a frame that are compared.
 //!
 //! | metric | difference | on screen |
 //! |---|---|---|
@@ -11,9 +11,7 @@
 //! differences in television*, 2019, annex 1; the curve PQ and the matrices: ITU-R BT.2100-2, 2018, tables 4 and 7; 203 cd/m² for
 //! diffuse white: Report ITU-R BT.2408-7, 2023.
 //!
-//! The error of a function in a frame: what holds 99.9 % of what a material covers.
-//!
-//! What a frame shows, pixel by pixel, whoever drew it.
+//! The error of a function in a frame is the difference that 99.9 % of the material's coverage does not exceed.
 
 use glam::{DMat3, DVec3};
 
@@ -21,7 +19,7 @@ use super::curve::{Curve, PixelPlace};
 use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte};
 use crate::pictures::scene::Display;
 
-/// A measure of what is seen.
+/// A measure of visible difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
     /// CIEDE2000.
@@ -34,12 +32,12 @@ pub enum Metric {
     Linear,
 }
 
-/// The luminance of white, and the most that a screen of high dynamic range shows, in cd/m².
+/// The luminance of white, and the highest luminance of a screen of high dynamic range, in cd/m².
 const WHITE: f64 = 203.0;
 const PEAK: f64 = 10_000.0;
 
 impl Metric {
-    /// All of them.
+    /// All metrics.
     pub const ALL: [Metric; 4] = [Metric::De2000, Metric::Code8, Metric::Itp, Metric::Linear];
 
     /// Its name on the command line and in reports.
@@ -62,7 +60,7 @@ impl Metric {
         }
     }
 
-    /// The budget where none is named: what is just not seen.
+    /// The budget where none is given: a difference that is just not visible.
     pub fn usual_budget(self) -> f64 {
         match self {
             Metric::De2000 | Metric::Code8 | Metric::Itp => 1.0,
@@ -71,12 +69,12 @@ impl Metric {
     }
 }
 
-/// A screen, and what differences on it are measured by.
+/// A screen, and the metric of differences on it.
 #[derive(Clone, Debug)]
 pub struct Screen {
     metric: Metric,
     display: Display,
-    /// The brightest that it shows; white is 1.
+    /// The brightest value that it shows; white is 1.
     peak: f64,
     to_xyz: DMat3,
     white: DVec3,
@@ -106,7 +104,7 @@ impl Screen {
         }
     }
 
-    /// What it shows of radiance, linear.
+    /// What the screen shows of a radiance, linear, at this many stops of exposure.
     pub fn shown(&self, radiance: DVec3, stops: f64) -> DVec3 {
         let brighter = Display {
             exposure: self.display.exposure + stops,
@@ -115,7 +113,7 @@ impl Screen {
         brighter.shown_within(radiance, self.peak)
     }
 
-    /// Where what is shown lies among all colours: [`Screen::difference`] tells two places apart.
+    /// The place of a shown colour in the metric's colour space. [`Screen::difference`] compares two places.
     pub fn place(&self, shown: DVec3) -> DVec3 {
         match self.metric {
             Metric::De2000 => {
@@ -128,7 +126,7 @@ impl Screen {
         }
     }
 
-    /// How far apart two places are.
+    /// The difference between two places.
     pub fn difference(&self, one: DVec3, other: DVec3) -> f64 {
         let lab = |place: DVec3| Lab {
             l: place.x,
@@ -143,7 +141,7 @@ impl Screen {
     }
 }
 
-/// I, T and P of the eye's three signals, where white is 1.
+/// I, T and P of the three cone signals, where white is 1.
 fn itp(lms: DVec3) -> DVec3 {
     let [l, m, s] = lms.to_array().map(pq);
     DVec3::new(
@@ -153,7 +151,7 @@ fn itp(lms: DVec3) -> DVec3 {
     )
 }
 
-/// The curve PQ: from luminance to a signal in [0, 1].
+/// The PQ curve: from luminance to a signal in [0, 1].
 fn pq(relative: f64) -> f64 {
     let y = (relative.max(0.0) * WHITE / PEAK).min(1.0);
     let power = libm::pow(y, 2610.0 / 16384.0);
@@ -161,9 +159,9 @@ fn pq(relative: f64) -> f64 {
     libm::pow(ratio, 2523.0 / 32.0)
 }
 
-/// The share of a material's coverage that differs by no more than its error.
+/// The share of a material's coverage whose differences do not exceed its error.
 pub const SHARE: f64 = 0.999;
-/// Below so many pixels the error is the largest difference.
+/// Below this many pixels the error is the largest difference.
 pub const PERCENTILE_FROM: usize = 1000;
 
 /// The pixels of a material in a frame, with what the exact law shows there.
@@ -171,7 +169,7 @@ pub struct JudgedPixels<'a> {
     pixels: &'a [ScenePixel],
     places: &'a [PixelPlace],
     screen: &'a Screen,
-    /// For each exposure what the exact law shows.
+    /// For each exposure, what the exact law shows.
     truth: Vec<(f64, Vec<DVec3>)>,
 }
 
@@ -199,12 +197,12 @@ impl<'a> JudgedPixels<'a> {
         }
     }
 
-    /// The error of a function here, under the exposure where it is worst.
+    /// The error of a function in these pixels, at the exposure where it is worst.
     pub fn error(&self, curve: &Curve) -> f64 {
         self.worst(curve, &error_of)
     }
 
-    /// The largest difference that it makes here, under the exposure where it is worst.
+    /// The largest difference that a function makes in these pixels, at the exposure where it is worst.
     pub fn largest(&self, curve: &Curve) -> f64 {
         self.worst(curve, &|differences| largest(&differences))
     }
@@ -223,7 +221,7 @@ impl<'a> JudgedPixels<'a> {
     }
 }
 
-/// The error of a frame with these differences and coverages of pixels.
+/// The error of a frame, from the pairs of difference and coverage of its pixels.
 pub fn error_of(differences: Vec<(f64, f64)>) -> f64 {
     if differences.len() < PERCENTILE_FROM {
         largest(&differences)
@@ -232,12 +230,12 @@ pub fn error_of(differences: Vec<(f64, f64)>) -> f64 {
     }
 }
 
-/// The largest difference, whatever covers how much.
+/// The largest difference, whatever the coverage.
 pub fn largest(differences: &[(f64, f64)]) -> f64 {
     differences.iter().map(|(e, _)| *e).fold(0.0, f64::max)
 }
 
-/// What reaches the camera from a pixel: F L + (1 - F) O.
+/// The radiance that reaches the camera from a pixel: F L + (1 - F) O.
 pub fn radiance(pixel: &ScenePixel, reflectance: [f64; 3]) -> DVec3 {
     let channel = |i: usize| {
         let [light, other] = [pixel.light[i], pixel.other[i]].map(f64::from);
@@ -246,14 +244,14 @@ pub fn radiance(pixel: &ScenePixel, reflectance: [f64; 3]) -> DVec3 {
     DVec3::new(channel(0), channel(1), channel(2))
 }
 
-/// The smallest value so that what does not exceed it has this share of the weight.
+/// The smallest value such that the values up to it hold this share of the weight.
 pub fn quantile(mut weighted: Vec<(f64, f64)>, share: f64) -> f64 {
     weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
     let whole: f64 = weighted.iter().map(|(_, weight)| weight).sum();
     let mut held = 0.0;
     for (value, weight) in &weighted {
         held += weight;
-        // A sum of many weights is off by some roundings.
+        // A sum of many weights is off by a few roundings.
         if held >= share * whole * (1.0 - 1e-12) {
             return *value;
         }
@@ -264,21 +262,21 @@ pub fn quantile(mut weighted: Vec<(f64, f64)>, share: f64) -> f64 {
 /// A pixel that shows a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScenePixel {
-    /// Its place in the frame, row by row from the top left.
+    /// Its index in the frame, row by row from the top left.
     pub place: u32,
     /// The cosine between the normal and the direction to the camera, in [0, 1].
     pub cos_theta: f32,
     /// Perceptual roughness in [0, 1]: α is its square.
     pub roughness: f32,
-    /// How much of the pixel the material covers, above 0 to 1.
+    /// The share of the pixel that the material covers, above 0 to 1.
     pub coverage: f32,
-    /// Incoming light along the mirrored direction, in the working space, linear, not negative: what F multiplies.
+    /// Incoming light along the mirrored direction, which F multiplies. It is linear, in the working space, and not negative.
     pub light: [f32; 3],
-    /// All other light of the pixel, before 1 - F multiplies it: the body's own colour under its light, or what is seen through it.
+    /// All other light of the pixel, before 1 - F multiplies it: the body's own lit colour, or what is seen through it.
     pub other: [f32; 3],
 }
 
-/// A frame.
+/// The pixels of a frame, by material, whichever renderer drew them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FramePixels {
     /// Pixels across and down.
@@ -288,7 +286,7 @@ pub struct FramePixels {
 }
 
 impl FramePixels {
-    /// A frame that shows nothing yet of so many materials.
+    /// A frame of this many materials that shows nothing yet.
     pub fn new(size: [u32; 2], materials: usize) -> FramePixels {
         FramePixels {
             size,
@@ -297,12 +295,12 @@ impl FramePixels {
     }
 }
 
-/// A material of a scene, and what stands for it in the catalogue.
+/// A material of a scene, and the catalogue material that stands for it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MappedMaterial {
     /// What the scene calls it.
     pub name: String,
-    /// A name of the catalogue, or the path of a material's file as the scene's file gives it.
+    /// A name of the catalogue, or the path of a material's file as the scene's file states it.
     pub material: String,
 }
 
@@ -326,7 +324,7 @@ mod tests {
         screen.difference(one, other)
     }
 
-    /// BT.2408 gives .58 of the signal for 203 cd/m²; a grey has no T and P.
+    /// By BT.2408, 203 cd/m² is .58 of the signal. A grey has no T and P.
     #[test]
     fn the_curve_of_high_dynamic_range_is_that_of_the_standard() {
         assert!((pq(1.0) - 0.5807).abs() < 1e-4, "{}", pq(1.0));

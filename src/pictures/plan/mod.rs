@@ -1,4 +1,4 @@
-//! The cheapest function of each material whose error nobody sees in pictures of a scene.
+//! Plans: for each material, the cheapest function whose error is not visible in pictures of a scene.
 //!
 //! ```text
 //! pixel = F L + (1 - F) O        L: light that comes along the mirrored direction; O: all other light of the pixel
@@ -6,9 +6,9 @@
 //! plan: the functions within the budget with the least Σ cost × pixels + price × number of different functions
 //! ```
 //!
-//! The error is that of the frame where it is worst; below 1000 pixels it is the largest difference. Incoming light is held fixed: what
-//! is reflected twice is reflected with the exact law the first time. A rough surface takes the mean of F over the half vectors of GGX
-//! ([`crate::physics::optics::Ggx`]) in the place of F.
+//! The error is that of the frame where it is worst; below 1000 pixels it is the largest difference. Incoming light is held
+//! fixed: for light that is reflected twice, the first reflection follows the exact law. For a rough surface, the mean of F over
+//! the half vectors of GGX ([`crate::physics::optics::Ggx`]) takes the place of F.
 
 mod candidate;
 mod choice;

@@ -1,4 +1,4 @@
-//! The plan: candidates of every material judged in every frame, and the choice among them.
+//! The plan: the candidates of every material judged in every frame, and the choice among them.
 
 use super::candidate::{Candidate, Prices, candidates};
 use super::choice::{Choosable, Judge, choose, within};
@@ -8,11 +8,11 @@ use super::request::PlanRequest;
 use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
 
-/// Errors are compared and told in so many parts of 1: what single precision rounds is far below.
+/// Errors are compared and printed in this many parts of 1. The rounding of single precision is far below that.
 const ERROR_PARTS: f64 = 1e4;
-/// Every how manieth step of angle is looked at where every angle counts: .7 degrees.
+/// The stride in steps of angle where a material is judged at every angle: .7 degrees.
 const EVERY: usize = 64;
-/// How many pixels tell the light there.
+/// How many pixels are sampled for the light there.
 const SAMPLED: usize = 256;
 /// The degrees of a right angle.
 pub(super) const DEGREES: usize = 90;
@@ -20,9 +20,9 @@ pub(super) const DEGREES: usize = 90;
 /// A material of the scene.
 #[derive(Clone, Debug)]
 pub struct PlannedMaterial {
-    /// What a user types to name it.
+    /// The name or path by which a user names it.
     pub argument: String,
-    /// What the scene calls it, each name once.
+    /// The scene's names for it, each once.
     pub names: Vec<String>,
     /// The material.
     pub subject: MaterialInMedium,
@@ -35,7 +35,8 @@ pub struct PlannedMaterial {
 pub struct JudgedCandidate {
     /// The function.
     pub candidate: Candidate,
-    /// The error in the frame where it is worst; infinite where something that costs less is within the budget, and nobody looked.
+    /// The error in the frame where it is worst. It is infinite if it was not judged because a cheaper candidate is within the
+    /// budget.
     pub error: f64,
     /// That frame, from 0.
     pub worst_frame: usize,
@@ -44,41 +45,41 @@ pub struct JudgedCandidate {
 /// How a material's error was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Judgement {
-    /// As what holds 99.9 % of what it covers.
+    /// As the difference that 99.9 % of its coverage does not exceed.
     Percentile,
-    /// As the largest of its few pixels.
+    /// As the largest difference of its few pixels.
     Largest,
-    /// As the largest at all angles under the light of its pixels, since too few show it.
+    /// As the largest difference at all angles, under the light of its pixels, since too few pixels show it.
     EveryAngle,
 }
 
-/// What was found of a material.
+/// What was found for a material.
 #[derive(Clone, Debug)]
 pub struct JudgedMaterial {
     /// The material.
     pub material: PlannedMaterial,
     /// Its candidates.
     pub candidates: Vec<JudgedCandidate>,
-    /// The place of the chosen one.
+    /// The index of the chosen candidate.
     pub chosen: usize,
     /// How errors were found.
     pub judgement: Judgement,
-    /// Frames that show it.
+    /// How many frames show it.
     pub frames: usize,
-    /// Its pixels in all frames.
+    /// How many pixels show it, in all frames.
     pub pixels: u64,
     /// How much of its coverage is seen at each degree from 0 to 90.
     pub angles: Vec<f64>,
     /// What its exact law costs.
     pub cost_exact: Option<f64>,
-    /// What functions are held against, at [`step_cosines`].
+    /// The reference that functions are compared with, at [`step_cosines`].
     pub truth: Vec<[f64; 3]>,
 }
 
 /// Why there is no plan.
 #[derive(Debug, thiserror::Error)]
 pub enum PlanFault<E> {
-    /// A frame cannot be had.
+    /// A frame cannot be read or drawn.
     #[error(transparent)]
     Frame(E),
     /// A function cannot be made.
@@ -92,15 +93,15 @@ pub enum PlanFault<E> {
     NoCost {
         /// The material.
         material: String,
-        /// The family.
+        /// The GPU family.
         gpu: &'static str,
     },
 }
 
-/// Judges and chooses. `frame` gives one frame after another; `progress` hears how many are done, of how many.
+/// Judges the candidates and chooses. `frame` returns one frame after another; `progress` gets the number done and the total.
 ///
 /// # Errors
-/// A frame cannot be had, or a material has no function whose cost is known.
+/// A frame cannot be read or drawn, or a material has no function whose cost is known.
 pub fn plan<E>(
     request: &PlanRequest,
     materials: Vec<PlannedMaterial>,
@@ -143,10 +144,10 @@ pub fn plan<E>(
     Ok(judged)
 }
 
-/// A material while frames are looked at.
+/// The state of a material while frames are judged.
 struct Seen {
     judged: JudgedMaterial,
-    /// The most pixels that a frame shows.
+    /// The most pixels that any frame shows.
     most: usize,
     /// Some of its pixels.
     sample: Sample,
@@ -182,7 +183,7 @@ impl Seen {
         })
     }
 
-    /// Enters the material's pixels of a frame, the so-manieth of so many.
+    /// Adds the material's pixels of one frame, given its index and the number of frames.
     fn enter(
         &mut self,
         request: &PlanRequest,
@@ -201,7 +202,7 @@ impl Seen {
             self.sample.enter(pixel);
         }
         let is_by_angles = self.most < request.min_pixels;
-        // Errors at every angle take the place of these, which tell only the worst of several frames.
+        // Errors at every angle will replace these, which then only serve to find the worst of several frames.
         if is_by_angles && frames == 1 {
             return;
         }
@@ -220,7 +221,7 @@ impl Seen {
         }
     }
 
-    /// With what is left to say when all frames are seen.
+    /// The final result, when all frames have been judged.
     fn judged(mut self, request: &PlanRequest, judge: &Judge) -> JudgedMaterial {
         self.judged.judgement = match self.most {
             most if most < request.min_pixels => Judgement::EveryAngle,
@@ -244,14 +245,14 @@ impl Seen {
     }
 }
 
-/// An error as it is compared and told.
+/// An error rounded as it is compared and printed.
 fn rounded_error(error: f64) -> f64 {
     (error * ERROR_PARTS).round() / ERROR_PARTS
 }
 
 impl PlanRequest {
-    /// Whether a candidate with this error leaves nothing to look for in those that cost more. Where functions have a price, one that
-    /// costs more may be shared.
+    /// Whether a candidate with this error makes it needless to judge those that cost more. This holds only where functions have
+    /// no price: with a price, a more expensive one may pay off by being shared.
     fn is_enough(&self, error: f64) -> bool {
         self.price == 0.0 && rounded_error(error) <= self.budget
     }
@@ -263,11 +264,11 @@ pub(super) fn degree_of(pixel: &ScenePixel) -> usize {
     (angle.to_degrees() as usize).min(DEGREES - 1)
 }
 
-/// Some of many pixels, evenly: each so-manieth.
+/// An even sample of many pixels: every `2^halvings`th.
 #[derive(Default)]
 struct Sample {
     pixels: Vec<ScenePixel>,
-    /// How many were seen; of these every `2^halvings`th is kept.
+    /// How many were seen. Every `2^halvings`th of them is kept.
     seen: usize,
     halvings: u32,
 }
@@ -289,7 +290,7 @@ impl Sample {
     }
 }
 
-/// A mirror seen straight on under white light.
+/// A mirror seen straight on in white light.
 const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
     place: 0,
     cos_theta: 1.0,
@@ -299,7 +300,7 @@ const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
     other: [0.0; 3],
 };
 
-/// Each of these pixels at each angle; a mirror in white light where there is none.
+/// Each of these pixels at each angle; a mirror in white light where there are none.
 fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
     let pixels = match pixels {
         [] => &[MIRROR_IN_WHITE],
@@ -315,7 +316,7 @@ fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
         .collect()
 }
 
-/// Of each material the places of the candidates within the budget, and what they cost.
+/// For each material, the indices of the candidates within the budget, and their costs.
 fn choosable(
     judged: &[JudgedMaterial],
     budget: f64,
@@ -342,7 +343,7 @@ fn choosable(
     judged.iter().map(&mut of_material).unzip()
 }
 
-/// The place of a name in a list, to which it is added where it is new.
+/// The index of a name in a list. A new name is appended.
 fn place_of(names: &mut Vec<String>, name: &str) -> usize {
     let found = names.iter().position(|known| known == name);
     found.unwrap_or_else(|| {
@@ -443,7 +444,7 @@ mod tests {
         }
     }
 
-    /// The forms of a method have the same values, and of one channel they have others: gold's candidates are judged by fewer curves.
+    /// The forms of a method have the same values, except those of one channel. So gold's candidates are judged by fewer curves.
     #[test]
     fn what_has_the_same_values_is_judged_once() {
         let request = request(1.0);
@@ -461,7 +462,7 @@ mod tests {
         assert!(distinct.len() <= methods.len(), "{}", distinct.len());
     }
 
-    /// Figures of an independent prototype.
+    /// Figures from an independent prototype.
     #[test]
     fn gold_in_white_light_takes_the_fitted_method_and_in_dim_light_the_gaussian() {
         let white = judged(&request(1.0), sphere(512, [1.0; 3]));
@@ -474,8 +475,8 @@ mod tests {
         assert_eq!(dim.chosen().candidate.name(), "schlick_spherical_gaussian");
     }
 
-    /// What costs more than the cheapest within the budget is not judged, and nothing that is told changes. A price so small that it
-    /// changes no sum has all of them judged.
+    /// Candidates that cost more than the cheapest within the budget are not judged, and the report stays the same. With a price
+    /// too small to change any sum, all of them are judged.
     #[test]
     fn what_cannot_be_chosen_is_not_judged() {
         let few = || {

@@ -1,8 +1,8 @@
-//! The proof: the text that a plan writes, run on this machine's graphics stack, and the picture that it makes.
+//! The proof: runs the text that a plan writes on this machine's graphics stack, and checks the picture that it makes.
 //!
-//! In the frame where a function is worst, its emitted text computes every pixel's reflectance. The picture made of these numbers
-//! is held against the budget, with the metric of the plan, once as it is and once in codes of 8 bits. The numbers themselves are held
-//! against what the function means in f64, within its promised code bound. These are two different errors.
+//! In the frame where a function is worst, its emitted text computes the reflectance of every pixel. The picture made of these
+//! numbers is compared with the budget in the plan's metric, once as it is and once in 8-bit codes. The numbers themselves are
+//! compared with the function's exact meaning in f64; the limit is its promised code bound. These are two different errors.
 
 use glam::DVec3;
 
@@ -28,7 +28,7 @@ const TARGETS: [&Target; 2] = [&WGSL, &GLES];
 
 /// The function of a material and the pixels that it is held to.
 pub struct ProofCase<'a> {
-    /// What was found of the material.
+    /// What was found for the material.
     pub judged: &'a JudgedMaterial,
     /// Its pixels in the frame where the chosen function is worst.
     pub pixels: &'a [ScenePixel],
@@ -60,10 +60,10 @@ pub fn prove(
     Ok((device, proofs))
 }
 
-/// The chosen function as it is written.
+/// The chosen function as it is written to a file.
 struct Written {
     functions: Vec<Emitted>,
-    /// Which of them is called.
+    /// The index of the function that is called.
     called: usize,
     naming: Naming,
     trial: Trial,
@@ -87,7 +87,7 @@ impl Written {
         let called = called.expect("a candidate's form is one of its method's");
         let mut trial = material_trial(subject, &functions[called]);
         if judged.chosen().candidate.channels() == 1 {
-            // The green channel stands for all.
+            // The green channel stands for all three.
             trial.values = trial.values.iter().map(|value| [value[1]; 3]).collect();
         }
         Ok(Written {
@@ -98,7 +98,7 @@ impl Written {
         })
     }
 
-    /// The text of the file that holds it.
+    /// The text of the file that holds the function.
     fn bytes(
         &self,
         judged: &JudgedMaterial,
@@ -178,7 +178,7 @@ impl Written {
         Ok(proof)
     }
 
-    /// The largest absolute difference from what the function means in f64, and whether the promise is kept.
+    /// The largest absolute difference from the function's exact meaning in f64, and whether the promised bound is kept.
     fn code_error(&self, cosines: &[f32], got: &[[f32; 3]]) -> (f64, bool) {
         let called = &self.functions[self.called];
         let want = self.trial.run::<f64>(cosines);
@@ -195,7 +195,7 @@ impl Written {
     }
 }
 
-/// The last digit of an error that is told with four.
+/// The last digit of an error that is printed with four.
 const SLACK: f64 = 5e-5;
 
 /// Both pictures of a material.
@@ -221,7 +221,7 @@ impl<'a> Picture<'a> {
         let wide = |value: &[f32; 3]| value.map(f64::from);
         let steps: Vec<[f64; 3]> = steps.iter().map(wide).collect();
         let curve = Curve::new(&steps, &places, &rule);
-        // A mirror takes the number of its own cosine, a rough surface the mean over half vectors.
+        // A mirror takes the value at its own cosine. A rough surface takes the mean over half vectors.
         let value = |(i, place): (usize, &PixelPlace)| {
             if case.pixels[i].roughness > 0.0 {
                 curve.at(place)
@@ -239,7 +239,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// The pixels as the screen shows them, brighter by so many stops: of the device, and of the exact law.
+    /// The pixels as the screen shows them at this many stops of exposure: from the device, and by the exact law.
     fn shown(&self, stops: f64) -> impl Iterator<Item = [DVec3; 2]> {
         (0..self.pixels.len()).map(move |i| {
             let truth = self.truth.at(&self.places[i]);
@@ -257,7 +257,7 @@ impl<'a> Picture<'a> {
         self.error_of(&|shown: DVec3| DVec3::from_array(shown.to_array().map(linear)))
     }
 
-    /// The error under the exposure where it is worst.
+    /// The error at the exposure where it is worst.
     fn error_of(&self, coded: &dyn Fn(DVec3) -> DVec3) -> f64 {
         let of_exposure = |stops: &f64| {
             let differences = self.shown(*stops).zip(self.pixels);

@@ -1,4 +1,4 @@
-//! What a plan is asked for.
+//! The settings of a plan.
 
 use super::curve::step_cosines;
 use super::metric::Metric;
@@ -10,48 +10,48 @@ use crate::physics::num::{Precision, in_parallel};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::Display;
 
-/// Cosines that a processor's core takes at once: handing over one takes a tenth of the law's own time.
+/// Cosines that a core takes at once. Handing over a single one takes a tenth of the law's own time.
 const TOGETHER: usize = 256;
-/// Steps between exposures of a range, in stops.
+/// The largest step between exposures of a range, in stops.
 const STOPS: f64 = 1.0;
 
-/// What a plan is held to.
+/// The settings of a plan: its budget, its metric and its candidates.
 #[derive(Clone, Debug)]
 pub struct PlanRequest {
     /// The largest error.
     pub budget: f64,
-    /// What errors are measured by.
+    /// The metric of errors.
     pub metric: Metric,
     /// From radiance to the screen.
     pub display: Display,
-    /// The space of the pictures.
+    /// The colour space of the pictures.
     pub space: Space,
-    /// So many stops darker and brighter are looked at too.
+    /// How many stops darker and brighter are judged too.
     pub exposure_range: f64,
-    /// A material that no frame shows on so many pixels is held to every angle.
+    /// A material that no frame shows on this many pixels is judged at every angle.
     pub min_pixels: usize,
-    /// What functions are held against.
+    /// The reference that functions are compared with.
     pub truth: PlanTruth,
-    /// The GPUs whose costs decide.
+    /// The GPU family whose costs decide.
     pub family: &'static Family,
-    /// What functions compute in.
+    /// The precision that functions compute in.
     pub precision: Precision,
-    /// How many channels functions may give.
+    /// How many channels functions may return.
     pub channels: Vec<usize>,
-    /// The methods among which it chooses.
+    /// The methods to choose from.
     pub methods: Vec<&'static Method>,
-    /// What a texture fetch costs; without it no table is taken.
+    /// The cost of a texture fetch; without it no table is chosen.
     pub fetch: Option<f64>,
-    /// What another function costs, as so many units × pixels.
+    /// The price of each further function, in units × pixels.
     pub price: f64,
 }
 
-/// What functions are held against.
+/// The reference that functions are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanTruth {
     /// The exact law at each wavelength.
     Spectrum,
-    /// The exact law with one index a channel, as the exact methods take it.
+    /// The exact law with one index per channel, as the exact methods take it.
     Exact,
 }
 
@@ -89,7 +89,7 @@ impl PlanTruth {
 }
 
 impl PlanRequest {
-    /// The exposures that are looked at, in stops.
+    /// The exposures that are judged, in stops.
     pub(super) fn exposures(&self) -> Vec<f64> {
         let range = self.exposure_range;
         let steps = (range / STOPS).ceil() as i32;

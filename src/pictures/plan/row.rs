@@ -1,4 +1,4 @@
-//! A row of the report: the function that a material gets, and why nothing cheaper.
+//! Rows of the report: the function that a material gets, and why nothing cheaper will do.
 
 use std::collections::BTreeMap;
 
@@ -17,110 +17,110 @@ use crate::physics::num::Precision;
 /// The function that a material gets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanRow {
-    /// The material, as a user types it.
+    /// The material, as a user names it.
     pub material: String,
-    /// What the scene calls it.
+    /// The scene's names for it.
     pub names: Vec<String>,
-    /// The method.
+    /// The method's name.
     pub method: &'static str,
-    /// Its form.
+    /// The form of its function.
     pub form: FunctionForm,
-    /// How many channels it gives.
+    /// How many channels it returns.
     pub channels: usize,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
-    /// What a library function is called with after `cos_theta`: three channels each, of a scalar function the green one. Empty where
-    /// the material's constants are folded in.
+    /// The arguments of a library function after `cos_theta`: three channels each, or green alone for a scalar function. Empty
+    /// where the material's constants are folded in.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub values: BTreeMap<String, Vec<f64>>,
     /// Its error in the frame where it is worst.
     pub error: f64,
-    /// The largest error that was asked for.
+    /// The largest error that is allowed.
     pub budget: f64,
     /// Whether the error is within the budget.
     pub is_within: bool,
-    /// What an evaluation costs.
+    /// The cost of one evaluation.
     pub cost: f64,
     /// How the cost is known: `function` (it was compiled), `shape` (the same text with other constants was), `nothing` (it computes
     /// nothing), `operations` (they were counted).
     pub cost_by: CostBasis,
-    /// What the exact law costs.
+    /// The cost of the exact law.
     pub cost_exact: Option<f64>,
-    /// Pixels that show the material, in the mean of all frames.
+    /// Pixels that show the material, averaged over all frames.
     pub pixels: f64,
-    /// Frames that show it.
+    /// How many frames show it.
     pub frames: usize,
     /// The frame where the error is largest, from 0.
     pub worst_frame: usize,
     /// `percentile`, `largest`, or `every_angle` where too few pixels show it.
     pub judged_by: &'static str,
-    /// Why it is chosen, in a sentence.
+    /// The reason for the choice, in a sentence.
     pub why: String,
-    /// All that cost less, with the errors by which they fail; the most accurate first.
+    /// The functions that cost less, with the errors by which they fail, the most accurate first.
     pub cheaper: Vec<CheaperFunction>,
 }
 
 /// A function that costs less than the chosen one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheaperFunction {
-    /// The method.
+    /// The method's name.
     pub method: &'static str,
-    /// Its form.
+    /// The form of its function.
     pub form: FunctionForm,
-    /// How many channels it gives.
+    /// How many channels it returns.
     pub channels: usize,
-    /// What an evaluation costs.
+    /// The cost of one evaluation.
     pub cost: f64,
-    /// Its error.
+    /// Its error in the frame where it is worst.
     pub error: f64,
 }
 
-/// What all functions of a plan cost together, in units × pixels of a frame.
+/// The cost of all functions of a plan together, in units × pixels of a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanTotal {
-    /// The plan.
+    /// The cost of the plan.
     pub cost: f64,
-    /// The exact law of every material.
+    /// The cost if every material took its exact law.
     pub cost_exact: Option<f64>,
-    /// One library function for all.
+    /// The cost if all materials took one library function.
     pub shared: Option<SharedFunction>,
-    /// What another function costs, as so many units × pixels.
+    /// The price of each further function, in units × pixels.
     pub price: f64,
 }
 
 /// One library function for all materials.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SharedFunction {
-    /// Its method.
+    /// The method's name.
     pub method: &'static str,
-    /// What it costs.
+    /// Its total cost.
     pub cost: f64,
-    /// Its largest error.
+    /// Its largest error over all materials.
     pub error: f64,
 }
 
-/// What came of a function's text.
+/// The result of running a function's text.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Proof {
-    /// The material, as a user types it.
+    /// The material, as a user names it.
     pub material: String,
-    /// The target.
+    /// The target language.
     pub target: &'static str,
     /// The function that was called.
     pub function: String,
     /// The frame, from 0.
     pub frame: usize,
-    /// How many cosines it was run at.
+    /// At how many cosines the function was run.
     pub points: usize,
-    /// The error of the picture, as the plan measures it.
+    /// The error of the picture, in the plan's metric.
     pub error: Option<f64>,
-    /// The same of both pictures in codes of 8 bits; none for screens of high dynamic range.
+    /// The error between both pictures in 8-bit codes; `None` for screens of high dynamic range.
     pub error_8bit: Option<f64>,
-    /// The largest difference of a code of 8 bits.
+    /// The largest difference in 8-bit codes.
     pub codes: Option<u8>,
-    /// The largest absolute difference from what the function means in f64.
+    /// The largest absolute difference from the function's exact meaning in f64.
     pub code_abs: Option<f64>,
-    /// Whether that is within what the function promises.
+    /// Whether that is within the function's promised bound.
     pub is_within_code_bound: Option<bool>,
     /// Whether the picture is within the budget and the numbers within the bound.
     pub status: Status,
@@ -129,39 +129,39 @@ pub struct Proof {
     pub reason: Option<String>,
 }
 
-/// A plan as a file, read back: what functions it consists of.
+/// A plan file, read back: the functions that it consists of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PlanFile {
-    /// What made it.
+    /// The program that made it.
     pub tool: String,
-    /// The version of its form.
+    /// The version of the file's schema.
     pub schema: u32,
     /// `plan` and its flags.
     pub command: String,
-    /// The space of the functions.
+    /// The colour space of the functions.
     pub space: String,
     /// The functions.
     pub rows: Vec<PlanFileRow>,
 }
 
-/// A function of a plan that is read back.
+/// A function of a plan file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PlanFileRow {
-    /// The material, as a user types it.
+    /// The material, as a user names it.
     pub material: String,
     /// The method's name.
     pub method: String,
-    /// Its form.
+    /// The form of its function.
     pub form: FunctionForm,
-    /// What it computes in.
+    /// The precision that it computes in.
     pub precision: Precision,
 }
 
-/// The library function that everything is compared with: it suits every material.
+/// The library function that every plan is compared with: it suits every material.
 const SHARED: &str = "fitted";
 
 impl Judgement {
-    /// As reports spell it.
+    /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Judgement::Percentile => "percentile",
@@ -172,7 +172,7 @@ impl Judgement {
 }
 
 impl JudgedMaterial {
-    /// The function that it gets.
+    /// The chosen candidate.
     pub fn chosen(&self) -> &JudgedCandidate {
         &self.candidates[self.chosen]
     }
@@ -189,7 +189,7 @@ impl JudgedMaterial {
         cheaper
     }
 
-    /// Its row, of so many frames in all.
+    /// The row of the report, given the number of frames in all.
     pub fn row(&self, request: &PlanRequest, frames: usize) -> PlanRow {
         let JudgedCandidate {
             candidate,
@@ -223,7 +223,7 @@ impl JudgedMaterial {
         }
     }
 
-    /// What its library function is called with.
+    /// The arguments of its library function.
     fn values(&self, precision: Precision) -> BTreeMap<String, Vec<f64>> {
         let candidate = &self.chosen().candidate;
         if candidate.is_specialised() {
@@ -240,7 +240,7 @@ impl JudgedMaterial {
             .collect()
     }
 
-    /// Why the chosen function, in a sentence.
+    /// The reason for the chosen function, in a sentence.
     fn why(&self, request: &PlanRequest) -> String {
         let chosen = self.chosen();
         let (budget, unit) = (request.budget, request.metric.unit());
@@ -290,7 +290,7 @@ impl CheaperFunction {
 }
 
 impl PlanTotal {
-    /// Of all materials in so many frames.
+    /// The total of all materials over this many frames.
     pub fn of(judged: &[JudgedMaterial], price: f64, frames: usize) -> PlanTotal {
         let pixels = |material: &JudgedMaterial| material.pixels as f64 / frames.max(1) as f64;
         let exact =
@@ -316,14 +316,14 @@ impl PlanTotal {
     }
 }
 
-/// The first material that takes a library function: it tells functions apart.
+/// The first material that takes a library function. It serves to tell functions apart.
 fn shared_place(judged: &[JudgedMaterial], candidate: &Candidate) -> usize {
     let name = candidate.name();
     let takes = |material: &JudgedMaterial| material.chosen().candidate.name() == name;
     judged.iter().position(takes).unwrap_or(0)
 }
 
-/// Whether it is the library function that a plan is held against.
+/// Whether it is the library function that plans are compared with.
 pub(super) fn is_shared(candidate: &Candidate) -> bool {
     candidate.method.name == SHARED && candidate.form == FunctionForm::Library
 }

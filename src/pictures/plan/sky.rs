@@ -1,14 +1,14 @@
-//! Light from around a drawn scene.
+//! Light that surrounds a drawn scene, blurred for rough surfaces.
 //!
 //! ```text
 //! rough surfaces: the table of the environment with texels as large as the lobe of GGX, 2 π / rows² = 4 π α², α = roughness²
 //! ```
 //!
-//! A lobe is as wide as one of the density at its peak: seen head-on, D / 4 = 1 / (4 π α²). Tables are halved as often as
-//! that takes, and what lies between two tables is linear in the logarithm of their rows. Source: M. Colbert, J. Křivánek, *GPU-Based
-//! Importance Sampling*, GPU Gems 3, 2007, section 20.4,
+//! The width of a lobe is that of a uniform lobe with the density of its peak: seen head-on, D / 4 = 1 / (4 π α²). Tables are
+//! halved until the texels are that large. Between two tables the light is linear in the logarithm of their rows. Source: M.
+//! Colbert, J. Křivánek, *GPU-Based Importance Sampling*, GPU Gems 3, 2007, section 20.4,
 //! <https://developer.nvidia.com/gpugems/gpugems3/part-iii-rendering/chapter-20-gpu-based-importance-sampling>, with one
-//! sample, in the mirrored direction. Lobes that are stretched at grazing angles stay round.
+//! sample, in the mirrored direction. Lobes are taken as round, although at grazing angles they are stretched.
 
 use glam::DVec3;
 
@@ -29,7 +29,7 @@ impl SceneLight {
         SceneLight::Environment(Box::new(BlurredEnvironment::new(environment)))
     }
 
-    /// What comes from a direction to a surface of a perceptual roughness in [0, 1], which mirrors it to the camera.
+    /// The light from a direction that a surface of a perceptual roughness in [0, 1] mirrors to the camera.
     pub fn along(&self, direction: DVec3, roughness: f64) -> [f32; 3] {
         match self {
             SceneLight::Uniform(light) => *light,
@@ -49,7 +49,7 @@ impl SceneLight {
     }
 }
 
-/// An environment and the same with fewer texels, down to two.
+/// An environment, and smaller versions of it down to two rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlurredEnvironment {
     tables: Vec<Environment>,
@@ -75,7 +75,7 @@ impl BlurredEnvironment {
         let alpha = roughness * roughness;
         let rows = std::f64::consts::FRAC_1_SQRT_2 / alpha;
         let finest = self.tables[0].size()[1] as f64;
-        // A mirror's lobe has no width, and no table has infinitely many rows.
+        // A mirror's lobe has no width, so that no finite table would be fine enough.
         if rows >= finest {
             return self.tables[0].radiance(direction);
         }
@@ -104,7 +104,7 @@ mod tests {
         for y in [-0.9, 0.0, 0.9] {
             assert!((at(y, 1.0) - 0.5).abs() < 1e-3, "{}", at(y, 1.0));
         }
-        // The light of a direction near the edge sinks as the lobe grows.
+        // The light from a direction near the edge falls as the lobe grows.
         let sinking: Vec<f64> = (0..=10).map(|i| at(0.3, f64::from(i) / 10.0)).collect();
         assert!(sinking.is_sorted_by(|a, b| a + 1e-9 >= *b), "{sinking:?}");
     }

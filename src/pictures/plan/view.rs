@@ -1,4 +1,5 @@
-//! What a person looks at: the angles of a material, errors over them, and its pixels in the frame where the chosen function is worst.
+//! What a plan's page shows of a material: its angles, the errors over them, and its pixels in the frame where the chosen
+//! function is worst.
 
 use glam::DVec3;
 
@@ -9,39 +10,39 @@ use super::request::PlanRequest;
 use crate::lab::raster::MAGNIFIED;
 use crate::physics::num::each_channel;
 
-/// Candidates beside the chosen one that are shown.
+/// How many candidates are shown beside the chosen one.
 const CHEAPER: usize = 3;
-/// Pixels a side of a picture at most.
+/// The largest side of a picture, in pixels.
 const SIDE: u32 = 360;
 
 /// What is shown of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialView {
-    /// The share of each degree in what the material covers, in all frames.
+    /// The share of each degree of angle in the material's coverage, over all frames.
     pub angles: Vec<f64>,
-    /// The chosen function's errors, and those of the most accurate that cost less.
+    /// The errors of the chosen function, and of the most accurate ones that cost less.
     pub curves: Vec<AngleCurve>,
-    /// Pictures of the worst frame: the exact law, then of each function the picture and its difference.
+    /// Pictures of the worst frame: first the exact law, then for each function its picture and the difference.
     pub pictures: Vec<ViewPicture>,
 }
 
-/// The largest difference that a function makes in the pixels of each degree.
+/// The largest difference that a function makes in the pixels of each degree of angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleCurve {
     /// The function.
     pub name: String,
-    /// The middle of each degree and the difference; NaN where no pixel shows it.
+    /// The middle of each degree and the difference; NaN where no pixel shows that degree.
     pub points: Vec<(f64, f64)>,
 }
 
-/// A part of a frame that shows a material and nothing else.
+/// A crop of a frame that shows one material and nothing else.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewPicture {
     /// What it shows.
     pub title: String,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// What the screen shows, linear, row by row; none where the material is not.
+    /// What the screen shows, linear, row by row; `None` where the material is not seen.
     pub pixels: Vec<Option<[f64; 3]>>,
 }
 
@@ -70,7 +71,7 @@ pub fn material_view(
     }
 }
 
-/// The pixels of a material in a frame, and where each looks its reflectance up.
+/// The pixels of a material in a frame, and the place where each looks its reflectance up.
 struct SeenPixels<'a> {
     pixels: &'a [ScenePixel],
     places: Vec<PixelPlace>,
@@ -79,7 +80,7 @@ struct SeenPixels<'a> {
 }
 
 impl SeenPixels<'_> {
-    /// What the screen shows of each by a function with these values.
+    /// What the screen shows of each pixel, for a function with these values.
     fn shown(&self, values: &[[f64; 3]]) -> Vec<DVec3> {
         let curve = Curve::new(values, &self.places, &self.rule);
         let each = self.pixels.iter().zip(&self.places);
@@ -92,7 +93,7 @@ impl SeenPixels<'_> {
 fn shown_candidates(judged: &JudgedMaterial) -> Vec<&JudgedCandidate> {
     let mut shown = vec![judged.chosen()];
     for one in judged.cheaper() {
-        // Different forms and methods of one formula err alike.
+        // Different forms of a method, and methods of one formula, have the same errors.
         let is_new = |known: &&JudgedCandidate| known.error != one.error;
         if shown.len() <= CHEAPER && shown.iter().all(is_new) {
             shown.push(one);
@@ -126,7 +127,7 @@ fn curves(
     shown.iter().map(curve).collect()
 }
 
-/// Where a material stands in a frame, thinned out to a picture's size.
+/// The part of a frame that a material covers, thinned out to a picture's size.
 struct Crop {
     from: [u32; 2],
     every: u32,
@@ -152,7 +153,7 @@ impl Crop {
         }
     }
 
-    /// The place of a pixel in the picture, if it is there.
+    /// The index of a pixel in the picture, if the pixel is kept.
     fn place(&self, pixel: &ScenePixel, width: u32) -> Option<usize> {
         let at = [pixel.place % width, pixel.place / width];
         let at = [0, 1].map(|axis| at[axis] - self.from[axis]);
@@ -188,7 +189,7 @@ fn pictures(
     };
     let truth = picture(&judged.truth);
     let mut all = vec![titled("exact law".to_owned(), truth.clone())];
-    // The chosen function, and the one that would have cost less.
+    // The chosen function, and the first of those that would have cost less.
     for one in shown.iter().take(2) {
         let drawn = picture(&one.candidate.values);
         let apart = drawn.iter().zip(&truth).map(|pair| match pair {

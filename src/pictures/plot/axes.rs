@@ -1,19 +1,14 @@
-//! Two axes around an area: grid, ticks with their labels, titles.
-//!
-//! The legend: a line sample and a name for each curve.
-//!
-//! Values along a line of a picture: evenly, or in powers of ten.
-//!
-//! A layout sets text, panels and elements from the top down.
+//! What charts are laid out with: two axes around an area with grid, ticks and titles; the legend; scales, linear or in powers of
+//! ten; and the layout, which sets text, panels and elements from the top down.
 
 use crate::generator::emit::{MARK, xml_text};
 use crate::pictures::plot::line_chart::Series;
 use crate::pictures::plot::palette::{EDGE, GRID, Style};
 use crate::pictures::plot::text::{AXIS, Font, LEGEND, TICK};
 
-/// From a vertical axis to the labels of its ticks, and a little more than from a horizontal one to its.
+/// The gap between a vertical axis and its tick labels, a little more than for a horizontal one.
 pub const TICK_GAP: f64 = 7.0;
-/// The length of a tick that stands outside.
+/// The length of a tick outside the area.
 const TICK_LENGTH: f64 = 4.0;
 
 /// A rectangle of a picture.
@@ -34,23 +29,23 @@ pub struct Area {
 pub struct Tick {
     /// The value.
     pub value: f64,
-    /// What stands there.
+    /// The text of the label.
     pub label: String,
 }
 
-/// An area, and where values lie in it.
+/// An area, and the scales of the values in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
     /// The area.
     pub area: Area,
     /// From left to right.
     pub x: Scale,
-    /// From the bottom up, or however its ends say.
+    /// From the bottom up, unless its ends say otherwise.
     pub y: Scale,
 }
 
 impl Area {
-    /// Whether two areas share a point inside.
+    /// Whether the interiors of two areas overlap.
     pub fn meets(&self, other: &Area) -> bool {
         let across = self.left < other.right && other.left < self.right;
         across && self.top < other.bottom && other.top < self.bottom
@@ -62,7 +57,7 @@ impl Area {
         across && self.top >= other.top && self.bottom <= other.bottom
     }
 
-    /// The middle between left and right.
+    /// The centre between left and right.
     pub fn centre(&self) -> f64 {
         f64::midpoint(self.left, self.right)
     }
@@ -72,7 +67,7 @@ impl Area {
         f64::midpoint(self.top, self.bottom)
     }
 
-    /// Its outline.
+    /// Its outline as SVG.
     pub fn outline(&self) -> String {
         format!(
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"none\" stroke=\"{EDGE}\"/>",
@@ -150,7 +145,7 @@ impl Axes {
         below.chain(beside).collect()
     }
 
-    /// The titles of both axes: one whose text begins so far below the area, one that reads upwards from `left` on.
+    /// The titles of both axes: one whose text begins `below` the area, one that reads upwards from `left`.
     pub fn titles(&self, x: &[String], below: f64, y: &[String], left: f64) -> Vec<String> {
         let area = &self.area;
         let mut elements = AXIS.draw(x, area.centre(), area.bottom + below, "middle");
@@ -199,7 +194,7 @@ fn legend_entry(style: Style, lines: &[String], left: f64, top: f64) -> Vec<Stri
     elements
 }
 
-/// Where values lie between two coordinates.
+/// A map from values to the coordinates between two ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     is_log: bool,
@@ -223,7 +218,7 @@ impl Scale {
         }
     }
 
-    /// Values from `low` to `high`, both above 0: each power of ten takes as much room.
+    /// Values from `low` to `high`, both above 0; each power of ten takes equal room.
     pub fn log(ends: [f64; 2], coordinates: [f64; 2]) -> Scale {
         Scale {
             is_log: true,
@@ -231,7 +226,7 @@ impl Scale {
         }
     }
 
-    /// Where a value lies on the way: 0 at the low end, 1 at the high end.
+    /// The place of a value on the scale: 0 at the low end, 1 at the high end.
     pub fn fraction(&self, value: f64) -> f64 {
         let span = self.high - self.low;
         if span == 0.0 {
@@ -250,7 +245,7 @@ impl Scale {
         (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
     }
 
-    /// The coordinate of a value, held near the picture since viewers fail on huge numbers.
+    /// The coordinate of a value, clamped near the picture, since viewers fail on huge numbers.
     pub fn at(&self, value: f64) -> f64 {
         (self.from + (self.to - self.from) * self.fraction(value)).clamp(-9999.0, 9999.0)
     }
@@ -261,13 +256,13 @@ impl Scale {
 pub struct PanelFrame {
     /// The width.
     pub width: f64,
-    /// The usual height, and the least.
+    /// The usual height, which is also the least.
     pub height: f64,
     /// The margin on the left and right.
     pub margin: f64,
     /// The margin above the first line.
     pub upper: f64,
-    /// The margin beneath the last line, which has white of its own.
+    /// The margin beneath the last line, which has its own leading.
     pub lower: f64,
 }
 
@@ -286,7 +281,7 @@ impl PanelFrame {
         self.width - 2.0 * self.margin
     }
 
-    /// The right end of the room.
+    /// The right edge of the room inside the margins.
     pub fn right(&self) -> f64 {
         self.margin + self.room()
     }
@@ -294,7 +289,7 @@ impl PanelFrame {
 
 /// The gap between one paragraph and the next.
 const PARAGRAPH_GAP: f64 = 2.0;
-/// What has been set so far, and where the next thing goes.
+/// The elements set so far, and the position of the next one.
 pub struct Layout {
     frame: PanelFrame,
     elements: Vec<String>,
@@ -361,7 +356,7 @@ impl Layout {
             "<!-- {MARK} -->\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"system-ui, sans-serif\">"
         );
-        // The card is opaque so that the chart reads on a dark page as well.
+        // The card is opaque so that the chart reads on a dark page too.
         let card = format!(
             "<rect x=\"0.5\" y=\"0.5\" width=\"{}\" height=\"{}\" rx=\"8\" \
              fill=\"#ffffff\" stroke=\"#d5dae1\"/>",

@@ -2,21 +2,21 @@
 
 use crate::physics::spectra::srgb_byte;
 
-/// What text and the exact law are drawn in.
+/// The colour of text and of the exact law.
 pub const INK: &str = "#17202b";
-/// The lines of a grid.
+/// The colour of grid lines.
 pub const GRID: &str = "#e4e8ed";
-/// Axes and outlines.
+/// The colour of axes and outlines.
 pub const EDGE: &str = "#7d8794";
 
-/// Of the colours by Okabe and Ito, which colour-blind readers can tell apart.
+/// From the colours of Okabe and Ito, which colour-blind readers can tell apart.
 pub const VERMILION: &str = "#d55e00";
-/// Of the same.
+/// From the same colours.
 pub const BLUE: &str = "#0072b2";
-/// Of the same.
+/// From the same colours.
 pub const GREEN: &str = "#009e73";
 
-/// Those colours for curves, in their order.
+/// These colours in their order for curves.
 const COLOURS: [&str; 6] = [VERMILION, BLUE, GREEN, "#cc79a7", "#e69f00", "#56b4e9"];
 /// One more than the colours: grey is enough to tell the first seven curves
 /// apart, and no pair of colour and dashes repeats before forty-two.
@@ -33,7 +33,7 @@ const DASHES: [&str; 7] = [
 /// The radius of a dot.
 const DOT: f64 = 2.4;
 
-/// Steps of colour in a map.
+/// The number of colour steps in a map.
 pub const SHADES: usize = 48;
 
 /// Perceptually even and safe for the colour-blind: nine points of Matplotlib's viridis (CC0 1.0,
@@ -57,16 +57,16 @@ pub enum Style {
     Exact,
     /// An approximation: dashed, with a colour and dash pattern by number.
     Approximate(usize),
-    /// As the look says; later curves lie above earlier ones.
+    /// A look of the caller's; later curves lie above earlier ones.
     Own(Look),
 }
 
 /// A look that a caller chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// The colour, as SVG writes it.
+    /// The colour in SVG notation.
     pub colour: &'static str,
-    /// Lengths of dashes and gaps, as SVG writes them; none for a solid line.
+    /// Lengths of dashes and gaps in SVG notation; empty for a solid line.
     pub dashes: &'static str,
     /// The width of the line.
     pub width: f64,
@@ -113,7 +113,7 @@ impl Look {
     }
 }
 
-/// A colour in linear sRGB as SVG writes it, what lies outside clipped.
+/// A colour in linear sRGB in SVG notation, clipped to the gamut.
 pub fn hex_colour(linear: [f64; 3]) -> String {
     let [red, green, blue] = linear.map(srgb_byte);
     format!("#{red:02x}{green:02x}{blue:02x}")

@@ -17,7 +17,7 @@ pub fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
     values
 }
 
-/// Ticks of an axis in powers of ten: these multiples of each, from `low` to `high`, give or take a thousandth.
+/// Ticks of an axis in powers of ten: these multiples of each power, from `low` to `high`, give or take a thousandth.
 pub fn log_ticks(low: f64, high: f64, multiples: &[f64]) -> Vec<f64> {
     let powers = libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
     let all = powers.flat_map(|power| {
@@ -28,12 +28,12 @@ pub fn log_ticks(low: f64, high: f64, multiples: &[f64]) -> Vec<f64> {
     all.filter(is_inside).collect()
 }
 
-/// A number without needless digits.
+/// A number without trailing zeros.
 pub fn plain_label(value: f64) -> String {
     format!("{}", value as f32)
 }
 
-/// A power of ten: plain where that is short.
+/// A power of ten, in plain form where that is short.
 pub fn power_label(exponent: i32) -> String {
     match exponent {
         -2..=3 => plain_label(libm::exp10(f64::from(exponent))),
@@ -49,7 +49,7 @@ pub(super) fn decimals(ticks: &[f64]) -> usize {
 
 /// A tick label, with a true minus sign.
 pub(super) fn label(value: f64, decimals: usize, unit: &str) -> String {
-    // Adding zero turns a negative zero into a plain one.
+    // Adding zero turns a negative zero into a positive one.
     format!("{:.decimals$}{unit}", value + 0.0).replace('-', "−")
 }
 

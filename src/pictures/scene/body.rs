@@ -1,9 +1,8 @@
-//! What pictures show: convex bodies, as triangles to draw and as what a ray crosses; a pool; a window.
+//! The bodies that pictures show: convex bodies, as triangles to draw and as crossings for rays; a pool; a window.
 //!
-//! A brilliant: half-spaces whose intersection is the body, and the polygons that they leave of each other.
-//!
-//! Angles are near those that the trade calls ideal: table 57 % of the girdle, crown 34.5 degrees, pavilion 40.75 degrees (M. Tolkowsky,
-//! *Diamond Design*, Spon, 1919, <https://www.folds.net/diamond_design/>).
+//! The brilliant is an intersection of half-spaces; its facets are the polygons that the half-spaces cut from each other. Its
+//! angles are near those that the trade calls ideal: table 57 % of the girdle, crown 34.5 degrees, pavilion 40.75 degrees (M.
+//! Tolkowsky, *Diamond Design*, Spon, 1919, <https://www.folds.net/diamond_design/>).
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -12,14 +11,14 @@ use super::table::Slot;
 use super::texels::Texels;
 use super::window::Window;
 
-/// What a picture shows, around the origin.
+/// The body of a picture, around the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// The ball of radius 1.
     Ball,
     /// A body with plane facets.
     Gem(Facets),
-    /// A pool: what is solid there, and its water.
+    /// A pool: its solid parts and its water.
     Pool(&'static Pool),
     /// A window of stained glass.
     Window(&'static Window),
@@ -28,18 +27,18 @@ pub enum Body {
 /// Where a line enters a convex body and where it leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// How far it is to the entry, and the normal there.
+    /// The distance to the entry, and the normal there.
     pub entry: (f64, DVec3),
-    /// How far it is to the exit, and the normal there, out of the body.
+    /// The distance to the exit, and the outward normal there.
     pub exit: (f64, DVec3),
 }
 
 /// A vertex of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// Where it is.
+    /// Its position.
     pub position: DVec3,
-    /// Out of the body.
+    /// The outward normal.
     pub normal: DVec3,
     /// Along growing u, and the sign of the bitangent.
     pub tangent: DVec4,
@@ -56,7 +55,7 @@ impl Vertex {
     }
 }
 
-/// Rows of triangles from pole to pole, and half the columns around.
+/// Rows of triangles from pole to pole. There are twice as many columns around.
 const ROWS: usize = 256;
 
 impl Body {
@@ -65,7 +64,7 @@ impl Body {
         Body::Gem(brilliant())
     }
 
-    /// The radius of a ball around the origin that holds it.
+    /// The radius of the ball around the origin that holds it.
     pub fn radius(&self) -> f64 {
         match self {
             Body::Ball => 1.0,
@@ -129,7 +128,7 @@ fn ball(origin: DVec3, direction: DVec3) -> Option<Crossing> {
     })
 }
 
-/// Rectangles between so many circles of latitude, two triangles each.
+/// A ball as quads between this many circles of latitude, two triangles each.
 pub(super) fn ball_triangles(rows: usize) -> Vec<[Vertex; 3]> {
     let columns = 2 * rows;
     let at = |row: usize, column: usize| {
@@ -177,7 +176,7 @@ const GIRDLE: f64 = 0.04;
 const TABLE: f64 = 0.57;
 const CROWN: f64 = 34.5;
 const PAVILION: f64 = 40.75;
-/// How far the body is lifted, so that its middle is near the origin.
+/// How far the body is raised, so that its middle is near the origin.
 const LIFT: f64 = 0.25;
 /// The polygon of a facet begins with a square of this half side.
 const LARGE: f64 = 10.0;
@@ -189,7 +188,7 @@ pub fn brilliant() -> Facets {
         normal: DVec3::Y,
         distance: table_height,
     }];
-    // Facets around the axis: their number, the azimuth of the first, their angle, a point that they pass through.
+    // Facets around the axis: their number, the azimuth of the first, their angle, and a point that they pass through.
     let rings = [
         (8, 0.0, CROWN, 1.0, GIRDLE),
         (16, 11.25, 40.0, 1.0, GIRDLE),
@@ -216,13 +215,13 @@ pub fn brilliant() -> Facets {
 }
 
 impl Facets {
-    /// The radius of a ball around the origin that holds it.
+    /// The radius of the ball around the origin that holds it.
     pub fn radius(&self) -> f64 {
         let corners = self.polygons().into_iter().flat_map(|(_, polygon)| polygon);
         corners.map(DVec3::length).fold(0.0, f64::max)
     }
 
-    /// Where a line crosses it: it enters by the last facet that faces it, and leaves by the first that does not.
+    /// Where a line crosses the body. It enters by the last facet that faces it, and leaves by the first that does not.
     pub fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
         let mut entry = (f64::NEG_INFINITY, DVec3::ZERO);
         let mut exit = (f64::INFINITY, DVec3::ZERO);
@@ -245,7 +244,7 @@ impl Facets {
         (entry.0 < exit.0).then_some(Crossing { entry, exit })
     }
 
-    /// Fans of triangles, a fan a facet.
+    /// Its triangles: a fan for each facet.
     pub fn triangles(&self) -> Vec<[Vertex; 3]> {
         let mut triangles = Vec::new();
         for (plane, polygon) in self.polygons() {
@@ -263,7 +262,7 @@ impl Facets {
         triangles
     }
 
-    /// What each facet is.
+    /// The plane and the polygon of each facet.
     fn polygons(&self) -> Vec<(Plane, Vec<DVec3>)> {
         let polygon = |plane: &Plane| {
             let (u, v) = plane.normal.any_orthonormal_pair();
@@ -280,7 +279,7 @@ impl Facets {
 }
 
 impl Plane {
-    /// What lies within the half-space of a polygon.
+    /// The part of a polygon within the half-space.
     fn cut(&self, polygon: &[DVec3]) -> Vec<DVec3> {
         let height = |corner: DVec3| self.normal.dot(corner) - self.distance;
         let mut kept = Vec::new();
@@ -302,7 +301,8 @@ impl Plane {
 mod tests {
     use super::*;
 
-    /// Of the polygons, by the divergence theorem: sum of area times distance is three volumes; areas along normals cancel.
+    /// For the polygons, by the divergence theorem: the sum of area times distance is three times the volume, and the areas along
+    /// the normals cancel.
     #[test]
     fn facets_close_the_body() {
         let gem = brilliant();

@@ -1,6 +1,6 @@
-//! Light that a ball gathers: photons drawn through it onto a receiver, and the exact map beside them.
+//! Caustics of a ball: photons drawn through it onto a receiver, and the exact map to compare them with.
 //!
-//! Light of irradiance 1 falls along -z on the ball of radius 1; the receiver lies square to it below.
+//! Light of irradiance 1 falls along -z on the ball of radius 1. The receiver lies below it, square to the light.
 
 use super::body::{Body, Vertex};
 use super::draw::DrawFault;
@@ -14,7 +14,7 @@ use crate::physics::optics;
 /// A window of the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// How far it lies below the ball's centre.
+    /// Its distance below the ball's centre.
     pub below: f64,
     /// Half its width.
     pub half: f64,
@@ -22,23 +22,23 @@ pub struct Window {
     pub pixels: u32,
 }
 
-/// What becomes of photons on the receiver.
+/// How photons are gathered on the receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gathering {
-    /// Triangles between neighbours.
+    /// Triangles between neighbouring photons.
     Triangles,
-    /// A smooth spot each.
+    /// A smooth spot for each photon.
     Splats,
-    /// The pixel that each lands in.
+    /// A count in the pixel where each photon lands.
     Points,
 }
 
-/// Photons as they are drawn.
+/// The photons that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Photons {
-    /// Of a row.
+    /// Photons in a row.
     pub side: u32,
-    /// Rows and columns of pictures that are averaged; for each the light moves by a part of a cell.
+    /// Rows and columns of pictures that are averaged. For each picture the light moves by part of a cell.
     pub moves: u32,
 }
 
@@ -48,13 +48,13 @@ pub const ONE_PICTURE: Photons = Photons {
     moves: 1,
 };
 
-/// Four of them.
+/// Four such pictures, two by two.
 pub const FOUR_PICTURES: Photons = Photons {
     side: PHOTONS,
     moves: 2,
 };
 
-/// Triangles are drawn finer than the window, to about so many samples a side, and at most so many times as fine.
+/// Triangles are drawn finer than the window: with about this many samples a side, and at most this many times as fine.
 const FINE: u32 = 1024;
 const FINEST: u32 = 8;
 
@@ -110,7 +110,7 @@ struct Light<'a> {
     offscreen: Offscreen,
     ball: Mesh,
     text: &'a str,
-    /// The photons of a row.
+    /// Photons in a row.
     side: u32,
     uniforms: Vec<u8>,
 }
@@ -151,7 +151,7 @@ impl Light<'_> {
         Ok([target()?, target()?])
     }
 
-    /// Places and normals of the side of the ball that is nearest to the light, or farthest.
+    /// Positions and normals of the side of the ball that is nearest to the light, or farthest from it.
     fn side(&self, side: u32, depth: Depth) -> Result<[Image; 2], DrawFault> {
         let targets = self.pair(side)?;
         self.offscreen.draw(&Draw {
@@ -192,7 +192,7 @@ impl Light<'_> {
     }
 }
 
-/// The bytes of the block.
+/// The bytes of the uniform block.
 fn uniforms(
     n: f64,
     window: &Window,
@@ -223,12 +223,12 @@ fn means(samples: &[[f32; 4]], side: usize, finer: usize) -> Vec<f64> {
     (0..pixels * pixels).map(pixel).collect()
 }
 
-/// Rings of the ball's disc, and places of an eighth of each. Where rings land far apart, they are cut into parts that lie closer than so
-/// many to a pixel.
+/// The rings of the ball's disc, and the samples on an eighth of each. Where rings land far apart, they are split so that at
+/// least this many lie in a pixel.
 const RINGS: usize = 8000;
 const PLACES: usize = 1024;
 const TO_A_PIXEL: f64 = 16.0;
-/// The part of a turn that repeats last.
+/// The fraction of a turn whose multiples are spread most evenly.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The exact map: rings of light follow Snell's and Fresnel's laws to where they land.
@@ -243,7 +243,7 @@ pub fn exact_caustics(n: f64, window: &Window) -> Vec<f64> {
         };
         let flux = share * 2.0 * std::f64::consts::PI * height * width;
         let each = flux / (8 * PLACES) as f64 / (pixel * pixel);
-        // Rings that lie side by side have their places at other angles.
+        // Neighbouring rings have their samples at different angles.
         let turn = (count as f64 * GOLDEN).fract();
         for place in 0..PLACES {
             let (sin, cos) = libm::sincos((place as f64 + turn) / PLACES as f64 * eighth);
@@ -279,10 +279,10 @@ fn rings(n: f64, window: &Window, pixel: f64) -> Vec<(f64, f64)> {
     rings
 }
 
-/// How far from the axis light lands that enters so far from it, and the share that is left of it.
+/// How far from the axis light lands that enters at this distance from it, and the share of the light that is left.
 fn landing(n: f64, height: f64, below: f64) -> Option<(f64, f64)> {
     let (theta_i, theta_t) = (libm::asin(height), libm::asin(height / n));
-    // From the entry's azimuth the exit lies on by the angle that the chord spans.
+    // The exit's azimuth is that of the entry plus the angle that the chord spans.
     let exit = theta_i + std::f64::consts::PI - 2.0 * theta_t;
     let (x, z) = (libm::sin(exit), libm::cos(exit));
     let turned = 2.0 * (theta_i - theta_t);
@@ -294,7 +294,7 @@ fn landing(n: f64, height: f64, below: f64) -> Option<(f64, f64)> {
     })
 }
 
-/// The sum of absolute differences, as a share of the exact map's sum; and the drawn sum as a share of it.
+/// The sum of absolute differences as a share of the exact map's sum, and the drawn sum as a share of it.
 pub fn caustic_error(drawn: &[f64], exact: &[f64]) -> (f64, f64) {
     let sum: f64 = exact.iter().sum();
     let apart = drawn.iter().zip(exact).map(|(a, b)| (a - b).abs());

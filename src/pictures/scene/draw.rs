@@ -1,4 +1,4 @@
-//! A row drawn on a device: the text that users import, the row's own text below it, pass after pass.
+//! Draws a row on a device: the text that users import, the row's own text below it, pass after pass.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -13,20 +13,20 @@ use super::text::{INPUTS, RowText};
 use super::trace::Things;
 use crate::lab::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen};
 
-/// Texels of a side of the room's cube map.
+/// Texels along a side of the room's cube map.
 const CUBE: usize = 1024;
 
 /// A picture as the device drew it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
-    /// Radiance of each sample, row after row; alpha says what it is.
+    /// Radiance of each sample, row by row. Alpha says what the sample shows.
     pub samples: Vec<[f32; 4]>,
 }
 
 /// Why a row was not drawn.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum DrawFault {
-    /// The device.
+    /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceFault),
     /// The functions cannot be written: a bug.
@@ -34,7 +34,7 @@ pub enum DrawFault {
     Text(String),
 }
 
-/// What is drawn besides the passes: things, what is around them, and the tables that passes read.
+/// The input of the passes: the things drawn, their surroundings, and the tables that passes read.
 #[derive(Clone, Debug)]
 pub struct Scenery<'a> {
     /// The body, its material, its surface.
@@ -43,12 +43,12 @@ pub struct Scenery<'a> {
     pub environment: &'a Environment,
     /// The tables of the body.
     pub tables: Vec<(Slot, Cow<'a, Texels>)>,
-    /// Texels of a side of the room's cube map.
+    /// Texels along a side of the room's cube map.
     pub cube: usize,
 }
 
 impl<'a> Scenery<'a> {
-    /// Everything as fine as it is.
+    /// A scenery at full resolution.
     pub fn of(things: Things<'a>, environment: &'a Environment) -> Scenery<'a> {
         let tables = things.body.tables().into_iter();
         Scenery {
@@ -62,10 +62,10 @@ impl<'a> Scenery<'a> {
     }
 }
 
-/// Draws a row by a method with these values of its inputs, so many samples a side.
+/// Draws a row by a method with these values of its inputs, with this many samples a side.
 ///
 /// # Errors
-/// The device does not take it, or the functions cannot be written.
+/// The device does not draw it, or the functions cannot be written.
 pub fn draw(
     device: &Device,
     (text, inputs): (&RowText, [[f32; 4]; INPUTS]),

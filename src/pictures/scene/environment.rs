@@ -1,8 +1,8 @@
-//! What surrounds a scene: radiance by direction, in a table that both the tracer and the device look up.
+//! The surroundings of a scene: radiance by direction, in a table that both the tracer and the device look up. Also the default
+//! sky of pictures: a sun, a horizon with coloured posts, a checkered ground.
 //!
-//! Longitude lies along the rows, -z in the middle and +x to the right of it; latitude along the columns, +y on top.
-//!
-//! The sky that pictures are taken under unless another is named: a sun, a horizon with coloured posts, a checkered ground.
+//! Longitude lies along the rows, with -z in the middle and +x to the right of it. Latitude lies along the columns, with +y on
+//! top.
 
 use glam::DVec3;
 use half::f16;
@@ -26,21 +26,21 @@ pub enum EnvironmentFault {
     /// It cannot be read.
     #[error("{}", Foreign(_0))]
     Unreadable(String),
-    /// It has another shape.
+    /// It has the wrong shape.
     #[error(
         "it has {0} x {1} pixels; an environment is twice as wide as high, 2 to 16384 pixels wide"
     )]
     Shape(usize, usize),
 }
 
-/// Texels of a row that a picture of a user may have.
+/// The most texels in a row of a user's picture.
 const LARGEST: usize = 16384;
 
 impl Environment {
-    /// From a function of the direction, so many texels high and twice as many wide.
+    /// An environment from a function of the direction, with this many rows and twice as many columns.
     pub fn baked(height: usize, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Environment {
         let width = 2 * height;
-        // Four samples a texel: edges are as smooth as the table is fine.
+        // Four samples a texel, so that edges are as smooth as the table is fine.
         let at = |row: usize, column: usize, (down, right): (f64, f64)| {
             let v = (row as f64 + down) / height as f64;
             radiance(direction((column as f64 + right) / width as f64, v))
@@ -64,13 +64,14 @@ impl Environment {
         }
     }
 
-    /// From the bytes of a picture: Radiance HDR and OpenEXR are linear, PNG and JPEG are sRGB unless they say otherwise. What the file says of its numbers
-    /// is followed (`light_file.rs`), and light of other primaries is brought into the space.
+    /// An environment from the bytes of a picture. Radiance HDR and OpenEXR are linear; PNG and JPEG are sRGB unless they state
+    /// otherwise. What the file states of its encoding is followed (`light_file.rs`), and light of other primaries is converted
+    /// to the space.
     ///
     /// # Errors
-    /// The picture cannot be read, says what is not followed, or is not twice as wide as high.
+    /// The picture cannot be read, states an encoding that cannot be followed, or is not twice as wide as high.
     pub fn read(bytes: &[u8], space: Space) -> Result<Environment, EnvironmentFault> {
-        // Two names of one format begin Radiance's pictures; the crate knows the first.
+        // Radiance pictures begin with one of two names of the format; the crate knows the first.
         let renamed = bytes
             .strip_prefix(b"#?RGBE")
             .map(|rest| [b"#?RADIANCE", rest].concat());
@@ -93,7 +94,7 @@ impl Environment {
         })
     }
 
-    /// The same with half as many rows, each texel the mean of those that it covers by solid angle; nothing below two rows.
+    /// The same with half as many rows. Each texel is the mean of those that it covers, by solid angle. `None` below two rows.
     pub fn halved(&self) -> Option<Environment> {
         if self.height < 2 {
             return None;
@@ -102,7 +103,7 @@ impl Environment {
         let width = 2 * height;
         let solid_angle =
             |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / self.height as f64);
-        // Of an odd number of rows, two texels share one.
+        // With an odd number of rows, two texels share one.
         let covered = |at: usize, all: usize, parts: usize| {
             at * all / parts..((at + 1) * all).div_ceil(parts)
         };
@@ -125,7 +126,7 @@ impl Environment {
         })
     }
 
-    /// The same as a picture of 8 bits holds it: nothing is brighter than white.
+    /// The same as an 8-bit picture holds it: nothing is brighter than white.
     pub fn clamped(&self) -> Environment {
         let texels = self.texels.iter();
         Environment {
@@ -134,7 +135,7 @@ impl Environment {
         }
     }
 
-    /// The same with other texels in the place of each.
+    /// The same with every texel changed.
     pub fn mapped(&self, change: impl Fn([f32; 3]) -> [f32; 3]) -> Environment {
         let texels = self.texels.iter();
         Environment {
@@ -153,7 +154,7 @@ impl Environment {
         &self.texels
     }
 
-    /// The radiance from a direction of any length: linear between texels.
+    /// The radiance from a direction of any length, linear between texels.
     pub fn radiance(&self, direction: DVec3) -> DVec3 {
         let direction = direction.normalize_or_zero();
         let u = libm::atan2(direction.x, -direction.z) / std::f64::consts::TAU + 0.5;
@@ -171,7 +172,7 @@ impl Environment {
     }
 }
 
-/// The direction of texture coordinates.
+/// The direction at texture coordinates.
 fn direction(u: f64, v: f64) -> DVec3 {
     let (sin_u, cos_u) = libm::sincos(std::f64::consts::TAU * (u - 0.5));
     let (sin_v, cos_v) = libm::sincos(std::f64::consts::PI * v);
@@ -182,9 +183,9 @@ fn rounded(texel: [f64; 3]) -> [f32; 3] {
     texel.map(|value| f16::from_f64(value).to_f32())
 }
 
-/// Texels from pole to pole.
+/// The sky's texels from pole to pole.
 const HEIGHT: usize = 1024;
-/// The sun's radiance, and the cosines between which it fades: 2 and 3 degrees from its middle.
+/// The sun's radiance, and the cosines between which it fades, at 2 and 3 degrees from its middle.
 const SUN: f64 = 60.0;
 const SUN_INSIDE: f64 = 0.9994;
 const SUN_OUTSIDE: f64 = 0.9986;
@@ -192,16 +193,16 @@ const SUN_OUTSIDE: f64 = 0.9986;
 const GROUND: f64 = 2.2;
 /// The distance over which the ground fades into the haze.
 const HAZE: f64 = 12.0;
-/// Posts on the horizon, and the height of their top: the sine of its elevation.
+/// The number of posts on the horizon, and the sine of the elevation of their tops.
 const POSTS: f64 = 12.0;
 const POST_TOP: f64 = 0.3;
 
-/// That sky.
+/// The default sky.
 pub fn sky() -> Environment {
     sky_of(HEIGHT)
 }
 
-/// The same sky, so many texels from pole to pole.
+/// The default sky with this many texels from pole to pole.
 pub fn sky_of(height: usize) -> Environment {
     Environment::baked(height, radiance)
 }
@@ -244,7 +245,7 @@ fn ground(direction: DVec3, horizon: DVec3) -> DVec3 {
     horizon.lerp(square, libm::exp(-distance / HAZE))
 }
 
-/// Colours that tell the posts apart.
+/// The colour of a post, which tells it from the others.
 fn post_colour(number: f64) -> DVec3 {
     let hue = std::f64::consts::TAU * number / POSTS;
     let wave = |shift: f64| 0.35 + 0.33 * libm::cos(hue - shift);
@@ -252,7 +253,7 @@ fn post_colour(number: f64) -> DVec3 {
     DVec3::new(wave(0.0), wave(third), wave(2.0 * third))
 }
 
-/// A step without corners.
+/// A smooth step.
 fn smooth(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)

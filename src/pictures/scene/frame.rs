@@ -1,6 +1,5 @@
-//! The block of numbers that every pass sees: cameras, the material, the room, the inputs of the method.
-//!
-//! Where a picture is taken from: rays for the tracer, a matrix for what draws.
+//! The uniform block that every pass sees: cameras, the material, the room, the inputs of the method. Also the camera of a
+//! picture: rays for the tracer, a matrix for the rasteriser.
 
 use glam::{DMat4, DVec3, DVec4};
 
@@ -9,14 +8,14 @@ use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN};
 use super::table::View;
 use super::text::INPUTS;
 
-/// Where the index begins in the block, in numbers; n, then k, four numbers each.
+/// Where the index begins in the block, in numbers: n, then k, with four numbers each.
 pub const INDEX_AT: usize = 36;
 /// Where absorption begins.
 pub const ABSORPTION_AT: usize = 88;
 /// Where the method's inputs begin.
 pub const INPUTS_AT: usize = 92;
 
-/// The block of a pass: its view of what the eye sees in a picture of so many pixels a side, a body of this size and material, the
+/// The block of a pass, from its view, the eye's camera, the pixels a side of the picture, the body's size and material, and the
 /// inputs of the method.
 pub fn frame(
     (view, eye, side): (View, &Camera, u32),
@@ -44,28 +43,28 @@ pub fn frame(
     numbers
 }
 
-/// The photons of a row, unless more are asked for.
+/// The default number of photons in a row.
 pub const PHOTONS: u32 = 256;
-/// Pixels a side of the picture of the back that photons are searched in.
+/// Pixels along a side of the picture of the body's back, where the exits of photons are searched.
 pub const BACK: u32 = 1024;
-/// Where the widths of a sample and of a pixel begin in the block of light.
+/// Where the widths of a sample and of a pixel begin in the light's block.
 pub const PIXEL_AT: usize = 46;
 
 /// Light that falls along -z through a body onto a receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightBlock {
-    /// How far the receiver lies below the body's centre, and half the width of its window.
+    /// The receiver's distance below the body's centre, and half the width of its window.
     pub window: [f64; 2],
     /// The widths of a sample and of a pixel.
     pub widths: [f64; 2],
-    /// The photons of a row.
+    /// Photons in a row.
     pub photons: u32,
-    /// How far the light is moved.
+    /// How far the light is shifted.
     pub shift: [f64; 2],
 }
 
 impl LightBlock {
-    /// The block: the light's camera sees [-1, 1]^2 from +z, moved a little.
+    /// The numbers of the block. The light's camera sees [-1, 1]^2 from +z, shifted a little.
     pub fn numbers(&self, glass: &Glass, inputs: [[f32; 4]; INPUTS]) -> Vec<f32> {
         let [x, y] = self.shift;
         let view_projection = DMat4::from_cols(
@@ -87,7 +86,7 @@ impl LightBlock {
     }
 }
 
-/// A margin of a picture is this part of its side.
+/// The margin of a picture is its side divided by this.
 pub const MARGIN: u32 = 5;
 
 impl View {
@@ -96,7 +95,7 @@ impl View {
         self != View::Eye
     }
 
-    /// Pixels a side of what is drawn, where the picture has so many.
+    /// The side of what is drawn, in pixels, for a picture with this side.
     pub fn side(self, side: u32) -> u32 {
         if self.has_margin() {
             side + 2 * (side / MARGIN)
@@ -105,7 +104,7 @@ impl View {
         }
     }
 
-    /// The camera of a pass, by that of the eye.
+    /// The camera of a pass, from that of the eye.
     fn camera(self, eye: &Camera, side: u32) -> Camera {
         let camera = match self {
             View::Eye | View::Margin => *eye,
@@ -119,20 +118,20 @@ impl View {
 /// A camera. The world is right-handed and its y points up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where the eye is.
+    /// The position of the eye.
     pub eye: DVec3,
     /// From the world to clip space, depth 0 to 1.
     pub view_projection: DMat4,
-    /// Its inverse, before a near plane was laid: for directions.
+    /// Its inverse, before the near plane is replaced; it gives directions.
     pub inverse: DMat4,
 }
 
-/// Where depth begins and ends, in distances of the eye from the middle.
+/// Where depth begins and ends, in distances of the eye from the origin.
 const NEAR: f64 = 0.05;
 const FAR: f64 = 10.0;
 
 impl Camera {
-    /// A square picture from a place, of the origin, so that a ball of this radius around it takes 90 % of the height.
+    /// The camera of a square picture that looks at the origin, so that a ball of this radius around it takes 90 % of the height.
     pub fn around(eye: DVec3, radius: f64) -> Camera {
         let distance = eye.length();
         let half_height = libm::tan(libm::asin(radius / distance)) / 0.9;
@@ -145,7 +144,7 @@ impl Camera {
         }
     }
 
-    /// The camera mirrored in the plane y = 0. What it draws has the mirrored world at the pixels where this camera sees the
+    /// The camera mirrored in the plane y = 0. Its picture shows the mirrored world at the pixels where this camera sees the
     /// plane.
     pub fn mirrored(&self) -> Camera {
         let mirror = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0));
@@ -156,7 +155,7 @@ impl Camera {
         }
     }
 
-    /// The same camera for a picture of the same pixels and a margin around them: this many pixels a side, of so many with the margin.
+    /// The same camera for a picture with a margin: `side` pixels of the picture, `whole` pixels with the margin.
     pub fn with_margin(&self, side: u32, whole: u32) -> Camera {
         let share = f64::from(side) / f64::from(whole);
         let smaller = DVec3::new(share, share, 1.0);
@@ -167,7 +166,7 @@ impl Camera {
         }
     }
 
-    /// The same camera with another near plane: what lies below the plane y = 0 is clipped.
+    /// The same camera with another near plane, which clips what lies below the plane y = 0.
     pub fn clipped_below(&self) -> Camera {
         Camera {
             view_projection: with_near_plane(self.view_projection, DVec4::Y),
@@ -175,7 +174,7 @@ impl Camera {
         }
     }
 
-    /// The direction through a place of the picture: 0 to 1 from left to right, and from top to bottom.
+    /// The direction through a point of the picture: 0 to 1 from left to right, and from top to bottom.
     pub fn direction(&self, x: f64, y: f64) -> DVec3 {
         let far = DVec3::new(2.0 * x - 1.0, 1.0 - 2.0 * y, 1.0);
         (self.inverse.project_point3(far) - self.eye).normalize()
@@ -196,7 +195,7 @@ fn looking_at_origin(eye: DVec3) -> DMat4 {
     camera.inverse()
 }
 
-/// From the camera to clip space: this half height at distance 1, square.
+/// From the camera to clip space, for a square picture with this half height at distance 1.
 fn perspective(half_height: f64, near: f64, far: f64) -> DMat4 {
     let scale = 1.0 / half_height;
     let depth = far / (near - far);
@@ -208,8 +207,8 @@ fn perspective(half_height: f64, near: f64, far: f64) -> DMat4 {
     )
 }
 
-/// With a near plane in the place of its own: the row of depth becomes the plane, so scaled that the corner of the frustum that
-/// is farthest from the plane has depth 1. Rows of x, y and w stay.
+/// The matrix with another near plane. The row of depth becomes the plane, scaled so that the corner of the frustum that is
+/// farthest from the plane has depth 1. The rows of x, y and w stay.
 ///
 /// Source: Lengyel, *Oblique View Frustum Depth Projection and Clipping*, Journal of Game Development 1 (2), 2005,
 /// <https://terathon.com/lengyel/Lengyel-Oblique.pdf>; its clip space has depth -1 to 1, ours 0 to 1.

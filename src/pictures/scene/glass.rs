@@ -1,4 +1,5 @@
-//! What a scene's material is to light: its index at some wavelengths, and what each of these is of three channels.
+//! A scene's material as the tracer takes it: its index at some wavelengths, and the weight of each wavelength in the three
+//! channels.
 
 use glam::DVec3;
 
@@ -8,7 +9,7 @@ use crate::physics::optics::{COS_82, index_from_f0_f82};
 /// A material as a tracer takes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Glass {
-    /// Red to blue or the other way; their weights sum to (1, 1, 1).
+    /// From red to blue or the reverse; the weights sum to (1, 1, 1).
     pub rays: Vec<Ray>,
     /// The index of each channel: the mean over its weights.
     pub n: DVec3,
@@ -25,7 +26,7 @@ pub struct Ray {
     pub weight: DVec3,
 }
 
-/// A medium with less is seen through.
+/// A medium with less extinction than this is transparent.
 const TRANSPARENT_K: f64 = 0.1;
 
 impl Glass {
@@ -41,7 +42,8 @@ impl Glass {
         }
     }
 
-    /// A material as it is seen: a ray for each wavelength of the integrator, since the law of a mean index is not the mean of laws.
+    /// A material under viewing conditions: a ray for each wavelength of the integrator, since the law at a mean index is not the
+    /// mean of the laws.
     pub fn of_surface(surface: &Surface) -> Glass {
         let weights = &surface.integrator.weights;
         let sum: DVec3 = weights.iter().sum();
@@ -62,7 +64,7 @@ impl Glass {
             k: mean(|index| index.k),
         };
         if surface.most_k() > TRANSPARENT_K {
-            // The index whose colours are the metal's own at two angles: means of a curved spectrum have others.
+            // The index whose colours match the metal's own at two angles. The means of a curved spectrum have other colours.
             let colours = [1.0, COS_82]
                 .map(|cosine| surface.unpolarised(cosine).clamp(DVec3::ZERO, DVec3::ONE));
             let pairs = colours[0].to_array().into_iter().zip(colours[1].to_array());

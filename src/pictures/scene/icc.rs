@@ -1,16 +1,16 @@
-//! Whether an ICC profile is sRGB: by its curve at the middle and by its red and green.
+//! A test whether an ICC profile is sRGB: by the middle of its curve and by its red and green.
 //!
 //! Source: ICC.1:2022, <https://www.color.org/specification/ICC.1-2022-05.pdf>, sections 7.3 for tags, 10.6 and 10.18 for curves. sRGB by
-//! IEC 61966-2-1:1999, its primaries adapted to D50 by Bradford. A profile of another kind, as one with tables, is none.
+//! IEC 61966-2-1:1999, its primaries adapted to D50 by Bradford. A profile of another kind, such as one with tables, is not sRGB.
 
-/// Of .5, as sRGB decodes it. Curves of 2.2, which stand for it in many profiles, give .2176.
+/// The value of .5 as sRGB decodes it. Curves of 2.2, which stand for it in many profiles, give .2176.
 const MIDDLE: f64 = 0.214_041;
 /// X, Y and Z of red and green.
 const RED: [f64; 3] = [0.4361, 0.2225, 0.0139];
 const GREEN: [f64; 3] = [0.3851, 0.7169, 0.0971];
 const TOLERANCE: f64 = 5e-3;
 
-/// Whether colours of this profile are sRGB; of one for grey, whether its curve is.
+/// Whether the colours of this profile are sRGB. For a grey profile, whether its curve is.
 pub fn is_srgb(profile: &[u8]) -> bool {
     let is_near = |a: f64, b: f64| (a - b).abs() <= TOLERANCE;
     let has_curve = |name| middle(profile, name).is_some_and(|value| is_near(value, MIDDLE));
@@ -56,7 +56,7 @@ fn place(profile: &[u8], name: &[u8; 4]) -> Option<[f64; 3]> {
     Some([fixed(data, 8)?, fixed(data, 12)?, fixed(data, 16)?])
 }
 
-/// What a curve makes of .5.
+/// The value of a curve at .5.
 fn middle(profile: &[u8], name: &[u8; 4]) -> Option<f64> {
     let data = tag(profile, name)?;
     let sample = |at: usize| {
@@ -68,7 +68,7 @@ fn middle(profile: &[u8], name: &[u8; 4]) -> Option<f64> {
             0 => Some(0.5),
             1 => Some(libm::pow(0.5, sample(12)? / 256.0)),
             count => {
-                // Of an even number of samples the middle lies between two.
+                // With an even number of samples the middle lies between two.
                 let (low, high) = ((count - 1) / 2, count / 2);
                 Some((sample(12 + 2 * low)? + sample(12 + 2 * high)?) / 2.0 / 65535.0)
             }
@@ -76,7 +76,7 @@ fn middle(profile: &[u8], name: &[u8; 4]) -> Option<f64> {
         b"para" => {
             let parameter = |i: usize| fixed(data, 12 + 4 * i);
             let gamma = parameter(0)?;
-            // The middle lies above the linear part of all that resemble sRGB.
+            // The middle lies above the linear part of all curves that resemble sRGB.
             let (scale, offset, added) = match sample(8)? as u32 {
                 0 => (1.0, 0.0, 0.0),
                 1 | 3 => (parameter(1)?, parameter(2)?, 0.0),

@@ -1,10 +1,11 @@
-//! Light from the bytes of a picture: its numbers, and what its metadata says of them.
+//! Reads light from the bytes of a picture: its samples, and what its metadata states about them.
 //!
 //! ```text
 //! light = M curve(sample) / divisor        M: from the primaries that the file states to the working space, white to white by Bradford
 //! ```
 //!
-//! A file that states no primaries is taken for the working space. What is stated and cannot be followed is refused, as is an OpenEXR file that is cropped.
+//! A file that states no primaries is assumed to be in the working space. What is stated and cannot be followed is refused, as is
+//! a cropped OpenEXR file.
 //!
 //! | format | curve | divisor | primaries |
 //! |---|---|---|---|
@@ -13,8 +14,9 @@
 //! | PNG | cICP, iCCP, sRGB, gAMA, in this order; sRGB without any | 1 | cICP, iCCP, sRGB, cHRM |
 //! | JPEG | sRGB | 1 | ICC |
 //!
-//! Sources: G. Ward, *Radiance File Formats*, <https://radsite.lbl.gov/radiance/refer/filefmts.pdf>; W3C, *PNG Specification (Third Edition)*, 2025,
-//! <https://www.w3.org/TR/png-3/>, section 4.3; ITU-T H.273 for the numbers of cICP. Alpha of OpenEXR is not read: its colours are the light itself.
+//! Sources: G. Ward, *Radiance File Formats*, <https://radsite.lbl.gov/radiance/refer/filefmts.pdf>; W3C, *PNG Specification
+//! (Third Edition)*, 2025, <https://www.w3.org/TR/png-3/>, section 4.3; ITU-T H.273 for the numbers of cICP. Alpha of OpenEXR is
+//! not read: its colours are the light itself.
 
 use std::io::Cursor;
 
@@ -36,14 +38,14 @@ pub struct LightFile {
     into_space: Option<DMat3>,
 }
 
-/// What samples are.
+/// The encoding of samples.
 struct Numbers {
     curve: Curve,
     divisor: DVec3,
     primaries: Option<Primaries>,
 }
 
-/// Light by a sample in [0, 1], or any sample where it is linear.
+/// The light of a sample: in [0, 1], or of any size where it is linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Curve {
     Linear,
@@ -65,10 +67,10 @@ impl Numbers {
 }
 
 impl LightFile {
-    /// Reads a picture whose light is wanted in a space.
+    /// Reads a picture, to give its light in a space.
     ///
     /// # Errors
-    /// It cannot be read, or it says something of its numbers that is not followed.
+    /// It cannot be read, or it states an encoding that cannot be followed.
     pub fn read(bytes: &[u8], space: Space) -> Result<LightFile, String> {
         let format = image::guess_format(bytes).map_err(in_words)?;
         let (picture, numbers) = match format {
@@ -117,7 +119,7 @@ fn in_words(why: image::ImageError) -> String {
     why.to_string()
 }
 
-/// From these primaries to a space; none where they are its own.
+/// The matrix from these primaries to a space; `None` where they are the space's own.
 fn into_space((primaries, white): &Primaries, space: Space) -> Result<Option<DMat3>, String> {
     if space.has(primaries, white) {
         return Ok(None);
@@ -176,9 +178,9 @@ fn numbers_of_hdr(header: &HdrMetadata) -> Result<Numbers, String> {
     })
 }
 
-/// Whether an OpenEXR file says in its version that it holds deep pixels. The crate does not look there.
+/// Whether an OpenEXR file states in its version that it holds deep pixels. The crate does not check this.
 pub fn is_deep(bytes: &[u8]) -> bool {
-    /// Bit 11 of the word behind the magic number, as the second byte of it has it.
+    /// Bit 11 of the word after the magic number, as a bit of the word's second byte.
     const DEEP: u8 = 1 << 3;
     bytes.get(5).is_some_and(|flags| flags & DEEP != 0)
 }
@@ -191,7 +193,7 @@ fn exr(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
         image::load_from_memory_with_format(bytes, ImageFormat::OpenExr).map_err(in_words)?;
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
     let meta = meta.map_err(|why| why.to_string())?;
-    // What is cropped or goes on beyond the edges is no whole sphere.
+    // A file that is cropped or extends beyond the edges is no whole sphere.
     let is_whole =
         |header: &Header| header.data_window() == header.shared_attributes.display_window;
     if !meta.headers.first().is_none_or(is_whole) {
@@ -235,7 +237,8 @@ fn png(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
     Ok((picture, numbers))
 }
 
-/// The picture, unless it takes more memory than the crate allows of itself where it chooses the decoder.
+/// The picture, unless it takes more memory than the crate's default limit, which the crate applies only where it chooses the
+/// decoder.
 fn decoded(mut decoder: impl ImageDecoder) -> Result<DynamicImage, String> {
     let mut limits = Limits::default();
     limits.reserve(decoder.total_bytes()).map_err(in_words)?;
@@ -243,7 +246,7 @@ fn decoded(mut decoder: impl ImageDecoder) -> Result<DynamicImage, String> {
     DynamicImage::from_decoder(decoder).map_err(in_words)
 }
 
-/// The picture as its Exif says that it is to be held, and its ICC profile.
+/// The picture, turned as its Exif states, and its ICC profile.
 fn upright(mut decoder: impl ImageDecoder) -> Result<(DynamicImage, Option<Vec<u8>>), String> {
     let profile = decoder.icc_profile().map_err(in_words)?;
     let orientation = decoder.orientation().map_err(in_words)?;
@@ -264,7 +267,7 @@ fn of_space(space: Space) -> Primaries {
     (space.primaries(), space.white_xy())
 }
 
-/// What the chunks of a PNG say beside iCCP; none where that counts, or where none says anything.
+/// What the chunks of a PNG state beside iCCP; `None` where iCCP counts, or where no chunk states anything.
 fn stated_by_png(info: &png::Info) -> Result<Option<Numbers>, String> {
     if let Some(code) = &info.coding_independent_code_points {
         let curve = match code.transfer_function {
@@ -281,7 +284,7 @@ fn stated_by_png(info: &png::Info) -> Result<Option<Numbers>, String> {
         let space = match (code.color_primaries, code.is_video_full_range_image) {
             (1, true) => Space::Srgb,
             (9, true) => Space::Rec2020,
-            (12, true) => Space::P3,
+            (12, true) => Space::DisplayP3,
             (other, _) => {
                 return Err(format!(
                     "cICP with the primaries {other} is not read in this range; 1 (sRGB), 9 (Rec. 2020) and 12 (P3) are, in full range"
@@ -306,7 +309,7 @@ fn stated_by_png(info: &png::Info) -> Result<Option<Numbers>, String> {
         )
     });
     let curve = match info.gama_chunk.map(png::ScaledFloat::into_scaled) {
-        // What writers of sRGB say beside it, and 0 says nothing.
+        // Writers of sRGB state 45 455 beside it; 0 states nothing.
         None | Some(0 | 45_455) => Curve::Srgb,
         Some(100_000) => Curve::Linear,
         Some(gamma) => Curve::Power(1e5 / f64::from(gamma)),

@@ -1,5 +1,5 @@
-//! Pictures of the effects, and their truth: what a row of the table draws with the functions that users import, and what a
-//! tracer in f64 sees, which shares no line with them.
+//! Pictures of the effects beside their truth: what a row of the table draws with the functions that users import, and what a
+//! tracer in f64 sees. The two share no code.
 
 mod body;
 mod caustics;
@@ -39,5 +39,5 @@ pub use texels::Texels;
 pub use text::{FRAME, INPUTS, RowText};
 pub use trace::{Around, Paths, Things, Traced, trace};
 
-/// Samples of a pixel along each side, in what is drawn and in its truth.
+/// Samples of a pixel along each side, in the drawn picture and in its truth.
 pub const SAMPLES: u32 = 2;

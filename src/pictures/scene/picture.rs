@@ -1,8 +1,5 @@
-//! A row as a picture beside its truth, with what is known of both.
-//!
-//! A picture beside its truth: differences as the eye sees them.
-//!
-//! From radiance to what a screen shows: exposure, and a curve that keeps bright things apart.
+//! Pictures of a row beside their truth: drawing and tracing both, the differences as the eye sees them, and the facts for the
+//! report. Also the way from radiance to the screen: exposure, and a tone curve that keeps bright things apart.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -20,16 +17,16 @@ use super::trace::{Around, Things, Traced, trace};
 use crate::lab::gpu::Device;
 use crate::physics::spectra::{Lab, Space, ciede2000};
 
-/// What is to be drawn.
+/// The order for a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Order<'a> {
     /// The effect.
     pub row: &'static RenderRow,
-    /// What the body is made of.
+    /// The body's material.
     pub glass: &'a Glass,
-    /// What is around it.
+    /// The surroundings.
     pub environment: &'a Environment,
-    /// Whether the effect is drawn with that clamped to white, as a picture of 8 bits is.
+    /// Whether the effect is drawn with the environment clamped to white, as in an 8-bit picture.
     pub is_ldr: bool,
     /// Pixels a side.
     pub size: u32,
@@ -40,66 +37,66 @@ pub struct Order<'a> {
 /// A picture with its truth, of `size` pixels a side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// As the effect draws it.
+    /// The picture as the effect draws it.
     pub drawn: Vec<DVec3>,
-    /// As light goes.
+    /// The picture by the laws of light.
     pub truth: Vec<DVec3>,
     /// The difference of each pixel.
     pub map: Vec<f64>,
-    /// What is known of it.
+    /// The facts for the report.
     pub row: RenderedRow,
 }
 
-/// What a report says of a picture. Shares are of the samples that show the body.
+/// The facts that a report states about a picture. Shares are of the samples that show the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RenderedRow {
-    /// Which.
+    /// The effect's name.
     pub effect: &'static str,
-    /// What is drawn.
+    /// The body's name.
     pub body: &'static str,
-    /// Of what it is made.
+    /// The material's name.
     pub material: String,
     /// The index that the passes take for green.
     pub n: f64,
     /// Pixels a side.
     pub size: u32,
-    /// Samples of a pixel.
+    /// Samples in a pixel.
     pub samples: u32,
-    /// The measure of errors.
+    /// The metric of errors.
     pub metric: &'static str,
-    /// Against the truth.
+    /// The error against the truth.
     pub error: Difference,
-    /// Against light that goes only as far as the effect follows it.
+    /// The error against light that goes only as far as the effect follows it.
     pub own_error: Difference,
-    /// Whether rays are searched for in a picture of the body's back, so that the shares below mean something.
+    /// Whether rays are searched for in a picture of the body's back. Only then do the shares below mean something.
     #[serde(skip)]
     pub searches: bool,
     /// Rays whose search ended on the body.
     pub hits: f64,
-    /// Rays whose search ended beside it.
+    /// Rays whose search ended beside the body.
     pub misses: f64,
-    /// Rays that are reflected totally where they first meet the surface from inside, as drawn.
+    /// Rays drawn as reflected totally where they first meet the surface from inside.
     pub total: f64,
-    /// The same in truth.
+    /// The same by the truth.
     pub true_total: f64,
-    /// Rays that are drawn as reflected totally and are not.
+    /// Rays that are drawn as reflected totally although they are not.
     pub false_total: f64,
-    /// Rays that are reflected totally and are not drawn so.
+    /// Rays that are reflected totally although they are not drawn so.
     pub missed_total: f64,
-    /// Of light on a receiver: the sum of absolute differences, as a share of the sum of the truth.
+    /// For light on a receiver: the sum of absolute differences, as a share of the truth's sum.
     pub l1: Option<f64>,
-    /// Of light on a receiver: the sum, as a share of that of the truth.
+    /// For light on a receiver: the sum, as a share of the truth's sum.
     pub energy: Option<f64>,
-    /// Of water: samples whose refraction shows what is above it, or whose mirror shows what is below it.
+    /// For water: samples whose refraction shows what is above it, or whose reflection shows what is below it.
     pub leaks: Option<u64>,
-    /// Where it must be wrong.
+    /// Where the effect must be wrong.
     pub wrong: &'static str,
 }
 
-/// The measure of errors, as reports name it.
+/// The metric of errors, as reports name it.
 const METRIC: &str = "CIEDE2000 over the pixels that show the body";
 
-/// Draws and traces. `progress` hears how much is done of how much.
+/// Draws and traces a picture. `progress` gets the amount done and the total.
 ///
 /// # Errors
 /// The device does not draw it.
@@ -162,12 +159,12 @@ pub fn render(
     })
 }
 
-/// A sample without what it says of itself.
+/// The radiance of a sample, without its alpha.
 fn radiance([red, green, blue, _]: &[f32; 4]) -> DVec3 {
     DVec3::new((*red).into(), (*green).into(), (*blue).into())
 }
 
-/// Light on a receiver beside the exact map.
+/// Light on a receiver, compared with the exact map.
 fn received(
     device: &Device,
     order: &Order,
@@ -211,7 +208,7 @@ fn received(
     })
 }
 
-/// The row with its shares, the rest empty.
+/// The report's row with its shares; the rest is empty.
 fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedRow {
     let seen = drawn.samples.iter().zip(truth);
     let seen: Vec<(f32, &Traced)> = seen
@@ -253,7 +250,7 @@ fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedR
     }
 }
 
-/// The means of the samples of each pixel.
+/// The mean of the samples of each pixel.
 fn averaged(samples: &[DVec3], side: usize) -> Vec<DVec3> {
     let each = SAMPLES as usize;
     let pixels = side / each;
@@ -270,20 +267,20 @@ fn averaged(samples: &[DVec3], side: usize) -> Vec<DVec3> {
 pub struct Difference {
     /// The mean.
     pub mean: f64,
-    /// 99 of 100 pixels differ by less.
+    /// The 99th percentile.
     pub p99: f64,
 }
 
 /// The differences of two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Of each pixel.
+    /// The difference of each pixel.
     pub map: Vec<f64>,
-    /// Of those that count, taken together.
+    /// The differences of the counted pixels, taken together.
     pub difference: Difference,
 }
 
-/// CIEDE2000 between two pictures as they are shown; those pixels count that are said to.
+/// CIEDE2000 between two pictures as shown on the screen. Only pixels whose entry in `counts` is true are counted.
 pub fn compare(one: &[DVec3], other: &[DVec3], counts: &[bool], display: &Display) -> Comparison {
     let lab = |radiance: &DVec3| {
         let shown = display.shown(*radiance);
@@ -307,11 +304,11 @@ pub fn compare(one: &[DVec3], other: &[DVec3], counts: &[bool], display: &Displa
 pub struct ToneCurve {
     /// Its name on the command line.
     pub name: &'static str,
-    /// A channel of exposed radiance to one of the screen, both linear.
+    /// From a channel of exposed radiance to one of the screen, both linear.
     pub curve: fn(f64) -> f64,
 }
 
-/// The curves. That of ACES is the fit by K. Narkowicz, 2015,
+/// The tone curves. That of ACES is the fit by K. Narkowicz, 2015,
 /// <https://knarkowicz.wordpress.com/2016/01/06/aces-filmic-tone-mapping-curve/>; Reinhard's is of SIGGRAPH 2002,
 /// <https://doi.org/10.1145/566654.566575>, equation 3.
 pub const TONE_CURVES: [ToneCurve; 3] = [
@@ -332,9 +329,9 @@ pub const TONE_CURVES: [ToneCurve; 3] = [
 /// How radiance is shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Display {
-    /// In stops: 1 doubles.
+    /// The exposure in stops: 1 doubles.
     pub exposure: f64,
-    /// The curve.
+    /// The tone curve.
     pub curve: ToneCurve,
 }
 
@@ -344,7 +341,7 @@ impl Display {
         self.shown_within(radiance, 1.0)
     }
 
-    /// What a screen shows whose brightest is this, linear; white is 1.
+    /// What a screen with this peak shows, linear; white is 1.
     pub fn shown_within(&self, radiance: DVec3, brightest: f64) -> DVec3 {
         let exposed = radiance.max(DVec3::ZERO) * libm::exp2(self.exposure);
         let shown = exposed.to_array().map(self.curve.curve);

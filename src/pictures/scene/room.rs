@@ -1,19 +1,18 @@
-//! A room around a scene: a box with painted walls, seen exactly from any place, and as a cube map from one.
-//!
-//! A normal map: dents in a hammered surface, as texels that both the tracer and the device look up.
+//! A room around a scene: a box with painted walls, exact from any place, and as a cube map from one. Also the normal map of a
+//! hammered surface, as texels that both the tracer and the device look up.
 
 use glam::{DVec2, DVec3};
 
 use super::texels::Texels;
 
-/// The room: two corners, and where its cube map is taken.
+/// The lower corner of the room.
 pub const ROOM_MIN: DVec3 = DVec3::new(-3.5, -1.5, -4.0);
-/// The other corner.
+/// The upper corner of the room.
 pub const ROOM_MAX: DVec3 = DVec3::new(3.0, 3.0, 4.0);
-/// Not the room's middle, nor the ball's.
+/// Where the cube map is taken: neither the room's centre nor the ball's.
 pub const CUBE_CENTRE: DVec3 = DVec3::new(0.5, 0.8, 0.3);
 
-/// Radiance from a place inside along a direction: the nearest wall ahead, axis by axis.
+/// Radiance at a place inside along a direction. It finds the nearest wall ahead, axis by axis.
 pub fn room_radiance(place: DVec3, direction: DVec3) -> DVec3 {
     let mut nearest = (f64::INFINITY, 0);
     for axis in 0..3 {
@@ -28,7 +27,7 @@ pub fn room_radiance(place: DVec3, direction: DVec3) -> DVec3 {
     wall_colour(place + distance * direction, axis, direction[axis] > 0.0)
 }
 
-/// Squares on all walls, a colour each, and a bright window in the ceiling.
+/// Squares of different colours on all walls, and a bright window in the ceiling.
 fn wall_colour(place: DVec3, axis: usize, is_high: bool) -> DVec3 {
     let (a, b) = (place[(axis + 1) % 3], place[(axis + 2) % 3]);
     if axis == 1 && is_high && a.abs() < 1.0 && b.abs() < 1.0 {
@@ -46,7 +45,7 @@ fn wall_colour(place: DVec3, axis: usize, is_high: bool) -> DVec3 {
     colour * if is_light { 1.0 } else { 0.35 }
 }
 
-/// The six faces of the cube map in their order, so many texels a side, each the mean of four samples.
+/// The six faces of the cube map in their order, with this many texels a side, each the mean of four samples.
 pub fn room_cube(side: usize) -> Vec<[f32; 4]> {
     let texel = |i: usize| {
         let (face, rest) = (i / (side * side), i % (side * side));
@@ -63,7 +62,7 @@ pub fn room_cube(side: usize) -> Vec<[f32; 4]> {
     (0..6 * side * side).map(texel).collect()
 }
 
-/// The direction of a face's texel, as the graphics interfaces define it: +x, -x, +y, -y, +z, -z.
+/// The direction of a face's texel, as graphics APIs define it: +x, -x, +y, -y, +z, -z.
 fn towards(face: usize, s: f64, t: f64) -> DVec3 {
     match face {
         0 => DVec3::new(1.0, -t, -s),
@@ -82,11 +81,11 @@ pub struct Relief {
 }
 
 const SIDE: usize = 512;
-/// Dents around, and from pole to pole.
+/// The number of dents around, and from pole to pole.
 const DENTS: [f64; 2] = [16.0, 8.0];
 
 impl Relief {
-    /// Dents of this steepest slope.
+    /// Dents with this steepest slope.
     pub fn hammered(slope: f64) -> Relief {
         let normal = |column: usize, row: usize| {
             let at = |place: usize| (place as f64 + 0.5) / SIDE as f64;
@@ -101,12 +100,12 @@ impl Relief {
         }
     }
 
-    /// The table.
+    /// The table of normals.
     pub fn normals(&self) -> &Texels {
         &self.normals
     }
 
-    /// The normal of the ball of radius 1 where it has this one, in the world.
+    /// The dented normal of the ball of radius 1 in the world, where its smooth normal is this.
     pub fn on_ball(&self, normal: DVec3) -> DVec3 {
         let longitude = libm::atan2(normal.x, -normal.z) / std::f64::consts::TAU;
         let latitude = libm::acos(normal.y.clamp(-1.0, 1.0)) / std::f64::consts::PI;

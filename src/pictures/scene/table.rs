@@ -1,13 +1,11 @@
-//! The table of what is drawn: a row an effect, with its passes, what they read and write, and its scene.
-//!
-//! What a row of the table of pictures says: its passes, what they read and write, and its scene.
+//! The table of pictures: a row for each effect, with its passes, what they read and write, and its scene.
 
 use super::body::Body;
 use super::pool::pool;
 use super::trace::Paths;
 use super::window::window;
 
-/// The sky behind all.
+/// The sky behind everything.
 const SKY: PassRow = PassRow {
     fragment: "fs_sky",
     place: Place::Everywhere,
@@ -41,7 +39,8 @@ const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
 const OVER_THE_POOL: [f64; 3] = [0.0, 1.2, 4.0];
 const BEFORE_THE_WINDOW: [f64; 3] = [1.495, -1.3, -1.329];
 
-/// Solid things mirrored in the water under the mirrored sky; what lies below it; both as the eye sees them; the water over that.
+/// The passes of water: solid things mirrored in it under the mirrored sky, what lies below it, both as the eye sees them, and
+/// the water on top.
 const WATER: [PassRow; 6] = [
     PassRow {
         fragment: "fs_mirror_sky",
@@ -307,15 +306,15 @@ pub struct RenderRow {
     pub summary: &'static str,
     /// The effects whose functions it calls, as users import them.
     pub effects: &'static [&'static str],
-    /// What R is computed by.
+    /// The method that computes R.
     pub method: &'static str,
-    /// Its own text: entry points, look-ups, loops.
+    /// The row's own shader text: entry points, look-ups, loops.
     pub text: &'static str,
-    /// The draws, one after the other.
+    /// The draws in order.
     pub passes: &'static [PassRow],
     /// The body.
     pub body: BodyName,
-    /// A material of the catalogue.
+    /// The material's name in the catalogue.
     pub material: &'static str,
     /// Whether the index depends on the wavelength.
     pub disperses: bool,
@@ -323,19 +322,19 @@ pub struct RenderRow {
     pub own_paths: Paths,
     /// The paths of the truth.
     pub true_paths: Paths,
-    /// Where the eye is.
+    /// The position of the eye.
     pub eye: [f64; 3],
-    /// Whether it stands in the room, and not under the sky.
+    /// Whether the scene is in the room rather than under the sky.
     pub in_room: bool,
-    /// The steepest slope of its dents, where its surface is hammered.
+    /// The steepest slope of the dents, where the surface is hammered.
     pub dents: Option<f64>,
-    /// Light on a receiver in place of what an eye sees: how far that lies below the body's centre, and half its width.
+    /// For light on a receiver instead of an eye's view: the receiver's distance below the body's centre, and half its width.
     pub receiver: Option<[f64; 2]>,
     /// Where it must be wrong, in one line.
     pub wrong: &'static str,
 }
 
-/// A body by its name.
+/// The name of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyName {
     /// The ball of radius 1.
@@ -359,7 +358,7 @@ impl BodyName {
         }
     }
 
-    /// In words.
+    /// The body in words.
     pub fn name(self) -> &'static str {
         match self {
             BodyName::Ball => "ball",
@@ -373,25 +372,26 @@ impl BodyName {
 /// A picture that a pass writes or reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slot {
-    /// What is shown; alpha says what each pixel is.
+    /// The shown picture; alpha says what each pixel shows.
     Colour,
-    /// Where the back of the body is.
+    /// Positions of the body's back.
     BackPositions,
-    /// Its normals.
+    /// Normals of the body's back.
     BackNormals,
-    /// What lies below the water, with 1 in alpha; 0 for what stands before it.
+    /// What lies below the water, with 1 in alpha; 0 for what stands in front of it.
     Below,
-    /// Where that is.
+    /// Positions of what lies below the water.
     BelowPositions,
     /// The scene above the water, mirrored in it.
     Mirror,
-    /// Where that is, with 1 in alpha; 0 where nothing but the sky is.
+    /// Positions of what is mirrored, with 1 in alpha; 0 where there is only the sky.
     MirrorPositions,
     /// The cube map of the room.
     Room,
     /// The normal map.
     Relief,
-    /// The radiance of solid things, by their texture coordinates; of a window the colours of glass, with 1 in alpha, and of lead and stone, with 0.
+    /// The radiance of solid things, by their texture coordinates. For a window the colours: of glass with 1 in alpha, of lead
+    /// and stone with 0.
     Paint,
 }
 
@@ -402,9 +402,9 @@ pub enum Place {
     Everywhere,
     /// The side of the body that faces the eye.
     Front,
-    /// The side that does not.
+    /// The side that faces away.
     Back,
-    /// The water's surface, over what is there: what stands before it is for the pass to say.
+    /// The water's surface. The pass itself decides what stands in front of it.
     Water,
 }
 
@@ -413,43 +413,43 @@ pub enum Place {
 pub enum View {
     /// The eye.
     Eye,
-    /// The eye, in a picture with a margin: for look-ups beyond the edge.
+    /// The eye, in a picture with a margin, for look-ups beyond the edge.
     Margin,
-    /// The eye mirrored in the plane y = 0, with that margin. What lies below the plane is clipped.
+    /// The eye mirrored in the plane y = 0, with the same margin. What lies below the plane is clipped.
     Mirrored,
-    /// The same without clipping, to show what clipping is for.
+    /// The same without clipping, to show why clipping is needed.
     MirroredUnclipped,
 }
 
 /// A draw.
 #[derive(Clone, Copy, Debug)]
 pub struct PassRow {
-    /// The entry point for pixels.
+    /// The fragment entry point.
     pub fragment: &'static str,
     /// What it draws.
     pub place: Place,
     /// Where it is drawn from.
     pub view: View,
-    /// What it writes.
+    /// The slots that it writes.
     pub writes: &'static [Slot],
-    /// What it reads, from binding 4 on.
+    /// The slots that it reads, from binding 4 on.
     pub reads: &'static [Slot],
 }
 
 impl RenderRow {
-    /// Whether it searches for the end of a refracted ray in a picture of what is there.
+    /// Whether a pass searches for the end of a refracted ray in a picture of the scene.
     pub fn searches(&self) -> bool {
         let positions = [Slot::BackPositions, Slot::BelowPositions];
         let mut passes = self.passes.iter();
         passes.any(|pass| positions.iter().any(|slot| pass.reads.contains(slot)))
     }
 
-    /// Whether there is water in it.
+    /// Whether the scene has water.
     pub fn has_water(&self) -> bool {
         self.body == BodyName::Pool
     }
 
-    /// Whether the environment is seen in it.
+    /// Whether the environment is visible.
     pub fn is_under_the_sky(&self) -> bool {
         !self.in_room && self.receiver.is_none()
     }

@@ -1,4 +1,5 @@
-//! Tables of four channels, rounded to binary16 as the device holds them: the tracer and the device look up the same.
+//! Tables of four channels, rounded to binary16 as the device holds them, so that the tracer and the device look up the same
+//! values.
 
 use glam::{DVec2, DVec4};
 use half::f16;
@@ -14,7 +15,7 @@ pub struct Texels {
 }
 
 impl Texels {
-    /// From a function of column and row.
+    /// A table from a function of column and row.
     pub fn baked(
         [width, height]: [usize; 2],
         texel: impl Fn(usize, usize) -> DVec4 + Sync,
@@ -41,7 +42,7 @@ impl Texels {
         &self.texels
     }
 
-    /// The same with other texels in the place of each.
+    /// The same with every texel changed.
     pub fn mapped(&self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Texels {
         let texels = self.texels.iter();
         Texels {
@@ -50,7 +51,7 @@ impl Texels {
         }
     }
 
-    /// The means of squares of so many texels a side, rounded to binary16.
+    /// The means of squares of this many texels a side, rounded to binary16.
     pub fn reduced(&self, by: usize) -> Texels {
         Texels::baked([self.width / by, self.height / by], |column, row| {
             let mut sum = DVec4::ZERO;
@@ -64,14 +65,14 @@ impl Texels {
         })
     }
 
-    /// At texture coordinates, (0, 0) in the corner of the first texel: linear between texels, and beyond the edge as at the
-    /// edge.
+    /// The value at texture coordinates, (0, 0) in the corner of the first texel. It is linear between texels, and clamped beyond
+    /// the edge.
     pub fn at(&self, uv: DVec2) -> DVec4 {
         let last = self.width as f64 - 1.0;
         self.linear(uv, &|x| x.clamp(0.0, last) as usize)
     }
 
-    /// The same with rows that repeat.
+    /// The same, but wrapped around along the rows.
     pub fn at_around(&self, uv: DVec2) -> DVec4 {
         let width = self.width as i64;
         self.linear(uv, &|x| (x as i64).rem_euclid(width) as usize)
@@ -91,7 +92,7 @@ impl Texels {
     }
 }
 
-/// A number from 0 to 1 that looks random, and is always the same for the same pair: the mixing steps of SplitMix64 (Steele, Lea,
+/// A pseudo-random number from 0 to 1, always the same for the same pair, by the mixing steps of SplitMix64 (Steele, Lea,
 /// Flood, *Fast Splittable Pseudorandom Number Generators*, OOPSLA 2014, <https://doi.org/10.1145/2660193.2660195>).
 pub fn scattered(a: i64, b: i64) -> f64 {
     let mut z = (a as u64)

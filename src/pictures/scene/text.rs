@@ -1,7 +1,7 @@
-//! The text of a row: the functions that users import, the calls of its method, the frame, the row's own passes.
+//! The shader text of a row: the functions that users import, the calls of its method, the frame, and the row's own passes.
 //!
-//! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs; the values of
-//! these stand in the frame's block, so that one text serves every material.
+//! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs. The
+//! values of the inputs stand in the frame's block, so one text serves every material.
 
 use super::glass::Glass;
 use super::table::RenderRow;
@@ -16,13 +16,13 @@ use crate::language::methods::{self, Forms, Input, Method, Values};
 use crate::language::targets;
 use crate::physics::materials::Channels;
 
-/// Inputs that the frame's block has room for.
+/// The most inputs that the frame's block has room for.
 pub const INPUTS: usize = 8;
 
-/// What every pass sees.
+/// The declarations that every pass sees.
 pub const FRAME: &str = include_str!("passes/frame.wgsl");
 
-/// The words of a language that calls are written in.
+/// The syntax of the language that calls are written in.
 #[derive(Clone, Copy, Debug)]
 struct Words {
     scalar: &'static str,
@@ -61,12 +61,12 @@ impl Words {
     }
 }
 
-/// A row drawn by a method: which functions it needs, and what it calls.
+/// A row drawn by a method: the functions that it needs, and its calls.
 #[derive(Clone, Copy, Debug)]
 pub struct RowText {
     /// The row.
     pub row: &'static RenderRow,
-    /// What computes R.
+    /// The method that computes R.
     pub method: &'static Method,
 }
 
@@ -77,7 +77,7 @@ impl RowText {
         RowText { row, method }
     }
 
-    /// The functions of the row's effects in their usual form, the same for every method.
+    /// The functions of the row's effects in their default form, the same for every method.
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
@@ -89,7 +89,7 @@ impl RowText {
         Ok(all)
     }
 
-    /// The functions that the method's calls need, the usual ones among them.
+    /// The functions that the method's calls need, including the default ones.
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
@@ -104,12 +104,12 @@ impl RowText {
         Ok(called)
     }
 
-    /// Whether rays leave the body, so that passes ask what is transmitted there.
+    /// Whether rays leave the body, so that passes need the transmittance there.
     fn leaves_a_body(&self) -> bool {
         self.row.effects.contains(&"interior")
     }
 
-    /// Whether light is reflected by a rough surface, so that passes ask for its BRDF.
+    /// Whether a rough surface reflects light, so that passes need its BRDF.
     pub fn is_rough(&self) -> bool {
         self.row.effects.contains(&"ggx_specular")
     }
@@ -119,13 +119,13 @@ impl RowText {
         function("ggx_specular", self.method, each, self.is_scalar())
     }
 
-    /// Whether the method has one number for all channels where light passes through the body.
+    /// Whether the method has one value for all channels where light passes through the body.
     fn is_scalar(&self) -> bool {
         self.row.is_transparent() && self.method.forms == Forms::ColourAndScalar
     }
 
-    /// What R is computed by where light leaves the body: of all inputs only an index says which side it comes from, and where it is
-    /// reflected totally.
+    /// The method that computes R where light leaves the body. Of all inputs, only an index tells from which side light comes and
+    /// where it is reflected totally.
     pub fn exit_method(&self) -> &'static Method {
         let takes_index_alone = matches!(self.method.inputs, [input] if input.name == "eta");
         if takes_index_alone && self.is_scalar() {
@@ -135,7 +135,7 @@ impl RowText {
         }
     }
 
-    /// The function of R where light enters.
+    /// The function of R where light enters the body.
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
@@ -205,8 +205,8 @@ impl RowText {
         Ok(text)
     }
 
-    /// The call of a function that asks for R: its own arguments, then the method's inputs. One number stands for all channels where it
-    /// gives one.
+    /// The call of a function that needs R: its own arguments, then the method's inputs. Where it returns one value, that value
+    /// serves all channels.
     fn call(&self, words: &Words, frame: &str, function: &Emitted, own: &[(&str, &str)]) -> String {
         let own = own.iter().map(|(name, _)| (*name).to_owned());
         let places = self.method.inputs.iter().enumerate();
@@ -219,8 +219,8 @@ impl RowText {
         }
     }
 
-    /// Where a call reads an input: in the frame's block, green's value where one R stands for all channels. A row of the effect that
-    /// computes F0 computes it in the shader.
+    /// Where a call reads an input: in the frame's block, with green's value where one R serves all channels. A row of the effect
+    /// that computes F0 computes it in the shader.
     fn argument(&self, frame: &str, place: usize, input: &Input) -> String {
         if input.name == "f0" && self.row.effects.contains(&"complex_f0") {
             return format!("fresnel_complex_f0({frame}.n.xyz, {frame}.k.xyz)");
@@ -234,7 +234,7 @@ impl RowText {
         format!("{frame}.inputs[{place}].{part}")
     }
 
-    /// The module: functions as users import them, the frame, the calls, the row's own passes.
+    /// The module: the functions as users import them, the frame, the calls, the row's own passes.
     ///
     /// # Errors
     /// A function cannot be written: a bug.
@@ -253,7 +253,7 @@ impl RowText {
         Ok(text + FRAME + &self.calls()? + self.row.text)
     }
 
-    /// The values of the method's inputs, as the block holds them.
+    /// The values of the method's inputs, in the layout of the block.
     pub fn inputs(&self, values: &Values) -> [[f32; 4]; INPUTS] {
         let mut block = [[0.0; 4]; INPUTS];
         for (place, input) in block.iter_mut().zip(self.method.inputs) {
@@ -285,7 +285,7 @@ fn request(effect: &str, method: &'static Method) -> EffectRequest<'static> {
     }
 }
 
-/// The function of an effect that asks for R in this way, by a method.
+/// The function of an effect that needs R in this way, by a method.
 fn function(
     effect: &str,
     method: &'static Method,

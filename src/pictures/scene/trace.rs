@@ -1,5 +1,5 @@
-//! The truth: rays followed through a body in f64, by Snell's and Fresnel's laws alone. Nothing here is generated, and no graph is
-//! evaluated: what the effects are held against is written a second time.
+//! The truth of pictures: rays followed through a body in f64, by Snell's and Fresnel's laws alone. Nothing here is generated and
+//! no graph is evaluated, so the effects are compared with an independent second implementation.
 
 use glam::DVec3;
 
@@ -14,53 +14,53 @@ use crate::physics::optics;
 /// How far light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paths {
-    /// Until a ten-thousandth is left, or 64 reflections inside.
+    /// Until less than a ten-thousandth is left, or for 64 reflections inside.
     All,
-    /// What is refracted once is taken as outside.
+    /// A ray that is refracted once counts as outside.
     OneSurface,
-    /// What meets the second surface is refracted, or where it is reflected totally taken as outside after that.
+    /// A ray is refracted at the second surface too. Where it is reflected totally there, it counts as outside after that.
     TwoSurfaces,
-    /// What is reflected outside; nothing enters.
+    /// Only what is reflected outside; nothing enters.
     Mirror,
 }
 
-/// What a sample shows.
+/// The result of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Traced {
-    /// Radiance by the first of both kinds of paths.
+    /// Radiance by the first of the two kinds of paths.
     pub colour: DVec3,
-    /// By the second.
+    /// Radiance by the second kind.
     pub own: DVec3,
     /// Whether it shows the body.
     pub is_body: bool,
-    /// Whether the middle one of the rays inside is reflected totally where it first meets the surface.
+    /// Whether the ray inside of the middle wavelength is reflected totally where it first meets the surface.
     pub is_total: bool,
 }
 
-/// What there is.
+/// The contents of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Things<'a> {
     /// The body.
     pub body: &'a Body,
-    /// What it is made of.
+    /// Its material.
     pub glass: &'a Glass,
-    /// What is around it.
+    /// Its surroundings.
     pub around: Around<'a>,
-    /// Dents of its surface, outside and inside, where it is a ball.
+    /// Dents of its surface, seen from outside and inside; only for a ball.
     pub relief: Option<&'a Relief>,
 }
 
-/// What is around a body.
+/// The surroundings of a body.
 #[derive(Clone, Copy, Debug)]
 pub enum Around<'a> {
-    /// Radiance by direction alone.
+    /// An environment, whose radiance depends on the direction alone.
     Far(&'a Environment),
     /// The room.
     Room,
 }
 
 impl Around<'_> {
-    /// What comes to a place along a direction that points away from it.
+    /// The radiance that reaches a place along a direction that points away from it.
     pub(super) fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
         match self {
             Around::Far(environment) => environment.radiance(direction),
@@ -69,7 +69,7 @@ impl Around<'_> {
     }
 }
 
-/// What is seen of it.
+/// A scene and the two kinds of paths that are followed.
 struct Scene<'a> {
     things: Things<'a>,
     paths: [Paths; 2],
@@ -78,7 +78,8 @@ struct Scene<'a> {
 const MOST_REFLECTIONS: usize = 64;
 const LEAST: f64 = 1e-4;
 
-/// A square picture of so many samples a side, row after row, by two kinds of paths at once. `progress` hears how many rows are done.
+/// A square picture with this many samples a side, row by row, by two kinds of paths at once. `progress` gets the number of rows
+/// done and the total.
 pub fn trace(
     things: Things,
     camera: &Camera,
@@ -106,7 +107,7 @@ impl Scene<'_> {
         }
     }
 
-    /// The same of a convex body.
+    /// The same for a convex body.
     fn convex(&self, eye: DVec3, direction: DVec3) -> Traced {
         let crossing = self.things.body.crossing(eye, direction);
         let Some(crossing) = crossing.filter(|crossing| crossing.entry.0 > 0.0) else {
@@ -148,13 +149,13 @@ impl Scene<'_> {
         seen
     }
 
-    /// The normal as dents turn it.
+    /// The normal, tilted by the dents.
     fn dented(&self, normal: DVec3) -> DVec3 {
         let relief = self.things.relief;
         relief.map_or(normal, |relief| relief.on_ball(normal))
     }
 
-    /// What comes along a ray inside by both kinds of paths, and whether it is reflected totally at first.
+    /// The radiance along a ray inside by both kinds of paths, and whether it is first reflected totally.
     fn inside(&self, place: DVec3, direction: DVec3, n: f64) -> ([DVec3; 2], bool) {
         let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
         let (two, all, is_total) = if self.paths.iter().any(goes_on) {
@@ -171,7 +172,8 @@ impl Scene<'_> {
         (self.paths.map(by), is_total)
     }
 
-    /// What comes through the second surface alone, what comes through all, and whether the ray is reflected totally at the second.
+    /// The radiance through the second surface alone, the radiance by all paths, and whether the ray is reflected totally at the
+    /// second surface.
     fn beyond(&self, mut place: DVec3, mut direction: DVec3, n: f64) -> (DVec3, DVec3, bool) {
         let (mut two, mut all, mut left, mut is_total) = (DVec3::ZERO, DVec3::ZERO, 1.0, false);
         for turn in 0..MOST_REFLECTIONS {
@@ -211,12 +213,12 @@ impl Scene<'_> {
     }
 }
 
-/// The mirror's law.
+/// The law of reflection.
 pub(super) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
-/// Snell's law: the part along the surface is divided by the index. None past the critical angle.
+/// Snell's law: the part along the surface is scaled by the ratio of indices. `None` past the critical angle.
 pub(super) fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     let along = (direction - direction.dot(normal) * normal) / eta;
     let rest = 1.0 - along.length_squared();

@@ -1,4 +1,4 @@
-//! A map as a picture: the formula's error on the left, that of its rounding on the right, each with its colour bar.
+//! A stability map as a picture: the formula's error on the left, its rounding error on the right, each with a colour bar.
 
 use crate::generator::emit::xml_text;
 use crate::lab::stability::{Cell, Map};
@@ -9,19 +9,19 @@ use crate::pictures::plot::{
 
 const WIDTH: f64 = 920.0;
 const HEIGHT: f64 = 366.0;
-/// The plot of a panel.
+/// The size of a panel's plot.
 const PLOT: (f64, f64) = (300.0, 220.0);
 const TOP: f64 = 90.0;
 /// The left edges of the panels' plots.
 const LEFTS: [f64; 2] = [70.0, 540.0];
-/// From a plot to its colour bar, and how wide that is.
+/// The gap between a plot and its colour bar, and the bar's width.
 const BAR: (f64, f64) = (14.0, 14.0);
-/// Where a result is no reflectance at all.
+/// The colour where a result is not a reflectance.
 const BROKEN: &str = "#d7263d";
 
-/// What a panel shows.
+/// The contents of a panel.
 struct Panel {
-    /// What comes against what.
+    /// The title: what is compared with what.
     title: fn(&str) -> String,
     /// The powers of ten at both ends of the colour bar.
     decades: (i32, i32),
@@ -87,7 +87,7 @@ impl Panel {
         parts
     }
 
-    /// The cells, those of one colour in a row as one rectangle.
+    /// The cells. Adjacent ones of one colour in a row become one rectangle.
     fn cells(&self, map: &Map, left: f64) -> Vec<String> {
         let columns = map.degrees.len();
         let (width, height) = (
@@ -158,7 +158,7 @@ impl Panel {
     }
 }
 
-/// The plot of a panel, or its colour bar.
+/// The area of a panel's plot, or of its colour bar.
 fn area(left: f64, width: f64) -> Area {
     Area {
         left,
@@ -168,7 +168,7 @@ fn area(left: f64, width: f64) -> Area {
     }
 }
 
-/// The axes of a map: a value stands in the middle of its cell.
+/// The axes of a map. A value stands in the middle of its cell.
 fn axes(map: &Map, left: f64) -> Axes {
     let area = area(left, PLOT.0);
     let (degrees, values) = (&map.degrees, &map.axis.values);
@@ -195,7 +195,7 @@ fn angles() -> Vec<Tick> {
     (0..=90).step_by(15).map(tick).collect()
 }
 
-/// The ticks of the values: six a decade, or one where there are many decades.
+/// The ticks of the values: six per decade, or one where there are many decades.
 fn values(map: &Map) -> Vec<Tick> {
     let [low, high] = ends(&map.axis.values);
     let is_long = high / low > 1e4;

@@ -1,4 +1,4 @@
-//! Where functions fail, as maps over angle and index, and as a page.
+//! Maps of where functions fail, over angle and index, and their page.
 
 mod heat;
 mod page;

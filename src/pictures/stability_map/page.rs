@@ -1,6 +1,5 @@
-//! One page with all maps, and a sentence for each failure: self-contained, for any browser.
-//!
-//! A finding in words: how much of a region fails, where it is worst, and what comes there.
+//! The HTML page with all stability maps, and a sentence for each failure: how much of a region fails, where it is worst, and the
+//! result there. Self-contained, for any browser.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -17,21 +16,21 @@ static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 struct MethodSection {
     method: &'static str,
     summary: &'static str,
-    /// What goes wrong where, a sentence each.
+    /// What goes wrong and where, a sentence for each failure.
     formula: Vec<String>,
     rounding: Vec<String>,
     arguments: Vec<String>,
     pictures: Vec<Picture>,
 }
 
-/// A picture by its words.
+/// A picture with its caption.
 #[derive(Serialize)]
 struct Picture {
     about: String,
     data: String,
 }
 
-/// The page of these rows and pictures (method, what over, PNG), or why it cannot be made.
+/// The page of these rows and pictures (method, second axis, PNG), or why it cannot be made.
 ///
 /// # Errors
 /// The page's template cannot be filled.
@@ -109,7 +108,7 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// Where it is worst, and what comes there.
+/// Where it is worst, and the result there.
 pub fn worst(finding: &Finding) -> String {
     let at = finding
         .worst
@@ -133,7 +132,7 @@ pub fn worst(finding: &Finding) -> String {
     }
 }
 
-/// A reflectance in four digits.
+/// A reflectance with four digits.
 fn number(x: f64) -> String {
     match x.abs() {
         0.0 => "0".to_owned(),
@@ -143,7 +142,7 @@ fn number(x: f64) -> String {
     }
 }
 
-/// Two digits.
+/// A number with two digits.
 fn rounded(x: f64) -> String {
     if x >= 1e4 {
         format!("{x:.1e}")

@@ -180,7 +180,7 @@ fn png_says_how_it_is_encoded() {
     check(&gamma(0.45455), Space::Srgb, srgb);
     check(&gamma(0.55556), Space::Srgb, grey(HALF.powf(1.8)));
     let intent = Some(png::SrgbRenderingIntent::Perceptual);
-    check(&rgb(&|info| info.srgb = intent), Space::P3, srgb);
+    check(&rgb(&|info| info.srgb = intent), Space::DisplayP3, srgb);
     refused(
         &rgb(&|info| info.icc_profile = Some(vec![0; 200].into())),
         "ICC profile",

@@ -134,6 +134,9 @@ fn variants(one: &syn::ItemEnum) -> Vec<String> {
 fn lines(item: &Item, name: &str) -> Vec<String> {
     match item {
         Item::Fn(one) if one.sig.ident == name => vec![format!("pub {}", words(&one.sig))],
+        Item::Struct(one) if one.ident == name && is_open(&one.attrs) => {
+            vec![format!("pub struct {name} of any fields")]
+        }
         Item::Struct(one) if one.ident == name => {
             vec![format!("pub struct {name} {{ {} }}", fields(&one.fields))]
         }

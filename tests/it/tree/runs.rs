@@ -312,3 +312,41 @@ fn binary_files_are_compared_by_hash() {
     let start = "binary file spirv/fresnel_schlick.spv differs (sha256 ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad → ";
     assert!(line.starts_with(start), "{line}");
 }
+
+/// A build script's folder is its request's alone: what a former request wrote and this one does not goes, and files of others stay.
+#[test]
+fn a_build_script_s_folder_follows_its_request() {
+    use fresnel_gen::{Method, Request, Target, generate};
+
+    let dir = TempDir::new().unwrap();
+    let request = |material: &str| {
+        let request = Request::new().target(Target::WGSL).method(Method::FITTED);
+        generate(&request.material(material)).unwrap()
+    };
+    let first = request("gold").write_to(dir.path()).unwrap();
+    assert!(first.iter().all(|path| path.is_file()));
+    assert!(first.contains(&dir.path().join("wgsl/materials/gold.wgsl")));
+    put(dir.path(), "wgsl/materials/mine.wgsl", "// mine");
+    put(dir.path(), "notes.txt", "mine");
+    request("water").write_to(dir.path()).unwrap();
+    let held = snapshot(dir.path());
+    let is_there = |name: &str| held.keys().any(|path| path.ends_with(name));
+    assert!(is_there("water.wgsl") && !is_there("gold.wgsl"), "{held:?}");
+    assert!(is_there("mine.wgsl") && is_there("notes.txt"));
+    // A file of others in the place of one is an error, and all stays as it was.
+    put(dir.path(), "wgsl/materials/gold.wgsl", "// mine");
+    let before = snapshot(dir.path());
+    assert!(request("gold").write_to(dir.path()).is_err());
+    assert_eq!(snapshot(dir.path()), before);
+}
+
+/// Tables stand beside what a build script asks for, of the same materials.
+#[test]
+fn a_build_script_has_tables_of_its_materials() {
+    use fresnel_gen::{Method, Request, Target, generate};
+
+    let request = Request::new().target(Target::WGSL).method(Method::FITTED);
+    let files = generate(&request.material("silver").tables()).unwrap();
+    let named = |name: &str| files.artifacts.iter().any(|file| file.path == name);
+    assert!(named("wgsl/materials/silver.wgsl") && named("lut/silver.exr"));
+}

@@ -1,11 +1,11 @@
-//! The fitted coefficients of many materials as one constant array of a language, with the row of each by name: what the
-//! library functions `fitted` and `fitted_dielectric` take, four colours a material.
+//! The fitted coefficients of many materials as a constant array of a language, and as a storage buffer.
 //!
-//! The catalogue as a storage buffer takes it: the numbers of the array, each colour as a `vec4`, little endian.
+//! The array holds the coefficients that the library functions `fitted` and `fitted_dielectric` take, four colours per material,
+//! and has each material's row by name. The buffer holds the same numbers, each colour as a little-endian `vec4`.
 //!
-//! Source: std430 aligns an array of `vec4` to 16 bytes an element (Khronos, *The OpenGL Graphics System 4.6*, section 7.6.2.2, 2022,
-//! <https://registry.khronos.org/OpenGL/specs/gl/glspec46.core.pdf>), and so does WGSL (W3C, *WebGPU Shading Language*, section 14.4.1,
-//! 2024, <https://www.w3.org/TR/WGSL/#alignment-and-size>).
+//! Source: std430 aligns an array of `vec4` to 16 bytes per element (Khronos, *The OpenGL Graphics System 4.6*, section 7.6.2.2,
+//! 2022, <https://registry.khronos.org/OpenGL/specs/gl/glspec46.core.pdf>), and so does WGSL (W3C, *WebGPU Shading Language*,
+//! section 14.4.1, 2024, <https://www.w3.org/TR/WGSL/#alignment-and-size>).
 
 use serde::Serialize;
 
@@ -20,10 +20,10 @@ use crate::generator::emit::page::{comments, finished, guard};
 use crate::generator::fit::rounded_up;
 use crate::language::targets::{self, Target};
 
-/// The constant that says where the methods change.
+/// The constant for the row at which the method changes.
 const DIELECTRICS: &str = "first_dielectric";
 
-/// What a template sees.
+/// The data of a template.
 #[derive(Serialize)]
 struct CatalogueView {
     header: Vec<String>,
@@ -56,11 +56,11 @@ struct RowView {
     is_last: bool,
 }
 
-/// The file of a target; none where it has no constants, or there is no material. The rows of one method stand together; `seen`
-/// says what the reference is.
+/// The file of a target; none where the language has no constants, or there is no material. The rows of one method stand
+/// together. `seen` is the viewing conditions in words.
 ///
 /// # Errors
-/// A name is a word of the language, or a text is refused by it.
+/// A name is a keyword of the language, or the language refuses a text.
 pub fn catalogue_array(
     target: &'static Target,
     rows: &[CatalogueRow],
@@ -113,7 +113,7 @@ fn view(
     }
 }
 
-/// A name in capitals, as constants have it.
+/// The name of a constant, in capitals.
 fn constant(naming: &Naming, of: &str) -> String {
     format!("{}{of}", naming.prefix).to_uppercase()
 }
@@ -161,7 +161,7 @@ fn remark(row: &CatalogueRow) -> String {
     format!("{}, {}{better}{held}", row.class, at_most(&row.error))
 }
 
-/// A colour with the shortest digits that give the same f32 back.
+/// A colour in the shortest digits that give the same f32.
 fn colour(target: &Target, values: [f64; 3]) -> String {
     let spelling = &target.spelling;
     let numbers = values.map(|value| spelling.number(value));
@@ -215,7 +215,7 @@ fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> 
     comment::lines(lines)
 }
 
-/// The model error of the worst, and where each one's stands.
+/// The largest model error of all, and where each one's is listed.
 fn worst(rows: &[CatalogueRow]) -> String {
     let by_error =
         |a: &&CatalogueRow, b: &&CatalogueRow| a.error.max_abs.total_cmp(&b.error.max_abs);
@@ -228,7 +228,7 @@ fn worst(rows: &[CatalogueRow]) -> String {
     )
 }
 
-/// A constant must be free in every language, as functions are.
+/// Checks that the constants' names are free in every language, as functions' names are.
 fn check_names(view: &CatalogueView) -> Result<(), Error> {
     let materials = view.materials.iter().map(|material| &material.constant);
     let mut names = materials.chain([&view.name, &view.dielectrics.constant]);
@@ -240,12 +240,11 @@ fn check_names(view: &CatalogueView) -> Result<(), Error> {
 
 /// The file's name.
 pub const CATALOGUE_BUFFER: &str = "catalogue.std430.bin";
-/// The fourth number of a `vec4`, and alpha in textures: readers of pictures that multiply by alpha change nothing.
+/// The fourth number of a `vec4`, and alpha in textures. With 1, image readers that multiply by alpha change nothing.
 pub const FOURTH: f32 = 1.0;
-/// The bytes of a `vec4`.
 const ELEMENT: usize = 16;
 
-/// What `catalogue.json` says of the buffer's file.
+/// The entry of the buffer's file in `catalogue.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BufferDetail {
     file: &'static str,
@@ -255,7 +254,7 @@ pub struct BufferDetail {
 }
 
 impl BufferDetail {
-    /// The same for every catalogue.
+    /// The entry, which is the same for every catalogue.
     pub fn new() -> BufferDetail {
         BufferDetail {
             file: CATALOGUE_BUFFER,
@@ -279,7 +278,7 @@ pub fn catalogue_buffer(rows: &[CatalogueRow]) -> Vec<u8> {
     numbers.flat_map(f32::to_le_bytes).collect()
 }
 
-/// Where in the file the material of this place begins, in bytes.
+/// The byte offset of the material with this index.
 pub(super) fn offset(place: usize) -> usize {
     place * COEFFICIENTS * ELEMENT
 }

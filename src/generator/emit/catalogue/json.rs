@@ -1,4 +1,4 @@
-//! The catalogue as `catalogue.json` has it.
+//! The entries of `catalogue.json`.
 
 use serde::Serialize;
 
@@ -25,11 +25,11 @@ impl CatalogueMethod {
     }
 }
 
-/// How coefficients stand in `catalogue.json`, as the file says it.
+/// The order of coefficients in `catalogue.json`, as the file states it.
 pub const COEFFICIENT_ORDER: &str = "coefficients[i] is c_i: red, green, blue; the order of the arrays, of the buffer and of the textures";
 
-/// A material of the catalogue: its coefficients in order, three channels each; the first of its rows of the array, and where in the
-/// buffer it begins, in bytes.
+/// A material of the catalogue: its coefficients in order, three channels each, the first of its rows in the array, and its byte
+/// offset in the buffer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueMaterial<'a> {
     name: &'a str,
@@ -47,7 +47,7 @@ pub struct CatalogueMaterial<'a> {
     extrapolated: Option<&'a str>,
 }
 
-/// The method that follows it more closely; the exact law has no coefficients.
+/// The method with a smaller error. The exact law has no coefficients.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct CloserFitDetail {
     method: &'static str,
@@ -98,7 +98,7 @@ fn in_order(coefficients: &[[f64; 3]]) -> Vec<[f64; 3]> {
     coefficients.iter().map(|c| c.map(shortest)).collect()
 }
 
-/// The number that prints with the fewest digits of those that are the same in f32.
+/// The number with the fewest printed digits that is the same in f32.
 fn shortest(value: f64) -> f64 {
     let digits = (value as f32).to_string();
     digits.parse().expect("what is printed of a number is one")

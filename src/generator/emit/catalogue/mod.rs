@@ -1,4 +1,4 @@
-//! The catalogue of fitted coefficients: those of every material that is known over the whole spectrum.
+//! The catalogue of fitted coefficients, of every material that is known over the whole spectrum.
 
 mod array;
 mod json;
@@ -22,7 +22,7 @@ pub use record::{catalogue_record, recorded_catalogue};
 
 /// The name of the files and of the array.
 pub const CATALOGUE: &str = "catalogue";
-/// Colours that a material has: its coefficients c0 to c3, which are rows of the array.
+/// Colours per material: its coefficients c0 to c3, which are rows of the array.
 pub const COEFFICIENTS: usize = 4;
 
 /// A material of the catalogue.
@@ -30,36 +30,37 @@ pub const COEFFICIENTS: usize = 4;
 pub struct CatalogueRow {
     /// Its name, with the medium's.
     pub name: String,
-    /// What a user types to get it again.
+    /// The material argument on the command line that gives it again.
     pub argument: String,
     /// `metal`, `semiconductor` or `dielectric`.
     pub class: &'static str,
     /// The fitted method of its class.
     pub method: &'static Method,
-    /// Its coefficients in order, three channels each, as f32 holds them.
+    /// Its coefficients in order, three channels each, in f32.
     pub coefficients: Vec<[f64; 3]>,
-    /// How far the function with these coefficients is from the exact law.
+    /// The model error of the function with these coefficients.
     pub error: ModelError,
     /// The mean of that function over the hemisphere.
     pub average: Average,
-    /// A method that follows it more closely, of a semiconductor, or where the fit misses its class.
+    /// A method with a smaller error, for a semiconductor, or where the fit misses its class.
     pub better: Option<CloserFit>,
-    /// Beyond which wavelengths its index was held, in words, where it was.
+    /// In words, beyond which wavelengths its index was held constant; none if nowhere.
     pub held: Option<String>,
 }
 
-/// A method that follows a material of the catalogue more closely than its four coefficients do.
+/// A method with a smaller error for a material of the catalogue than its four coefficients have.
 #[derive(Clone, Debug)]
 pub struct CloserFit {
     /// The method.
     pub method: &'static Method,
-    /// Its coefficients in order, three channels each; none of the exact law.
+    /// Its coefficients in order, three channels each; empty for the exact law.
     pub coefficients: Vec<[f64; 3]>,
     /// The largest error.
     pub max_abs: f64,
 }
 
-/// The rows of those that a fitted method follows: first those of `fitted`, then those of `fitted_dielectric`, each by name.
+/// The rows of the materials for which there is a fitted method: first those of `fitted`, then those of `fitted_dielectric`, each
+/// by name.
 ///
 /// # Errors
 /// As [`specialised_function`].
@@ -107,8 +108,8 @@ fn catalogue_row(
     })
 }
 
-/// A function of a material with coefficients that keep its form in [0, 1] by themselves, where colours are clipped; a function
-/// that is not fitted as it is.
+/// The function of a material with coefficients whose form keeps to [0, 1] by itself, where colours are clipped. A function that
+/// is not fitted is returned unchanged.
 fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
     let gamut = subject.reference.surface.gamut;
     if gamut == Gamut::Keep || !emitted.method.is_fitted() {
@@ -131,8 +132,8 @@ fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
     }
 }
 
-/// The method that follows a material more closely than its four coefficients do: the one of its class, or what serves where the
-/// fit misses its class.
+/// The method with a smaller error for a material than its four coefficients have: the one of its class, or the one that serves
+/// where the fit misses its class.
 fn closer_fit(
     subject: &MaterialInMedium,
     emitted: &Emitted,
@@ -160,13 +161,13 @@ fn closer_fit(
     }))
 }
 
-/// The row of the array from which on materials take `fitted_dielectric`; the one after the last where all take the same.
+/// The first row of the array that takes `fitted_dielectric`; the one after the last where all take the same method.
 pub fn first_dielectric(rows: &[CatalogueRow]) -> usize {
     let first = |row: &CatalogueRow| row.method.name == rows[0].method.name;
     COEFFICIENTS * rows.partition_point(first)
 }
 
-/// The methods of the rows, each once: rows of one stand together.
+/// The methods of the rows, each once. Rows of one method stand together.
 fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
     methods.dedup_by_key(|method| method.name);

@@ -1,6 +1,6 @@
-//! The record of the catalogue's rows for the default viewing conditions, `data/records/catalogue.json`: to derive them takes
-//! a hundred times as long as all the rest of a run. The record holds for files of materials and for fitted shapes with the
-//! recorded hashes, and a test derives it anew.
+//! The record of the catalogue's rows for the default viewing conditions, `data/records/catalogue.json`. Deriving them takes a
+//! hundred times as long as the rest of a run. The record holds for material files and fitted shapes with the recorded hashes,
+//! and a test derives it again.
 
 use std::collections::BTreeMap;
 
@@ -17,15 +17,15 @@ static RECORD: &str = include_str!("../../../../data/records/catalogue.json");
 
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Record {
-    /// What each fitted method computes.
+    /// The fingerprint of each fitted method.
     methods: BTreeMap<String, String>,
-    /// The SHA-256 of every material's file, the first half of its digits.
+    /// The first half of the SHA-256 digits of each material's file.
     files: BTreeMap<String, String>,
-    /// Those that a fitted method follows, in the order of the catalogue.
+    /// The materials for which there is a fitted method, in the order of the catalogue.
     rows: Vec<Recorded>,
 }
 
-/// A row of the catalogue. A method stands there by its name.
+/// A row of the catalogue, with methods by name.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Recorded {
     name: String,
@@ -45,8 +45,7 @@ struct RecordedBetter {
     max_abs: f64,
 }
 
-/// The rows in air as they are recorded; nothing for other viewing conditions, or where a material's file or a fitted method has
-/// changed since.
+/// The recorded rows in air. None for other viewing conditions, or where a material's file or a fitted method has changed since.
 pub fn recorded_catalogue(viewing: &ViewingConditions) -> Option<Vec<CatalogueRow>> {
     if *viewing != ViewingConditions::default() {
         return None;

@@ -1,5 +1,5 @@
-//! The one place of this room that touches the machine: it finds a compiler, runs it in a folder of its own that is gone
-//! afterwards, and stops it when it takes too long.
+//! Calls of compilers: finds one, runs it in a temporary folder of its own, and stops it when it takes too long. No other file of
+//! this room touches the machine.
 
 use std::env::{consts::EXE_SUFFIX, join_paths, split_paths, var_os};
 use std::fs;
@@ -13,34 +13,34 @@ use tempfile::TempDir;
 
 use crate::lab::process::{TEMPORARY, beside};
 
-/// More than any compiler needs for our files, on a machine that is slow and busy too.
+/// More than any compiler needs for our files, even on a slow and busy machine.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Bytes that must find room beside what a compiler writes: more than most of what it makes.
+/// Bytes that must still fit on the disk beside a compiler's output, to tell a full disk from a refusal. Most outputs are smaller.
 const PROBE: usize = 1 << 18;
 
-/// What the system's own programs end with where they cannot run another: not executable, not found.
+/// Exit codes of the system's own programs that cannot run another: not executable, not found.
 const NOT_RUN: [i32; 2] = [126, 127];
 
 /// A file for a compiler to read.
 pub struct CompilerInput {
     /// Its name, without a folder.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub bytes: Vec<u8>,
 }
 
-/// What came of a call.
+/// The result of a call.
 pub struct Called {
-    /// Whether the compiler says that all is well.
+    /// Whether the compiler reports success.
     pub ok: bool,
     /// What it printed.
     pub said: String,
-    /// What it wrote where `OUT` stands in the options; empty if nothing.
+    /// The file that it wrote to `OUT` in the options. Empty if it wrote none.
     pub made: Vec<u8>,
 }
 
-/// Why a command said nothing.
+/// Why a command gave no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum Silent {
     /// It cannot be started.
@@ -66,8 +66,7 @@ pub fn find(command: &str) -> Option<PathBuf> {
     })
 }
 
-/// The folders of the path. What lies below the current folder may be anybody's, so folders that are relative to it are left
-/// out.
+/// The folders of the path, without relative ones: files below the current folder may be anybody's.
 fn path() -> Vec<PathBuf> {
     let path = var_os("PATH").unwrap_or_default();
     split_paths(&path)
@@ -95,7 +94,7 @@ fn call_within(
     let words = fs::File::create(&said)?;
     let mut child = Command::new(command)
         .args(arguments(options, files, made))
-        // Some are scripts, whose interpreter is looked up as well. All of these folders were in the path.
+        // Some are scripts, whose interpreter is looked up in the path too.
         .env("PATH", join_paths(path()).unwrap_or_default())
         .current_dir(folder.path())
         .stdin(Stdio::null())
@@ -113,7 +112,7 @@ fn call_within(
         return Err(Silent::NotRun(code, said.trim().to_owned()));
     }
     if !ok {
-        // A compiler that cannot write what it makes fails in words of its own, and is not to blame.
+        // A compiler that cannot write its output fails in words of its own, and is not to blame.
         fs::write(folder.path().join("probe"), [0; PROBE])?;
     }
     match status {
@@ -134,7 +133,7 @@ fn arguments<'a>(options: &'a str, files: &'a [CompilerInput], made: &'a str) ->
     options.split_whitespace().flat_map(expanded).collect()
 }
 
-/// Waits for the end; nothing if it did not come in time and the program was stopped.
+/// Waits for the program to end. None if it did not end in time and was stopped.
 fn wait(child: &mut Child, limit: Duration) -> io::Result<Option<ExitStatus>> {
     let start = Instant::now();
     let mut pause = Duration::from_millis(1);
@@ -143,7 +142,7 @@ fn wait(child: &mut Child, limit: Duration) -> io::Result<Option<ExitStatus>> {
             return Ok(Some(status));
         }
         if start.elapsed() > limit {
-            // It may end just now by itself.
+            // It may just have ended by itself.
             let _ = child.kill();
             child.wait()?;
             return Ok(None);

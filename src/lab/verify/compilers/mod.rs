@@ -1,5 +1,5 @@
-//! The word of compilers that are not ours: whether they accept what was generated, and HLSL as DXC makes SPIR-V of it.
-//! One that is not there gives no verdict, and says where to get it.
+//! Independent compilers: whether they accept what was generated, and the SPIR-V that DXC makes of HLSL. A compiler that is
+//! missing gives no verdict, and the reason says where to get it.
 
 mod call;
 mod program;
@@ -25,7 +25,7 @@ pub enum Verdict {
     NotChecked(String),
 }
 
-/// Why a compiler has made nothing of a text.
+/// Why a compiler has no output for a text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum CompilerFault {
     /// It refuses it, in these words: the first lines.
@@ -55,15 +55,15 @@ pub enum HlslVersion {
     V2021,
 }
 
-/// As much of a refusal as is told.
+/// The most lines of a refusal that are reported.
 const LINES: usize = 8;
 
-/// What every compiler that can judge a target's files says of one. Its name stands in their words.
+/// The verdict on a file of every compiler that can judge its target. `name` is the file's name in their messages.
 pub fn accepts(target: &Target, name: &str, bytes: &[u8]) -> Vec<(&'static str, Verdict)> {
     accepts_in(Precision::F32, target, name, bytes)
 }
 
-/// The same of a file in this precision.
+/// As [`accepts`], for a file in this precision.
 pub fn accepts_in(
     precision: Precision,
     target: &Target,
@@ -76,7 +76,7 @@ pub fn accepts_in(
         .collect()
 }
 
-/// What one of them says.
+/// The verdict of one validator.
 pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
     let framed = match program::framed(&validator.frame, bytes) {
         Ok(framed) => framed,
@@ -92,8 +92,7 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
     run(validator.compiler, validator.options, &files).into()
 }
 
-/// A compute shader in HLSL as DXC makes SPIR-V of it for Vulkan 1.1: register numbers become bindings, spaces become
-/// sets.
+/// The SPIR-V that DXC makes of a compute shader in HLSL, for Vulkan 1.1. Register numbers become bindings, spaces become sets.
 ///
 /// # Errors
 /// DXC refuses the text, or is not here.
@@ -105,7 +104,7 @@ pub fn hlsl_to_spirv(
     hlsl_to_spirv_in(Precision::F32, text, entry, version)
 }
 
-/// The same where `half` has as many bits as this precision: 16, or 32.
+/// As [`hlsl_to_spirv`], where `half` has as many bits as this precision: 16 or 32.
 ///
 /// # Errors
 /// DXC refuses the text, or is not here.
@@ -133,7 +132,7 @@ pub fn hlsl_to_spirv_in(
     written(&DXC, &options, run(&DXC, &options, &[file])?)
 }
 
-/// What a compiler makes of a text under this name. Its options are as a [`Validator`]'s.
+/// A compiler's output for a text under this name. Its options have the form of a [`Validator`]'s.
 ///
 /// # Errors
 /// The compiler refuses the text, or is not here.
@@ -150,7 +149,7 @@ pub fn compiled(
     written(compiler, options, run(compiler, options, &[file])?)
 }
 
-/// What a compiler has written, where it was to write something.
+/// What a compiler has written, where its options ask for a file.
 fn written(compiler: &Compiler, options: &str, made: Vec<u8>) -> Result<Vec<u8>, CompilerFault> {
     if made.is_empty() && options.split_whitespace().any(|word| word == "OUT") {
         let why = format!("{} ended without a fault and wrote nothing", compiler.name);
@@ -165,7 +164,7 @@ pub fn is_here(compiler: &Compiler) -> bool {
     compiler.command.is_none_or(found)
 }
 
-/// Which version of a compiler answers here, as it says itself.
+/// The version of a compiler here, in its own words.
 pub fn version(compiler: &Compiler) -> Measured<String> {
     if compiler.command.is_none() {
         return Measured::Yes(NAGA_VERSION.to_owned());
@@ -177,7 +176,7 @@ pub fn version(compiler: &Compiler) -> Measured<String> {
     }
 }
 
-/// What a compiler makes of these.
+/// Runs a compiler on these files.
 fn run(
     compiler: &Compiler,
     options: &str,
@@ -191,14 +190,14 @@ fn run(
     if names_place(&called.said, files) {
         return Err(CompilerFault::Refused(words));
     }
-    // What names no place may be a fault of the compiler, or of the machine.
+    // A message that names no place may be a fault of the compiler or of the machine.
     let name = compiler.name;
     let why = format!("{name} failed and named no place in the text: {words}");
     Err(CompilerFault::NotChecked(why))
 }
 
-/// Whether a compiler's words name a place in one of its files: `a.hlsl:3:5`, `a.hlsl(3,5)`, glslang's `ERROR: 0:3:`. A file that is no
-/// text has no lines: there a fault of the module begins with `error`.
+/// Whether a compiler's message names a place in one of its files: `a.hlsl:3:5`, `a.hlsl(3,5)`, glslang's `ERROR: 0:3:`. A binary
+/// file has no lines, so there a message that begins with `error` counts.
 fn names_place(words: &str, files: &[CompilerInput]) -> bool {
     let begins_number = |rest: &str| {
         let rest = rest.strip_prefix([':', '(']);

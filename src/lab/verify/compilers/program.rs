@@ -1,5 +1,5 @@
-//! Programs around files of functions, which alone are none: each function is called with arguments that are known at
-//! run time only, so that no compiler passes it over as dead code.
+//! Programs around files that hold functions only: each function is called with arguments known at run time only, so that no
+//! compiler drops it as dead code.
 
 use std::collections::BTreeSet;
 use std::str::Utf8Error;
@@ -14,14 +14,14 @@ pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
         return Ok(vec![bytes.to_vec()]);
     }
     let text = std::str::from_utf8(bytes)?;
-    // WGSL alone has this word, and comments within comments.
+        // Only WGSL has this word, and nested comments.
     let nests = frame.ending.contains("fn ");
     let ending = frame.ending.replace("CALLS\n", &calls(text, nests));
     let program = |beginning: &&str| format!("{beginning}{text}{ending}").into_bytes();
     Ok(frame.beginnings.iter().map(program).collect())
 }
 
-/// The programs as files, under the file's own name as far as that tells them apart.
+/// The programs as files. Their names are the file's own, with a number where there are several.
 pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<CompilerInput> {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let several = programs.len() > 1;
@@ -36,7 +36,7 @@ pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<CompilerInput> {
     programs.into_iter().enumerate().map(file).collect()
 }
 
-/// What a program does with a text of functions: a statement for each. `nests`: whether comments within comments count.
+/// The statements of a program that calls every function of a text. `nests`: whether comments nest.
 pub fn calls(text: &str, nests: bool) -> String {
     let mut calls: Vec<String> = heads(text, nests)
         .iter()
@@ -48,7 +48,7 @@ pub fn calls(text: &str, nests: bool) -> String {
     calls.concat()
 }
 
-/// What stands before each outermost brace, in one line each: the heads of functions, in all our languages.
+/// The text before each outermost brace, one line each: the heads of functions, in all our languages.
 fn heads(text: &str, nests: bool) -> Vec<String> {
     let directives = true;
     let code = code_alone(text, Hidden { directives, nests });
@@ -90,7 +90,7 @@ fn argument(parameter: &str) -> String {
     // Without a precision before it.
     let ty = ty.split_whitespace().last().unwrap_or(ty);
     let lower = ty.to_lowercase();
-    // GLSL has its texture and its sampler in one.
+        // GLSL combines texture and sampler.
     let known = if lower.contains("cube") {
         "a_cube"
     } else if lower.contains("sampler2d") || lower.contains("texture") {

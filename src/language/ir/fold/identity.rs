@@ -1,4 +1,4 @@
-//! The algebra of folding: identities that constants make trivial, and constants that meet.
+//! The algebra of folding: identities that constants make trivial, and products of constants.
 
 use super::copy;
 use crate::language::ir::build::{Builder, Expr};
@@ -43,21 +43,21 @@ fn inverse_root<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Opt
     fits.then(|| args[0] * builder.expr(root.args[0]).inverse_sqrt())
 }
 
-/// `√(x x) = |x|`, which is what a root with a vanished term comes to.
+/// `√(x x) = |x|`, which is left of a root whose other term vanished.
 fn root_of_square<'b>(builder: &'b Builder, inner: Expr<'b>) -> Option<Expr<'b>> {
     let node = builder.node(inner.id());
     let is_square = node.op == Op::Mul && node.args[0] == node.args[1];
     is_square.then(|| builder.expr(node.args[0]).abs())
 }
 
-/// `min(max(x, 0), 1)` is the saturation of x, which GPUs do for nothing.
+/// `min(max(x, 0), 1)` is `saturate(x)`, which is free on GPUs.
 fn saturated<'b>(builder: &'b Builder, inner: Expr<'b>) -> Option<Expr<'b>> {
     let node = builder.node(inner.id());
     let is_floor = node.op == Op::Max && uniform_of(builder.expr(node.args[1])) == Some(0.0);
     is_floor.then(|| builder.expr(node.args[0]).saturate())
 }
 
-/// `channel` of a colour that was just composed, or spread from a scalar.
+/// `channel` of a colour that was just composed, or splatted from a scalar.
 fn part<'b>(builder: &'b Builder, node: &Node, colour: Expr<'b>) -> Option<Expr<'b>> {
     let Payload::Index(index) = node.payload else {
         return None;
@@ -82,7 +82,7 @@ fn whole<'b>(builder: &'b Builder, args: &[Expr<'b>]) -> Option<Expr<'b>> {
     (channels && nodes.iter().all(|n| n.args[0] == source)).then(|| builder.expr(source))
 }
 
-/// A scalar that was spread over three channels stays a scalar as long as it can.
+/// A scalar that was splatted to three channels stays a scalar as long as it can.
 pub fn spread<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<Expr<'b>> {
     let narrow: Vec<Expr<'b>> = args.iter().map(|arg| narrowed(builder, *arg)).collect();
     let changed = narrow.iter().zip(args).any(|(a, b)| a.id() != b.id());
@@ -105,9 +105,9 @@ fn narrowed<'b>(builder: &'b Builder, arg: Expr<'b>) -> Expr<'b> {
     }
 }
 
-/// Constants that meet in a product: `(a + b x) c = ac + bc x` and `(b x) c = bc x`; a quotient by a constant
-/// is a product. One operation less each time, and only where the inner step serves nobody else.
-/// The terms of every such sum here have one sign: where `a + b x` cancelled, `ac + bc x` would cancel otherwise.
+/// Merges the constants of a product: `(a + b x) c = ac + bc x` and `(b x) c = bc x`. Division by a constant becomes a
+/// product. Each saves one operation, and a product is merged only where nothing else uses the inner step.
+/// The terms of every such sum here have one sign. If `a + b x` cancelled, `ac + bc x` would round differently.
 pub fn merged<'b>(
     builder: &'b Builder,
     function: &Function,
@@ -170,7 +170,7 @@ pub fn value_of(builder: &Builder, id: NodeId) -> Option<Value<f64>> {
     }
 }
 
-/// The number in all channels of a constant expression, where they agree.
+/// The number in all channels of a constant expression, where they are equal.
 fn uniform_of(expr: Expr) -> Option<f64> {
     let [red, green, blue] = value_of(expr.builder(), expr.id())?.at(0);
     (red == green && green == blue).then_some(red)

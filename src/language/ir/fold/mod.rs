@@ -1,14 +1,15 @@
-//! Constant folding and specialising: what a material's constants leave of a method.
+//! Constant folding and specialising: what is left of a method once a material's constants are put in.
 //!
-//! A function is rebuilt node by node until nothing changes. Each node is, in this order: computed in f64 where
-//! its arguments are constants; dropped where the *range* of its arguments decides it (a comparison that always
-//! holds, a guard that never acts), ranges being intervals from an evaluation of the whole function; or
-//! rewritten by an identity of `identity`. Equal nodes are shared by the builder.
+//! A function is rebuilt node by node until nothing changes. For each node, the first of these that applies is done:
+//! 1. where its arguments are constants, it is computed in f64;
+//! 2. where the *range* of its arguments decides it (a comparison that always holds, a guard that never acts), it is
+//!    dropped; ranges come from an interval evaluation of the whole function;
+//! 3. where an identity of `identity` fits, it is rewritten.
 //!
+//! Equal nodes are shared by the builder.
 //! The only algebra is what constants make trivial. `0 x = 0` is used: no formula here relies on infinities.
-//!
-//! For half precision ranges must lie further apart, and constants below its smallest normal number, which hardware may
-//! take for 0, are 0.
+//! For half precision, ranges must lie further apart, and constants below its smallest normal number become 0, since
+//! hardware may flush them.
 
 use std::collections::BTreeMap;
 
@@ -24,13 +25,13 @@ use crate::physics::num::Precision;
 use identity::{identity, merged, spread, value_of};
 use range::{decided, ranges};
 
-/// The function with these arguments fixed (a scalar argument takes the first number), folded.
+/// The function with these arguments fixed, folded. A scalar argument takes the first of the three numbers.
 /// Arguments that are not named stay.
 pub fn specialise(function: &Function, constants: &BTreeMap<String, [f64; 3]>) -> Function {
     specialise_in(Precision::F32, function, constants)
 }
 
-/// The same for code in this precision; constants are folded in f64 all the same.
+/// The same for code in this precision. Constants are still folded in f64.
 pub fn specialise_in(
     precision: Precision,
     function: &Function,
@@ -50,7 +51,7 @@ pub fn specialise_in(
     name_shared(without_needless_names(fold_in(precision, &fixed)))
 }
 
-/// The reason of a step that has a name only because it is used twice. Where constants leave one use the name goes.
+/// The reason of a step that has a name only because it is used twice. Where folding leaves one use, the name is dropped.
 pub const USED_TWICE: &str = "used twice";
 
 fn without_needless_names(mut function: Function) -> Function {
@@ -64,7 +65,7 @@ fn without_needless_names(mut function: Function) -> Function {
     function
 }
 
-/// Names what constants have made shared: two steps that were different and now are one.
+/// Names steps that folding made shared: two steps that were different and are now one.
 fn name_shared(mut function: Function) -> Function {
     let uses = function.uses();
     let unnamed: Vec<NodeId> = (0..function.nodes.len())
@@ -79,7 +80,7 @@ fn name_shared(mut function: Function) -> Function {
     function
 }
 
-/// The function with all that is constant or decided taken out.
+/// The function with everything that is constant or decided folded.
 pub fn fold(function: &Function) -> Function {
     fold_in(Precision::F32, function)
 }
@@ -97,7 +98,7 @@ pub fn fold_in(precision: Precision, function: &Function) -> Function {
     }
 }
 
-/// Makes constants 0 that half precision has no normal number for; whether there were any.
+/// Sets constants to 0 that are subnormal in half precision. Returns whether there were any.
 fn flush(precision: Precision, function: &mut Function) -> bool {
     let mut found = false;
     for node in function.nodes.iter_mut().filter(|_| precision.is_half()) {
@@ -151,9 +152,9 @@ fn rebuild<'b>(
     builder.finish(&function.name, exprs[function.result])
 }
 
-/// Gives a step its name. Where the channels have become equal the name goes to the scalar that is left of them; a
-/// constant that is one number needs none. What is left of a choice bears the choice's name: its own speaks of branches that
-/// are gone.
+/// Gives a step its name. Where its channels have become equal, the name goes to the scalar that is left. A single
+/// constant needs no name. What is left of a choice takes the choice's name, because its own describes a branch and the
+/// branches are gone.
 fn name(builder: &Builder, expr: Expr, label: &Label, op: Op) {
     let node = builder.node(expr.id());
     let scalar = if node.op == Op::Splat {
@@ -165,7 +166,7 @@ fn name(builder: &Builder, expr: Expr, label: &Label, op: Op) {
     if left.is_leaf() {
         return;
     }
-    // A choice stands for all channels, or is made for each of them.
+    // A choice is one select, or a compose of one select for each channel.
     if matches!(op, Op::Select | Op::Compose) && left.op != op {
         scalar.renamed(label.clone());
     } else {

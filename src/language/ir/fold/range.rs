@@ -1,4 +1,4 @@
-//! Ranges: what the values of a function can reach at all, and what that decides.
+//! Ranges: which values each node of a function can have, and which choices and guards that decides.
 
 use crate::language::ir::build::Expr;
 use crate::language::ir::evaluate::{Column, Value, evaluate_nodes};
@@ -6,16 +6,16 @@ use crate::language::ir::graph::{Function, Node, Ty};
 use crate::language::ir::op::Op;
 use crate::physics::num::{Interval, Precision, each_channel};
 
-/// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either,
-/// so that rounding, even of a difference whose terms nearly cancel, cannot bring the other side about in f32 (6e-8).
+/// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either.
+/// Then f32 rounding (6e-8) cannot change the outcome, even in a difference whose terms nearly cancel.
 const MARGIN: f64 = 1e-3;
 /// The same for f16, whose rounding is 8000 times as coarse (5e-4).
 const HALF_MARGIN: f64 = 1.0 / 32.0;
-/// Into how many parts [0, 1] is cut to find ranges.
+/// The number of parts that [0, 1] is cut into to find ranges.
 const PIECES: usize = 64;
 
-/// The range of every node, over pieces that together cover all inputs: the first argument, if it is a scalar, is cut
-/// so that what depends on it twice (`r c² + (1-c²)²`) keeps a narrow range in each piece.
+/// The range of every node, over pieces that together cover all inputs. The first argument, if it is a scalar, is cut
+/// into pieces, so that an expression that uses it twice (`r c² + (1-c²)²`) keeps a narrow range in each.
 pub fn ranges(function: &Function) -> Vec<Value<Interval>> {
     let whole = |ty: Ty| match ty {
         Ty::Rgb => Value::Rgb(each_channel(|_| Column::Same(Interval::EVERYTHING))),
@@ -51,7 +51,7 @@ fn pieces() -> Vec<Interval> {
     outside.into_iter().chain(inside).collect()
 }
 
-/// What the ranges decide: which side of a select, whether a guard acts, which sign an absolute value sees.
+/// What the ranges decide: the side of a select, whether a guard acts, the sign inside an absolute value.
 pub fn decided<'b>(
     precision: Precision,
     function: &Function,
@@ -98,7 +98,7 @@ fn chosen<'b>(
     }
 }
 
-/// The number that a scalar is in all pieces, exactly.
+/// The number that a scalar equals exactly in all pieces, if there is one.
 fn constant(range: &Value<Interval>) -> Option<f64> {
     match range {
         Value::Scalar(Column::Same(range)) if range.lo() == range.hi() => Some(range.lo()),
@@ -106,7 +106,7 @@ fn constant(range: &Value<Interval>) -> Option<f64> {
     }
 }
 
-/// Whether `low` stays below `high` in every channel and piece, by more than rounding can bridge.
+/// Whether `low` stays below `high` in every channel and piece, by more than rounding can close.
 fn apart(low: &Value<Interval>, high: &Value<Interval>, margin: f64) -> bool {
     let below = |low: Interval, high: Interval| {
         let ends = [low.lo(), low.hi(), high.lo(), high.hi()];

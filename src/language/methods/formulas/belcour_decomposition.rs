@@ -1,13 +1,13 @@
 //! `F = F0 + (1 - F0) b1 + w2 b2 + w3 b3`: four curves that all materials share, two of them of residuals.
 //!
 //! Source: Belcour, Bati, Barla, "Bringing an Accurate Fresnel to Real-Time Rendering: a Preintegrable Decomposition",
-//! ACM SIGGRAPH 2020 Talks, <https://blog.selfshadow.com/publications/s2020-shading-course/>. The curves are there
-//! singular vectors of a thousand reflectance curves, a table; w2 and w3 are solved so that F is met at 82.64 and 64.38 degrees.
-//! Being linear it can be integrated over a spectrum, and over a lobe, once for all.
-//! Here each curve is `(1 - c) (a0 + r (a1 + r (a2 + r a3)))`, `r = 1 / (1 + 3 c)`, fitted to that table: within 8e-5 of b1, .006 of b2 and
-//! .018 of b3. w3 lies within .05 of 0 but near n = 1 (-.07 at η 1.03), so that errors stay those of the table, to .001 (η 1.333: .0018 against .0016, 1.5: .0039 against
-//! .0040, 3: .0018 against .0023).
-//! Domain: F0 from 0 to 1, weights that go with it; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+//! ACM SIGGRAPH 2020 Talks, <https://blog.selfshadow.com/publications/s2020-shading-course/>. There the curves are a table, the
+//! singular vectors of a thousand reflectance curves. w2 and w3 are solved so that F is exact at 82.64 and 64.38 degrees.
+//! Because it is linear, it can be integrated once for all materials, over a spectrum and over a lobe.
+//! Here each curve is `(1 - c) (a0 + r (a1 + r (a2 + r a3)))`, `r = 1 / (1 + 3 c)`, fitted to that table: within 8e-5 of b1, .006
+//! of b2 and .018 of b3. w3 lies within .05 of 0 except near n = 1 (-.07 at η 1.03), so errors are those of the table to .001
+//! (η 1.333: .0018 against .0016, 1.5: .0039 against .0040, 3: .0018 against .0023).
+//! Domain: F0 from 0 to 1, weights that belong to it; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::{Affine, KnownSurface, each};
@@ -19,17 +19,17 @@ use crate::language::methods::method::{
 };
 use crate::physics::cite::Citation;
 
-/// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
+/// The cosines of the two angles at which F is exact: the maxima of b2 and of -b3 in a table of 1000 cosines.
 pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];
 
-/// The curves b1, b2 and b3 over 1 - c, by powers of r: least largest errors by a linear program, to seven digits.
+/// The curves b1, b2 and b3, divided by 1 - c, by powers of r: minimax fits by a linear program, to seven digits.
 const CURVES: [[f64; 4]; 3] = [
     [-0.013_613_34, -0.322_009_4, 1.603_441, -0.267_739_9],
     [-0.727_217, 2.665_895, 4.683_322, -6.616_088],
     [6.709_838, -48.357_06, 91.435_01, -49.805_98],
 ];
 
-/// How fast r falls.
+/// The 3 in `r = 1 / (1 + 3 c)`.
 const FALL: f64 = 3.0;
 
 #[allow(missing_docs)] // each says what it is
@@ -121,7 +121,7 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     (f0 + (1.0 - f0) * b1 + others).saturate()
 }
 
-/// The weight of white, and the two curves that are weighted.
+/// b1, the weight of white, and `w2 b2 + w3 b3`.
 fn parts<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
     let c = x.cosine();
     let m = (1.0 - c).named("m", "0 at normal incidence, 1 at grazing");
@@ -136,7 +136,7 @@ fn parts<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
     [curve(0), second + third]
 }
 
-/// The weights with which reflectance at [`BELCOUR_COSINES`] is met, for one channel: two linear equations.
+/// The weights that make F exact at [`BELCOUR_COSINES`], for one channel: the solution of two linear equations.
 pub fn belcour_weights(f0: f64, wanted: [f64; 2]) -> [f64; 2] {
     let [first, second] = BELCOUR_COSINES.map(curves_at);
     let left = |wanted: f64, curves: [f64; 3]| wanted - f0 - (1.0 - f0) * curves[0];
@@ -159,7 +159,7 @@ fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
     vec![f0, 1.0 - f0, second, third]
 }
 
-/// What these are multiplied by, in f64.
+/// The weights of the affine numbers, in f64.
 fn affine_weights(c: f64) -> [f64; 4] {
     let [b1, b2, b3] = curves_at(c);
     [1.0, b1, b2, b3]

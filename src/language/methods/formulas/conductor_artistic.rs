@@ -3,10 +3,10 @@
 //!
 //! Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014, <https://jcgt.org/published/0003/04/03/>.
 //! k² is computed as (n_max - n)(n - 1/n_max), which is the same number: with √r (n+1) ± (n-1) factored,
-//! (1-√r)(1+√r) = 1-r goes against the divisor. Both factors are sums of positive terms, g (n_max - n_min) and
-//! (1-g)(n_max - n_min) + 2√r / (n_max (1+r)), so that nothing cancels.
-//! Domain: r in [0, 1), g in [0, 1]. r is limited to 0.999, because n_max is singular at 1: F0 above it is lowered by
-//! at most .001. Error: none where n and k give r and g; [`METHOD`]'s claims hold with both derived from n and k.
+//! (1-√r)(1+√r) = 1-r cancels the divisor. Both factors are sums of positive terms, g (n_max - n_min) and
+//! (1-g)(n_max - n_min) + 2√r / (n_max (1+r)), so no digits are lost.
+//! Domain: r in [0, 1), g in [0, 1]. r is clamped to 0.999, because n_max is singular at 1: F0 above it is lowered by
+//! at most .001. Error: none where r and g come from n and k; [`METHOD`]'s claims hold with both derived from n and k.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::each;
@@ -45,7 +45,7 @@ impl Input {
     .scanned(SHARES_AND_BEYOND);
 }
 
-/// Gulbrandsen's g: where n lies between the most (0) and the least (1) that F0 allows.
+/// Gulbrandsen's g: the position of n between the largest (0) and the smallest (1) that F0 allows.
 fn edge_tint(n: f64, k: f64) -> f64 {
     let r = optics::normal_incidence(n, k);
     let (most, least) = ((1.0 + r.sqrt()) / (1.0 - r.sqrt()), (1.0 - r) / (1.0 + r));
@@ -128,7 +128,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     conductor(x.precision(), x.cosine(), n, k)
 }
 
-/// n and k in f64.
+/// n and k solved in f64, then the exact law.
 fn solved(values: &Values) -> Option<(&'static Method, Values)> {
     let index = |i: usize| {
         let r = values["reflectivity"][i].clamp(0.0, 0.999);

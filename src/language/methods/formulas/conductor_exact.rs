@@ -3,10 +3,10 @@
 //!
 //! Source: the a, b form of Glassner, "Principles of Digital Image Synthesis", 1995,
 //! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>, rearranged so that no
-//! difference of nearly equal numbers is left: a² = ½(r+t) cancels where t < 0, so there a = nk / √(½(r-t));
-//! where t ≥ 0, R_s = ((a-c)²+b²) / ((a+c)²+b²) takes (a-c)² as T²/E with T = τ+b² = a²-c² and E = (a+c)².
+//! difference of nearly equal numbers is left. a² = ½(r+t) cancels where t < 0, so there a = nk / √(½(r-t)).
+//! Where t ≥ 0, R_s = ((a-c)²+b²) / ((a+c)²+b²) takes (a-c)² as T²/E with T = τ+b² = a²-c² and E = (a+c)².
 //! Merging R_s and R_p into one quotient gives F without adding the two.
-//! In half precision it is F = (1 - 2u/(r+c²+u)) (1 - us²/(x+us²)): only the absolute error counts there, so that no branch
+//! In half precision it is F = (1 - 2u/(r+c²+u)) (1 - us²/(x+us²)). Only the absolute error counts there, so no branch
 //! is needed, and where F is near 1 little is subtracted. r is the larger of |t| and 2nk times √(1+ratio²), since t²
 //! overflows for k ≥ 16.
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9 (from 3e9 on 4n²k² overflows); k = 0 is the dielectric; n = 1, k = 0 gives 0.
@@ -66,15 +66,15 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     conductor(x.precision(), x.cosine(), x.get(Input::N), x.get(Input::K))
 }
 
-/// Below this k, well above n = 1, the square of k is all that counts of it: a reflectance changes by less than 1e-11.
-/// Indices found from colours have as much by rounding.
+/// Up to this k, where n is well above 1, only k² matters, and it changes a reflectance by less than 1e-11.
+/// Indices solved from colours have as much by rounding.
 const CLEAR: f64 = 1e-6;
 const WELL_ABOVE: f64 = 1.2;
 
-/// What a root is of at the least in single precision: near the smallest normal f32.
+/// The smallest radicand in single precision: near the smallest normal f32.
 const SMALLEST: f64 = 1e-37;
 
-/// What does not absorb is a dielectric, whose law is shorter.
+/// Without absorption it is a dielectric, whose law is shorter.
 fn clear(values: &Values) -> Option<(&'static Method, Values)> {
     let (n, k) = (values["n"], values["k"]);
     let is_clear = |i: usize| k[i] == 0.0 || k[i] <= CLEAR && n[i] >= WELL_ABOVE;
@@ -86,7 +86,7 @@ fn clear(values: &Values) -> Option<(&'static Method, Values)> {
     })
 }
 
-/// With constants at hand the general law is as cheap, and right for any k.
+/// With constants folded in, the general law is as cheap, and right for any k.
 pub(super) fn as_it_is(values: &Values) -> Option<(&'static Method, Values)> {
     Some((&METHOD, values.clone()))
 }
@@ -99,7 +99,7 @@ pub(super) fn with(n: [f64; 3], k: [f64; 3]) -> (&'static Method, Values) {
     )
 }
 
-/// The exact law, for methods that find n and k in their own way.
+/// The exact law, for methods that compute n and k themselves.
 pub(super) fn conductor<'b>(
     precision: Precision,
     c: Expr<'b>,
@@ -132,14 +132,14 @@ fn steps<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Steps<'b> {
     Steps { c2, s2, tau, nk, t }
 }
 
-/// `R_s x / (x + u s²)`, in single precision. Fused products and quotients by reciprocals could bring it above 1 by two units in the
-/// last place; the limit costs nothing on GPUs.
+/// `R_s x / (x + u s²)`, in single precision. Fused multiply-adds and division by reciprocals could bring it above 1 by two ulp.
+/// The clamp is free on GPUs.
 fn merged<'b>(r_s: Expr<'b>, r: Expr<'b>, u: Expr<'b>, c2: Expr<'b>, s2: Expr<'b>) -> Expr<'b> {
     let x = (r * c2 + s2.squared()).named("x", "");
     (r_s * (x / (x + u * s2).at_least(1e-37))).saturate()
 }
 
-/// What a root is of at the least in code of this precision.
+/// The smallest radicand in code of this precision.
 pub(super) fn least_squared(precision: Precision) -> f64 {
     match precision {
         Precision::F32 => SMALLEST,
@@ -147,7 +147,7 @@ pub(super) fn least_squared(precision: Precision) -> f64 {
     }
 }
 
-/// √x that is 0 at 0 where a compiler has `x / √x` for it, too.
+/// √x that is 0 at 0 even where a compiler computes a root as `x / √x`.
 pub(super) fn root_or_zero(precision: Precision, x: Expr<'_>) -> Expr<'_> {
     x * x.at_least(least_squared(precision)).inverse_sqrt()
 }
@@ -155,8 +155,8 @@ pub(super) fn root_or_zero(precision: Precision, x: Expr<'_>) -> Expr<'_> {
 fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let zero = c.builder().number(0.0);
     let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
-    // Where t rounds to 0 and the square of n k underflows (k below 1e-19), r and the larger would be 0: roots that compilers
-    // take as x / sqrt(x) would be NaN, and a quotient anything.
+    // Where t rounds to 0 and the square of n k underflows (k below 1e-19), `r` and `larger` would be 0. Roots that compilers
+    // compute as x / sqrt(x) would then be NaN, and the quotient undefined.
     let r = (t.squared() + 4.0 * nk.squared())
         .at_least(SMALLEST)
         .sqrt()
@@ -213,7 +213,7 @@ fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     apart.choose_below(number(tiny), number(0.0), f)
 }
 
-/// Where neither t < 0 nor a small reflectance makes a difference of nearly equal numbers: a as it stands in the books.
+/// For materials where neither t < 0 nor a small reflectance causes cancellation: a as textbooks print it.
 fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
     let Steps { c2, s2, nk, t, .. } = steps(c, n, k);

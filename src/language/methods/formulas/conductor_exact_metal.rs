@@ -2,10 +2,10 @@
 //! `R_s = (r+c²-u)/(r+c²+u)`, `x = r c²+s⁴`: the exact law for metals, with n and k at run time.
 //!
 //! Source: the a, b form of Glassner, "Principles of Digital Image Synthesis", 1995,
-//! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>. `conductor_exact` serves any k: it computes a in two
-//! orders and chooses between them. A metal needs one: with t of k²-n²+s², b keeps its digits as long as k is not small beside n, and a
-//! follows from a b = n k. That halves the cost.
-//! Domain: n from 0.001, k from n / 4, both up to 1e9. With less k it loses digits, and fails as k → 0, where all is reflected: for
+//! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>. `conductor_exact` serves any k: it computes
+//! a in two ways and chooses between them. A metal needs only one: with t = k²-n²+s², b keeps its digits as long as k is not small
+//! beside n, and a follows from a b = n k. That halves the cost.
+//! Domain: n from 0.001, k from n / 4, both up to 1e9. With less k it loses digits. As k → 0 it fails and reflects everything: for
 //! semiconductors and glass take `conductor_exact`.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
@@ -54,7 +54,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let s2 = (1.0 - c2).named("s2", "sin^2 theta");
     let t = (k.squared() + s2 - n.squared()).named("t", "k^2 - n^2 + sin^2 theta");
     let twice = (2.0 * n * k).named("nk2", "");
-    // Added, not compared: a GPU adds with the product. Compilers have x / sqrt(x) for a root, which is NaN at 0.
+    // `smallest` is added, since a GPU fuses the sum with the product. Compilers may use x / sqrt(x) for a root: NaN at 0.
     let r = (t.squared() + (twice.squared() + smallest)).sqrt();
     let r = r.named("r", "a^2 + b^2, above 0");
     let b2 = (r + t).at_least(smallest).named("b2", "2 b^2");

@@ -1,16 +1,16 @@
 //! The exact law for conductors with the n and k that have reflectance F0 at normal incidence and F82 at
-//! cos θ = 1/7: two colours that an artist or a table of metals knows, and no approximation of the curve between.
+//! cos θ = 1/7: two colours that an artist or a table of metals provides, and no approximation of the curve between.
 //!
 //! Source: ours; the circle of all (n, k) with one F0 is Gulbrandsen's, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014,
 //! <https://jcgt.org/published/0003/04/03/>: k² = (n - n_min)(n_max - n), n_max = (1+√F0)²/(1-F0), n_min = 1/n_max, so
-//! that F(0°) = F0 whatever n is. F82 falls strictly as n grows along it; n is found from the deficit m = 1 - F82:
-//! a guess n = n_min + u m √F0 / T(u, √F0), u = m √F0 / (1-F0), whose nine constants were fitted for the least final
-//! error, then one correction of the aim by what the guess missed, from the exact deficit with k eliminated.
-//! Domain: F0 is limited to [0, 0.999]; an F82 that no n and k can give takes the nearest that one can.
-//! Error of the fixed two steps against the exact n and k, scanned over F0 .02 to .985 and every F82 in reach: .00042 for
+//! that F(0°) = F0 whatever n is. F82 falls strictly as n grows along it. n is found from the deficit m = 1 - F82 in two
+//! steps. The first guess is n = n_min + u m √F0 / T(u, √F0), u = m √F0 / (1-F0), whose nine constants were fitted for the
+//! least final error. The second repeats it with m corrected by the guess's error, from the exact deficit with k eliminated.
+//! Domain: F0 is clamped to [0, 0.999]; an F82 that no n and k can give is replaced by the nearest possible one.
+//! Error of these two steps against the exact n and k, scanned over F0 .02 to .985 and every possible F82: .00042 for
 //! metals (n .05-5, k 1-8, F0 above .3), .00037 for semiconductors (n 2-5.5, k below 3), none for dielectrics, .0058 at
-//! the worst (F0 .905, F82 .74, an index that no material has).
-//! Specialised to a material, n and k are solved in f64 and this error is gone.
+//! worst (F0 .905, F82 .74, an index that no material has).
+//! Specialised to a material, n and k are solved in f64, without this error.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::conductor_exact::{
@@ -151,7 +151,7 @@ fn circle<'b>(f0: Expr<'b>, tiny: f64) -> Circle<'b> {
     }
 }
 
-/// n - n_min for the n that lacks about `m`: it grows as m², with a fitted curvature.
+/// n - n_min for an n whose deficit is about `m`: it grows as m², with a fitted curvature.
 fn aimed<'b>(circle: &Circle<'b>, m: Expr<'b>, names: [&str; 3]) -> Expr<'b> {
     let u = (m * circle.u_scale).named(names[0], "");
     let [a, b, c] = circle.curvature;
@@ -176,7 +176,7 @@ fn deficit<'b>(circle: &Circle<'b>, n: Expr<'b>, tiny: f64) -> Expr<'b> {
     a * (x + 2.0 * y + a) / ((x + a) * (y + a))
 }
 
-/// With constants at hand: n and k solved in f64, then the exact law.
+/// With constants known, n and k are solved in f64, then the exact law applies.
 fn solved(values: &Values) -> Option<(&'static Method, Values)> {
     let colour = |name: &str| values.get(name).copied().unwrap_or([0.0; 3]);
     let (f0, f82) = (colour("f0"), colour("f82"));

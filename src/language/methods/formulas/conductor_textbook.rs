@@ -2,10 +2,11 @@
 //! `F = (F_s+F_p)/2`, `2a², 2b² = √((n²-k²-sin²θ)²+4n²k²) ± (n²-k²-sin²θ)`: the exact law for conductors as
 //! printed in the thesis (eqs. 8-12).
 //!
-//! Source: Glassner, "Principles of Digital Image Synthesis", Morgan Kaufmann, 1995, <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>;
-//! as printed in the thesis. Kept for comparison: no guard, no clamp.
-//! Domain: k > 0, 0 < cos θ ≤ 1. Error: none in the model, but the code loses thousands of ulp where k is small, is NaN at
-//! exactly 90 degrees, where tan θ is infinite, and NaN for 1 + 1 ulp, where sin θ has no root.
+//! Source: Glassner, "Principles of Digital Image Synthesis", Morgan Kaufmann, 1995,
+//! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>; as printed in the thesis.
+//! Kept for comparison: no guard, no clamp.
+//! Domain: k > 0, 0 < cos θ ≤ 1. Error: none in the model, but the code loses thousands of ulp where k is small. It is NaN at
+//! exactly 90 degrees, where tan θ is infinite, and for cos θ of 1 + 1 ulp, where sin²θ is negative.
 
 use crate::language::ir::Expr;
 use crate::language::methods::half::InHalf;

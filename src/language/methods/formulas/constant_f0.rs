@@ -3,7 +3,7 @@
 //! Source: Hoffman, "Background: Physics and Math of Shading", SIGGRAPH course, 2013,
 //! <https://blog.selfshadow.com/publications/s2013-shading-course/>, which takes F(0°) as a material's characteristic
 //! reflectance, since F stays close to it at most angles; Schlick's formula without its angular term.
-//! Domain: F0 ≥ 0; above 1 it is taken as it is. Error: 1 - F0 at 90 degrees; see [`METHOD`]'s claims.
+//! Domain: F0 ≥ 0; above 1 it is returned unchanged. Error: 1 - F0 at 90 degrees; see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::Affine;

@@ -1,14 +1,16 @@
 //! `F = (c² g² + s⁴) q²`, with `s² = 1 - c²`, `τ = η² - 1`, `g = √(τ + c²)`, `q = τ / (c (η² (g + c) + g) + g²)`:
-//! the exact law for dielectrics by one quotient and one root, stable near η = 1.
+//! the exact law for dielectrics with one division and one root, stable near η = 1.
 //!
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
 //! <https://doi.org/10.1145/357290.357293>, rearranged: r_s = (g-c)/(g+c) is τ/u² without its cancellation, r_p / r_s is
 //! (cg-s²)/(cg+s²), so F = ½ (r_s² + r_p²) is (c²g²+s⁴) (τ / (u² (cg+s²)))², u = g+c, and u² (cg+s²) = c (η² u + g) + g²,
-//! where nothing is subtracted. τ must come from η-1, and η² from τ, so that their roundings are one. Past the critical angle g is next to 0, and it is 1 or more: the limit makes it 1.
-//! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g): where F is near 1 little
-//! is subtracted, and two roundings are left of eight.
-//! Domain: η from 0.001 to 1e12 (beyond, η³ overflows), on both sides of 1; η = 1 gives 0 at every angle, 90° too. Past the critical angle exactly 1, but
-//! for the 34 numbers next to its cosine: there the rounding of c² decides, and a root of 6e-8 is 2.4e-4.
+//! where nothing is subtracted. τ must come from η-1, and η² from τ, so that they share one rounding error. Past the critical
+//! angle g is close to 0 and the quotient is 1 or more: the clamp makes it 1.
+//! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g). Where F is near 1 little
+//! is subtracted, and two roundings remain of eight.
+//! Domain: η from 0.001 to 1e12 (beyond, η³ overflows), on both sides of 1; η = 1 gives 0 at every angle, 90° too. Past the
+//! critical angle it is exactly 1, except at the 34 numbers next to its cosine. There the rounding of c² decides, and √6e-8 is
+//! 2.4e-4.
 //! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
@@ -29,7 +31,7 @@ pub const COOK_TORRANCE_1982: Citation = Citation {
     link: "https://doi.org/10.1145/357290.357293",
 };
 
-/// What half precision makes of total reflection.
+/// The effect of half precision on total reflection.
 pub(super) const BELOW_ONE: &str =
     "below eta = 1 off by tenths next to the critical angle, where a root reaches 0";
 
@@ -72,8 +74,8 @@ pub static METHOD: Method = Method {
     ..Method::BASE
 };
 
-/// What the root is of at the least: past the critical angle, and at 90 degrees where η = 1, the quotient then is a number still.
-/// Its root is small beside the least η², 1e-6, and the square of what it makes of the quotient is below the largest f32.
+/// The smallest radicand, so that the quotient stays finite past the critical angle, and at 90 degrees where η = 1.
+/// Its root is small beside the smallest η², 1e-6. The square of the quotient that results is below the largest f32.
 const SMALLEST_SQUARE: f64 = 1e-18;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -95,7 +97,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     ((c2 * g2 + s4) * q.squared()).at_most(1.0)
 }
 
-/// Where eta is well above 1 nothing cancels: `q = (g - c) / (g + η² c)`.
+/// For eta well above 1, where nothing cancels: `q = (g - c) / (g + η² c)`.
 fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, eta) = (x.cosine(), x.get(Input::ETA));
     let (c2, s4) = squares(c);
@@ -123,15 +125,15 @@ pub(super) struct Steps<'b> {
     g2: Expr<'b>,
     /// The amplitude ratio of s-polarised light.
     r_s: Expr<'b>,
-    /// That of p-polarised light.
+    /// The amplitude ratio of p-polarised light.
     p: P<'b>,
 }
 
 /// The amplitude ratio of p-polarised light.
 enum P<'b> {
-    /// r_p / r_s: both are 0 near η = 1, and it is not.
+    /// r_p / r_s: both tend to 0 near η = 1, and their ratio does not.
     OverS(Expr<'b>),
-    /// Itself: in half precision only the absolute error counts.
+    /// r_p itself: in half precision only the absolute error counts.
     Itself(Expr<'b>),
 }
 
@@ -141,7 +143,7 @@ impl<'b> Steps<'b> {
         self.r_s.squared()
     }
 
-    /// Of p-polarised light.
+    /// The reflectance of p-polarised light.
     pub fn p(&self) -> Expr<'b> {
         match self.p {
             P::OverS(ratio) => (self.r_s * ratio).named("r_p", "").squared(),
@@ -149,7 +151,7 @@ impl<'b> Steps<'b> {
         }
     }
 
-    /// Of both in equal parts.
+    /// The mean of both: unpolarised light.
     fn mean(&self) -> Expr<'b> {
         0.5 * (self.s() + self.p())
     }
@@ -167,7 +169,7 @@ impl<'b> Steps<'b> {
             .choose_below(builder.number(0.0), builder.number(1.0), inside)
     }
 
-    /// The same; r_s and r_p lie in [-1, 1] by their form, and are ±1 and not 0 at 90 degrees where η = 1.
+    /// The same in half precision. r_s and r_p lie in [-1, 1] by their form, but at 90 degrees and η = 1 they are ±1 and not 0.
     fn reflected_in_half(&self, reflectance: Expr<'b>) -> Expr<'b> {
         let number = |value: f64| self.g2.builder().number(value);
         let refracted = reflectance.named("f_refracted", "");
@@ -189,7 +191,7 @@ pub(super) fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
     if x.is_half() {
         return half_steps(c, eta, tau, g2);
     }
-    // Of 0 a root taken as x / sqrt(x) is a NaN.
+    // A root of 0 computed as x / sqrt(x) is a NaN.
     let u = (g2.at_least(1e-37).sqrt() + c).named("u", "");
     let r_s =
         (tau / (tau + 2.0 * c * u).at_least(1e-37)).named("r_s", "(g - c) / (g + c), as tau / u^2");
@@ -216,9 +218,9 @@ fn half_steps<'b>(c: Expr<'b>, eta: Expr<'b>, tau: Expr<'b>, g2: Expr<'b>) -> St
     }
 }
 
-/// The mean over the hemisphere from air into glass: a cubic of s = 1 - 1/η with the least largest error from η = 1 to 3, .00078, by a
-/// linear program over the integrals. From glass into air it follows: `1 - F(1/η) = (1 - F(η)) / η²`, Walsh, "The reflection factor of a
-/// polished glass surface for diffused light", 1926, since as much of what is inside gets out as gets in.
+/// The mean over the hemisphere from air into glass: a minimax cubic in s = 1 - 1/η for η from 1 to 3, with an error of .00078, by a
+/// linear program over the integrals. The mean from glass into air follows by reciprocity: `1 - F(1/η) = (1 - F(η)) / η²`, Walsh,
+/// "The reflection factor of a polished glass surface for diffused light", 1926.
 const MEAN: [f64; 3] = [0.3109, -0.3777, 0.7966];
 
 /// The mean of F over the hemisphere.
@@ -262,7 +264,8 @@ mod tests {
         check(&METHOD, 0.3, &[1.0], 0.0);
     }
 
-    /// The mean by Gauss's rule: 1 past the critical angle, and from there over the roots of cosines, in which the law is smooth.
+    /// The mean by Gauss's rule. Past the critical angle F is 1. Below it a square root is substituted for the cosine, which makes
+    /// the integrand smooth.
     fn mean(eta: f64) -> f64 {
         let critical = (1.0 - eta * eta).max(0.0).sqrt();
         let rest = 1.0 - critical;
@@ -310,7 +313,7 @@ mod tests {
         assert!((0.0065..0.0066).contains(&above) && (0.0026..0.0027).contains(&below));
     }
 
-    /// Of glass it is .0918 (Walsh 1926), and of what is not there nothing.
+    /// For glass it is .0918 (Walsh 1926), and for η = 1 it is 0.
     #[test]
     fn the_mean_of_glass_is_known() {
         assert!((mean(1.5) - 0.0918).abs() < 5e-5, "{}", mean(1.5));

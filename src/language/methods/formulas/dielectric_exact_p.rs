@@ -1,8 +1,8 @@
 //! `F_p = (r_s B)²`: the exact law for dielectrics and light polarised in the plane of incidence.
 //!
 //! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
-//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number; 0 at Brewster's angle (tan θ = η).
-//! Error: none in the model; at Brewster's zero only an absolute bound makes sense.
+//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1, except at the number next to it; 0 at
+//! Brewster's angle (tan θ = η). Error: none in the model; at Brewster's zero only an absolute bound makes sense.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};

@@ -1,7 +1,8 @@
-//! `F_s = (τ / u²)²`: the exact law for dielectrics and light polarised across the plane of incidence.
+//! `F_s = (τ / u²)²`: the exact law for dielectrics and light polarised perpendicular to the plane of incidence.
 //!
 //! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
-//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number. Error: none in the model.
+//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1, except at the number next to it.
+//! Error: none in the model.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};

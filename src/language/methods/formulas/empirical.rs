@@ -2,9 +2,9 @@
 //!
 //! Source: Fernando and Kilgard, "The Cg Tutorial", chapter 7, 2003,
 //! <https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html>; eq. 6 of the thesis.
-//! Domain: bias, scale in [0, 1], power ≥ 0.2 (below, 2^(-126 power) shows at normal incidence). It is not physical: the three numbers are tuned by hand, or derived
-//! from a material as bias = F0, scale = 1 - F0 and the power that meets the exact law at 60 degrees.
-//! Error: [`METHOD`]'s claims, with the parameters derived so.
+//! Domain: bias, scale in [0, 1], power ≥ 0.2 (below, 2^(-126 power) shows at normal incidence). It is not physical: the three
+//! numbers are tuned by hand, or derived from a material as bias = F0, scale = 1 - F0 and the power that matches the exact law
+//! at 60 degrees. Error: [`METHOD`]'s claims, with parameters derived from the material.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::{COS_60, mean};
@@ -45,7 +45,7 @@ impl Input {
     .scanned(POWERS_AND_BEYOND);
 }
 
-/// The power with which bias + (1 - bias) (1-c)^power meets `target` at 60 degrees; Schlick's 5 where none does.
+/// The power with which bias + (1 - bias) (1-c)^power equals `target` at 60 degrees; Schlick's 5 where there is none.
 fn power(bias: f64, target: f64) -> f64 {
     let share = (target - bias) / (1.0 - bias);
     if share > 0.0 && share < 1.0 {

@@ -3,9 +3,9 @@
 //!
 //! Source: Kutz, Hašan and Edmondson, "Novel aspects of the Adobe Standard Material", 2021,
 //! <https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html>.
-//! With 7⁷/6⁶ for the quotient, b = (49/46656) (1 - tint) (7776 + 9031 F0), exactly.
-//! Domain: F0, tint ≥ 0. For tints below .52 the bare formula turns negative (to -.127), and above 1 it can exceed
-//! 1: the result is limited to [0, 1]. Error: [`METHOD`]'s claims.
+//! With 1 / (1/7 (6/7)⁶) = 7⁷/6⁶, b = (49/46656) (1 - tint) (7776 + 9031 F0), exactly.
+//! Domain: F0, tint ≥ 0. For tints below .52 the bare formula turns negative (to -.127). For tints above 1 it can exceed
+//! 1. The result is clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::{Affine, each};
@@ -120,7 +120,7 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     bare.saturate()
 }
 
-/// F0, the rise to white, and how far the tint takes F82 from Schlick's value.
+/// F0, 1 - F0, and the difference between F82 and Schlick's value that the tint makes.
 fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
     let f0 = x.get(Input::F0);
     let rise = (1.0 - f0).named("rise", "");

@@ -1,12 +1,12 @@
 //! `F = c0 + b (c1 + b (c2 + b c3))`, `b = 2^(-6.5 cos θ)`: four coefficients a channel.
 //!
 //! Source: ours, by the exchange of Stiefel, "Über diskrete und lineare Tschebyscheff-Approximationen", 1959,
-//! <https://doi.org/10.1007/BF01386369>. The coefficients minimise the largest error over all angles (`fit`),
-//! for whatever F is: a spectrum seen in any space. Being linear they can be blended, filtered and interpolated as colours are.
-//! The base and its 6.5 are what a search found for metals and semiconductors.
-//! In half precision rounding alone is off by about .001, the floor of the type: coefficients are rounded in the fit, so that
-//! the others make up for each (`fit --precision f16`), and the formula loses at most what is promised.
-//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+//! <https://doi.org/10.1007/BF01386369>. The coefficients minimise the largest error over all angles (`fit`), for any F, such as
+//! a spectrum in any colour space. F is linear in them, so they can be blended, filtered and interpolated like colours.
+//! The base and its 6.5 were found by a search over metals and semiconductors.
+//! In half precision rounding alone costs about .001, the floor of the type. Coefficients are rounded one by one in the fit, so that
+//! the others compensate (`fit --precision f16`), and the formula loses at most what is promised.
+//! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::half::InHalf;
@@ -17,7 +17,7 @@ use crate::language::methods::method::{
 use crate::language::methods::shape::{Factor, Shape};
 use crate::physics::cite::Citation;
 
-/// Where the exchange comes from that finds the coefficients of all fitted methods.
+/// The source of the exchange algorithm that finds the coefficients of all fitted methods.
 pub const STIEFEL_1959: Citation = Citation {
     authors: "Stiefel",
     title: "Ueber diskrete und lineare Tschebyscheff-Approximationen",
@@ -26,10 +26,10 @@ pub const STIEFEL_1959: Citation = Citation {
     link: "https://doi.org/10.1007/BF01386369",
 };
 
-/// What half precision asks of whoever calls them, and where it fails.
+/// What half precision requires of callers of fitted methods, and where it fails.
 pub(super) const FLOOR: &str = "take coefficients that were fitted for half precision; near n = 1 large ones cancel, and up to .01 is lost, of five terms .1";
 
-/// The shape; of all a in steps of a half, 6.5 has the least 90th percentile over metals and semiconductors.
+/// The shape. Of all exponents in steps of .5, 6.5 has the smallest 90th percentile over metals and semiconductors.
 const SHAPE: Shape = Shape {
     factors: &[Factor::Exponential(6.5); 3],
 };

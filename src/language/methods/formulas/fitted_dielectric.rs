@@ -1,10 +1,10 @@
 //! `F = c0 + b³ (c1 + b⁴ (c2 + b⁷ c3))`, `b = 1 - cos θ`: four coefficients a channel for dielectrics.
 //!
 //! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>.
-//! Powers follow a dielectric's dark middle more closely than an exponential does: where little is reflected, a small error
-//! is a large share. Of whole exponents 0, 3, 7 and 14 are next to the best (.0011 at the
-//! 90th percentile of glasses; 0, 3, 7 and 13: .0010).
-//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+//! Powers follow the low reflectance of a dielectric away from grazing more closely than an exponential does. There a small
+//! error is a large relative one. Among integer exponents 0, 3, 7 and 14 are second best (.0011 at the 90th percentile of
+//! glasses; 0, 3, 7 and 13: .0010).
+//! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};

@@ -1,9 +1,10 @@
 //! `F = c0 + w (c1 + w (c2 + c c3))`, `w = (1 - c)² / (1 + 4c)`: four coefficients a channel for dielectrics, with a division.
 //!
 //! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. The search over
-//! nests of cheap factors (`fit --search --terms 4`) found the shape for dielectrics.
-//! Beside [`fitted_dielectric`](crate::language::methods::formulas::fitted_dielectric) it errs less, and costs less where a division is cheap, as on phones; more on GCN.
-//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+//! nested products of cheap factors (`fit --search --terms 4`) found the shape for dielectrics.
+//! It errs less than [`fitted_dielectric`](crate::language::methods::formulas::fitted_dielectric). It costs less where a division
+//! is cheap, as on phones, and more on GCN.
+//! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};

@@ -2,13 +2,13 @@
 //! that a texture holds, and two curves that all materials share.
 //!
 //! Source: ours, of the kind of Hoffman, "Fresnel Equations Considered Harmful", 2019, <https://renderwonk.com/publications/mam2019/>,
-//! who shares Schlick's curve and one more. It is affine in F0 and F82, so that one split-sum table of three numbers serves every
-//! material.
-//! 2.6 makes u 5/8 at 81.79 degrees. There A = 0 and B = 1; at normal incidence both are 0; at grazing A = 1 and B = 0; and F0 = F82 = 1
-//! gives 1: exact whatever the colours are. What is left are two numbers, in the brackets' slopes 8/3 and 531.2/75 = 1.66 · 64/15:
-//! they have about the least median and 90th percentile of the largest errors over 75 pages of metals and semiconductors, .0133 and
-//! .0210, where no pair of curves has less than .0122 and .0213 together. With 8/3 the part of white begins flat.
-//! Domain: any F0 and F82; limited to [0, 1]. It serves dielectrics too. Error: [`METHOD`]'s claims.
+//! where the shared curves are Schlick's and one more. It is affine in F0 and F82, so one split-sum table of three numbers serves
+//! every material.
+//! 2.6 makes u 5/8 at 81.79 degrees. There A = 0 and B = 1. At normal incidence both are 0. At grazing A = 1 and B = 0. F0 = F82 = 1
+//! gives 1. All this is exact for any colours. Two numbers remain free, the slopes 8/3 and 531.2/75 = 1.66 · 64/15 in the brackets.
+//! They have about the least median and 90th percentile of the largest errors over 75 pages of metals and semiconductors, .0133 and
+//! .0210, where no pair of curves has less than .0122 and .0213 together. With 8/3 the weight of white begins flat.
+//! Domain: any F0 and F82; clamped to [0, 1]. It serves dielectrics too. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::Affine;
@@ -65,9 +65,9 @@ pub static METHOD: Method = Method {
     ..Method::BASE
 };
 
-/// Where u is 5/8 at cos θ = 1/7.
+/// The constant that makes u 5/8 at cos θ = 1/7.
 const BEND: f64 = 2.6;
-/// What B grows by: 1 at u = 5/8, with s = 15/64 there.
+/// The slope of B's bracket, which makes B = 1 at u = 5/8, where s = 15/64.
 const SLOPE: f64 = 1.66 * 64.0 / 15.0;
 const START: f64 = -0.16;
 
@@ -75,7 +75,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let c = x.cosine();
     let w = c / (1.0 / (1.0 + BEND) + BEND / (1.0 + BEND) * c);
     let w = w.named("w", "1 at normal incidence, 0 at grazing");
-    // From w, which is accurate where it is small: 1 - u would lose at grazing what (1 - c) / (1 + 2.6 c) rounds.
+    // u comes from w, which is accurate where it is small. With w = 1 - u, the rounding of u would show at grazing.
     let u = (1.0 - w).named("u", "5/8 at 81.79 degrees");
     let s = (u * w).named("s", "");
     let a = u - s * (11.0 / 3.0 - 8.0 / 3.0 * w);
@@ -87,17 +87,17 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     )
 }
 
-/// F of black at 81.79 degrees that is taken out of F82: what is left of A, A + .4 B, is hardly below 0 anywhere.
+/// The reflectance of F0 = 0 at 81.79 degrees that is taken out of F82: then the weight A + .4 B is hardly below 0 anywhere.
 const BLACK_82: f64 = 0.4;
 
-/// F0, the rise to white, and how far F82 lies from a curve that is about a dielectric's.
+/// F0, 1 - F0, and the difference between F82 and a curve that is about a dielectric's.
 fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
     let f0 = x.get(Input::F0);
     let rise = (1.0 - f0).named("rise", "");
     vec![f0, rise, x.get(Input::F82) - (f0 + BLACK_82 * rise)]
 }
 
-/// What these are multiplied by, in f64.
+/// The weights of these numbers, in f64.
 fn affine_weights(c: f64) -> [f64; 4] {
     let u = (1.0 - c) / (1.0 + BEND * c);
     let s = u - u * u;

@@ -2,12 +2,13 @@
 //! coefficients of `fitted` from two colours that a texture holds.
 //!
 //! Source: ours; the two colours are those of Hoffman, "Fresnel Equations Considered Harmful", 2019,
-//! <https://renderwonk.com/publications/mam2019/>. The 18 numbers have the least median and 90th percentile of the largest errors that a search by linear programs found
-//! over 75 pages of metals and semiconductors: `tests/fit-f82` does it again, and says what is left without the substance.
-//! For metals and semiconductors: of water it errs by .04, where `fitted_f82` serves. Colours of no metal get a curve that no metal has.
-//! The coefficients have functions of their own, for scenes with many lights: they are found once a pixel, and `fitted` is called once a
-//! light.
-//! Domain: any F0 and F82; limited to [0, 1]. White stays white. Error: [`METHOD`]'s claims.
+//! <https://renderwonk.com/publications/mam2019/>. A search by linear programs found the 18 numbers, for the least median and 90th
+//! percentile of the largest errors over 75 pages of metals and semiconductors. `tests/fit-f82` repeats it, and reports the error
+//! of each substance when it is left out.
+//! It is for metals and semiconductors: water errs by .04, use `fitted_f82`. Colours of no metal get a curve that no metal has.
+//! The coefficients have functions of their own, for scenes with many lights: they are computed once a pixel, and `fitted` is called
+//! once a light.
+//! Domain: any F0 and F82; clamped to [0, 1]. White stays white. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::hoffman_f82::HOFFMAN_2019;
@@ -55,10 +56,10 @@ pub static METHOD: Method = Method {
     ..Method::BASE
 };
 
-/// F0 at which the quadratics are centred: between the colours of metals, so that little cancels.
+/// The F0 at which the quadratics are centred: amid the colours of metals, so that little cancels.
 const CENTRE: f64 = 0.6;
-/// Of c1, c2 and c3: what multiplies 1, z, z², x, x z and x², with x what F0 is above the centre and z what F82 is above F0. The
-/// quadratics that were found, multiplied out: written so, f32 loses half as much.
+/// The quadratics of c1, c2 and c3: the coefficients of 1, z, z², x, x z and x², with x = F0 - `CENTRE` and z = F82 - F0. They are
+/// those that were found, re-expanded: in this form f32 loses half as much.
 const QUADRATICS: [[f64; 6]; 3] = [
     [-0.28801525, 0.021885, 12.4904, -0.70374, 10.8233, 3.5649],
     [0.37288925, 7.783125, -36.5052, 3.31076, -32.3231, -10.5149],
@@ -97,8 +98,8 @@ mod tests {
     use super::{CENTRE, METHOD, QUADRATICS};
     use crate::language::methods::limits::{check, value};
 
-    /// As `tests/fit-f82` finds them, rounded: of x = F0 - .75 and y = F82 - .65, what multiplies 1, y, y², x, x y and x². Four digits move
-    /// no page's error by more than 5e-5.
+    /// As `tests/fit-f82` finds them: the coefficients of 1, y, y², x, x y and x² with x = F0 - .75 and y = F82 - .65. Rounding them
+    /// to four digits changes no page's error by more than 5e-5.
     const FOUND: [[f64; 6]; 3] = [
         [-0.353, -0.8527, 12.4904, 0.1361, -14.1575, 5.232],
         [-0.0256, 10.2357, -36.5052, -6.8471, 40.6873, -14.697],
@@ -132,7 +133,7 @@ mod tests {
         }
     }
 
-    /// Within what it errs by at the 90th percentile.
+    /// Within its error at the 90th percentile.
     #[test]
     fn it_comes_near_f82_and_one() {
         for (f0, f82) in [(0.7, 0.75), (0.95, 0.93), (0.5, 0.6)] {

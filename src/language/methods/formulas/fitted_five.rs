@@ -1,10 +1,10 @@
 //! `F = c0 + b (c1 + q (c2 + b (c3 + c c4)))`, `b = 2^(-11 c)`, `q = c² + .094`, c = cos θ: five coefficients a channel.
 //!
 //! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>: one
-//! coefficient more, a quarter of the error. The nest and its constants are what a search among products of
-//! cheap factors found for Adreno 330, where it costs no more than four coefficients do. Coefficients reach some hundreds and
-//! cancel: single precision has digits enough, half has not.
-//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+//! coefficient more, a quarter of the error. A search among products of cheap factors found the nesting and its constants
+//! for Adreno 330, where it costs no more than four coefficients do. Coefficients reach some hundreds and cancel: single
+//! precision has enough digits for that, half precision has not.
+//! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn it_begins_near_c0_and_ends_at_a_sum() {
-        // 2^-11 of what is within the brackets is left at normal incidence.
+        // At normal incidence 2^-11 of the brackets is left.
         check(&METHOD, 1.0, &[0.5, 0.0, 0.0, 0.0, 0.0], 0.5);
         check(&METHOD, 1.0, &[0.0, 1024.0, 0.0, 0.0, 0.0], 0.5);
         check(&METHOD, 0.0, &[0.5, 0.25, 0.0, 0.0, 7.0], 0.75);

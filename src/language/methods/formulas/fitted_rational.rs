@@ -1,10 +1,11 @@
 //! `F = c0 + a (c1 + r (c2 + q c3))`, `r = 1 / (c + .144)`, `q = √r`, `a = 1 / (c² + .112) - q`, c = cos θ: four coefficients a
 //! channel, without an exponential.
 //!
-//! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. The nest and
-//! its constants are what a search among products of cheap factors found for Mali-G72, where an exponential is dear: half a
-//! bundle above Schlick. On others [`fitted`](crate::language::methods::formulas::fitted) is cheaper, and no worse.
-//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+//! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>.
+//! A search among products of cheap factors found the nesting and its constants for Mali-G72, where an exponential is expensive:
+//! it costs half a bundle more than Schlick. On other GPUs
+//! [`fitted`](crate::language::methods::formulas::fitted) is cheaper, and no worse.
+//! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};

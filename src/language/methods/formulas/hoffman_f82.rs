@@ -4,7 +4,7 @@
 //! Source: Hoffman, "Fresnel Equations Considered Harmful", MAM workshop, 2019,
 //! <https://renderwonk.com/publications/mam2019/>.
 //! 1 / (1/7 (6/7)⁶) = 7⁷/6⁶ and F_S(1/7) = F0 + (1 - F0) (6/7)⁵, both exact.
-//! Domain: F0, F82 ≥ 0; limited to [0, 1]. Error: [`METHOD`]'s claims.
+//! Domain: F0, F82 ≥ 0; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
 use crate::language::methods::affine::Affine;
@@ -81,8 +81,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     between(x, a, b)
 }
 
-/// `F0 (1 - a - b) + F82 b + a`, limited to [0, 1]: what is affine in F0 and F82 and leaves white white. The weights are numbers that
-/// channels share.
+/// `F0 (1 - a - b) + F82 b + a`, clamped to [0, 1]: the form that is affine in F0 and F82 and keeps white white. The channels share
+/// the weights.
 pub(super) fn between<'b>(x: &Inputs<'b>, a: Expr<'b>, b: Expr<'b>) -> Expr<'b> {
     let rest = (1.0 - a - b).named("kept", "the weight of f0");
     let bare = x.get(Input::F0) * rest + (x.get(Input::F82) * b + a);
@@ -98,19 +98,19 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     bare.saturate()
 }
 
-/// `c (1-c)⁶`, from the fifth power that is there already.
+/// `c (1-c)⁶`, from the fifth power `m5`.
 pub(super) fn dip<'b>(c: Expr<'b>, m5: Expr<'b>) -> Expr<'b> {
     c * (m5 * (1.0 - c))
 }
 
-/// F0, the rise to white, and how far F82 lies from Schlick's value.
+/// F0, 1 - F0, and the difference between F82 and Schlick's value.
 fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
     let f0 = x.get(Input::F0);
     let rise = (1.0 - f0).named("rise", "");
     vec![f0, rise, x.get(Input::F82) - (f0 + WEIGHT_82 * rise)]
 }
 
-/// What these are multiplied by in f64; the last is 1 at 81.79 degrees.
+/// The weights of these numbers in f64. The last is 1 at 81.79 degrees.
 pub(super) fn affine_weights(c: f64) -> [f64; 4] {
     let m5 = grazing_power(c);
     [1.0, m5, PEAK * c * (1.0 - c) * m5, 0.0]

@@ -66,6 +66,41 @@ pub static ALL: &[&Method] = &[
     &schlick_spherical_gaussian::METHOD,
     &table::METHOD,
 ];
+
+/// Each by its name.
+#[rustfmt::skip]
+#[allow(missing_docs)]
+impl Method {
+    pub const BELCOUR_DECOMPOSITION: &'static Method = &belcour_decomposition::METHOD;
+    pub const CONDUCTOR_ARTISTIC: &'static Method = &conductor_artistic::METHOD;
+    pub const CONDUCTOR_EXACT: &'static Method = &conductor_exact::METHOD;
+    pub const CONDUCTOR_EXACT_METAL: &'static Method = &conductor_exact_metal::METHOD;
+    pub const CONDUCTOR_FROM_F0_F82: &'static Method = &conductor_from_f0_f82::METHOD;
+    pub const CONDUCTOR_TEXTBOOK: &'static Method = &conductor_textbook::METHOD;
+    pub const CONSTANT_F0: &'static Method = &constant_f0::METHOD;
+    pub const DIELECTRIC_EXACT: &'static Method = &dielectric_exact::METHOD;
+    pub const DIELECTRIC_EXACT_P: &'static Method = &dielectric_exact_p::METHOD;
+    pub const DIELECTRIC_EXACT_S: &'static Method = &dielectric_exact_s::METHOD;
+    pub const DIELECTRIC_TEXTBOOK: &'static Method = &dielectric_textbook::METHOD;
+    pub const EMPIRICAL: &'static Method = &empirical::METHOD;
+    pub const F82_TINT: &'static Method = &f82_tint::METHOD;
+    pub const FITTED: &'static Method = &fitted::METHOD;
+    pub const FITTED_DIELECTRIC: &'static Method = &fitted_dielectric::METHOD;
+    pub const FITTED_DIELECTRIC_RATIONAL: &'static Method = &fitted_dielectric_rational::METHOD;
+    pub const FITTED_F82: &'static Method = &fitted_f82::METHOD;
+    pub const FITTED_F82_METAL: &'static Method = &fitted_f82_metal::METHOD;
+    pub const FITTED_FIVE: &'static Method = &fitted_five::METHOD;
+    pub const FITTED_RATIONAL: &'static Method = &fitted_rational::METHOD;
+    pub const HOFFMAN_F82: &'static Method = &hoffman_f82::METHOD;
+    pub const SCHLICK: &'static Method = &schlick::METHOD;
+    pub const SCHLICK_CORRECTED: &'static Method = &schlick_corrected::METHOD;
+    pub const SCHLICK_F90: &'static Method = &schlick_f90::METHOD;
+    pub const SCHLICK_GENERALISED: &'static Method = &schlick_generalised::METHOD;
+    pub const SCHLICK_IOR: &'static Method = &schlick_ior::METHOD;
+    pub const SCHLICK_RESCALED: &'static Method = &schlick_rescaled::METHOD;
+    pub const SCHLICK_SPHERICAL_GAUSSIAN: &'static Method = &schlick_spherical_gaussian::METHOD;
+    pub const TABLE: &'static Method = &table::METHOD;
+}
 // END list
 
 pub use belcour_decomposition::BELCOUR_COSINES;

@@ -68,8 +68,8 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     f0 + (1.0 - f0) * grazing_weight(x)
 }
 
-/// A colour on its way to white, `F0 + (1 - F0) w`, as `F0 (1 - w) + w`: 1 - w is one number for three channels, and white stays
-/// white, since what 1 - w is rounded by is less than half a unit of 1.
+/// The interpolation from F0 to white, `F0 + (1 - F0) w`, as `F0 (1 - w) + w`: 1 - w is one number for three channels. White stays
+/// white, since the rounding error of 1 - w is less than half an ulp of 1.
 pub(super) fn to_white<'b>(f0: Expr<'b>, weight: Expr<'b>) -> Expr<'b> {
     f0 * (1.0 - weight).named("kept", "the weight of f0") + weight
 }
@@ -84,8 +84,8 @@ pub(super) fn grazing_weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
     (m2 * m2 * m).named("m5", "")
 }
 
-/// `1 - (1 - c)⁵ = c + c m (1 + m)(1 + m²)` for half precision: a power near 1 of the rounded m would be off by nine
-/// roundings, this is small there.
+/// `1 - (1 - c)⁵ = c + c m (1 + m)(1 + m²)` for half precision. Near grazing the power of a rounded m would be off by nine
+/// roundings. This is small there.
 pub(super) fn grazing_rest(c: Expr<'_>) -> Expr<'_> {
     let m = (1.0 - c).named("m", "0 at normal incidence, 1 at grazing");
     let rest = c + c * m * (1.0 + m) * (1.0 + m.squared());
@@ -93,7 +93,7 @@ pub(super) fn grazing_rest(c: Expr<'_>) -> Expr<'_> {
     rest.named("rest", "1 - (1 - c)^5, without a power near 1")
 }
 
-/// What F0 and the rise to white are multiplied by, in f64.
+/// The weights of F0 and 1 - F0, in f64.
 pub(super) fn affine_weights(c: f64) -> [f64; 4] {
     [1.0, grazing_power(c), 0.0, 0.0]
 }

@@ -2,11 +2,11 @@
 //! that restores the minimum of metals.
 //!
 //! Source: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005,
-//! <https://hdl.handle.net/11025/11214>, which subtracts a cos θ (1 - cos θ)^α with a and α free for each metal; a = 2n
-//! and a matched exponent λ are the choice of the thesis. It prints it as eq. 15 without the factor cos θ, and so printed
+//! <https://hdl.handle.net/11025/11214>, which subtracts a cos θ (1 - cos θ)^α with a and α free for each metal. a = 2n
+//! and a matched exponent λ are the choice of the thesis. Its eq. 15 lacks the factor cos θ: as printed,
 //! F(90°) = 1 - 2n would be negative.
-//! λ is computed per material and channel so that F meets the exact law at a matching angle (81.37 degrees,
-//! cos θ = 0.15). Where no λ does, as in gold's green, the term is dropped: λ ≤ 0 says so.
+//! λ is computed per material and channel so that F equals the exact law at a matching angle (81.37 degrees,
+//! cos θ = 0.15). Where no λ does, as in gold's green, the term is dropped, which λ ≤ 0 stands for.
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;
@@ -39,7 +39,7 @@ impl Input {
     .scanned(&[-5.0, 0.0, 0.2, 0.5, 1.0, 3.0, 5.0, 8.0, 20.0, 100.0, 1000.0]);
 }
 
-/// The λ with which the corrected method meets the exact law at `cos_theta`, for one channel:
+/// The λ with which the corrected method equals the exact law at `cos_theta`, for one channel:
 /// `(1-c)^λ = (F_rescaled - F_exact) / (2 n c)`. There is none where the exact law lies above the rescaled Schlick (gold's green),
 /// or so far below that λ would not be positive.
 pub fn lambda(n: f64, k: f64, cos_theta: f64) -> Option<f64> {

@@ -2,7 +2,7 @@
 //!
 //! Source: Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering", SIGGRAPH course, 2014,
 //! <https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/>.
-//! Domain: F0 ≥ 0, F90 in [0, 1]; engines lower F90 for surfaces that are darker than any material, as occlusion.
+//! Domain: F0 ≥ 0, F90 in [0, 1]; engines lower F90 as occlusion for surfaces with an F0 below that of any material.
 //! Error: that of `schlick` where F90 = 1.
 
 use crate::language::ir::Expr;
@@ -70,7 +70,7 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     f0 + (x.get(Input::F90) - f0) * grazing_weight(x)
 }
 
-/// `F0 + (F90 - F0) w` as `F0 (1 - w) + F90 w`: both factors are one number for three channels.
+/// `F0 + (F90 - F0) w` as `F0 (1 - w) + F90 w`: both weights are one number for three channels.
 pub(super) fn to_f90<'b>(x: &Inputs<'b>, weight: Expr<'b>) -> Expr<'b> {
     let end = (x.get(Input::F90) * weight).named("end", "");
     x.get(Input::F0) * (1.0 - weight).named("kept", "the weight of f0") + end

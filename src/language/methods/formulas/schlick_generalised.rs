@@ -2,10 +2,10 @@
 //!
 //! Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
 //! <https://blog.selfshadow.com/publications/s2017-shading-course/>, which the specification of MaterialX cites for its
-//! `generalized_schlick_bsdf` of `color0`, `color90` and `exponent`. Later that node got a term at 82 degrees (Hoffman, "Generalization of
-//! Adobe's Fresnel Model", 2023, <https://renderwonk.com/publications/gfm/>); this has none.
-//! Domain: F0 ≥ 0, F90 in [0, 1], exponent ≥ 0.2 (below, 2^(-126 exponent) shows at normal incidence). Error: that of `schlick` at exponent 5 and F90 = 1; the real power
-//! goes through exp2 and log2, whose own error the code error holds.
+//! `generalized_schlick_bsdf` of `color0`, `color90` and `exponent`. That node later got a term at 82 degrees (Hoffman,
+//! "Generalization of Adobe's Fresnel Model", 2023, <https://renderwonk.com/publications/gfm/>). This method has none.
+//! Domain: F0 ≥ 0, F90 in [0, 1], exponent ≥ 0.2 (below, 2^(-126 exponent) shows at normal incidence). Error: that of `schlick`
+//! at exponent 5 and F90 = 1. The real power is computed by exp2 and log2, whose error is part of the code error.
 
 use crate::language::ir::Expr;
 use crate::language::methods::formulas::schlick_f90::to_f90;

@@ -42,7 +42,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let eta = x.get(Input::ETA);
     let less = (eta - 1.0).named("eta_less", "");
     if x.is_half() {
-        // A quotient near 1 would be off by five roundings.
+        // A quotient near 1 would have five rounding errors.
         let more = (eta + 1.0).named("eta_more", "");
         let r = (less / more).named("r", "the amplitude at normal incidence");
         let f0 = r.squared().named("f0", "");
@@ -64,7 +64,7 @@ mod tests {
         check(&METHOD, 0.0, &[1.5], 1.0);
     }
 
-    /// The number in the domain.
+    /// The error that the record's `domain` states.
     #[test]
     fn it_is_off_by_what_its_domain_says() {
         let mut worst = 0.0f64;

@@ -69,14 +69,14 @@ pub(super) fn rescaled<'b>(x: &Inputs<'b>) -> Expr<'b> {
     from_least(x, least, n)
 }
 
-/// `((n-1)² + k² + 4n (1-c)⁵) / ((n+1)² + k²)` from `least`, (n-1)² + k². The divisor is `least` and 4n: an error of `least` is in both
-/// terms and leaves the quotient almost alone, and at grazing both are the same number.
+/// `((n-1)² + k² + 4n (1-c)⁵) / ((n+1)² + k²)` from `least`, (n-1)² + k². The divisor is `least` + 4n. So an error of `least` almost
+/// cancels in the quotient, and at grazing dividend and divisor are the same number.
 pub(super) fn from_least<'b>(x: &Inputs<'b>, least: Expr<'b>, n: Expr<'b>) -> Expr<'b> {
     let n4 = (4.0 * n).named("n4", "");
     (least + n4 * grazing_weight(x)) / (least + n4)
 }
 
-/// The same as 1 less what is lost: metals lose little.
+/// The same as 1 minus the light that is not reflected: for metals that is little.
 fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let more = (n + 1.0).named("n_more", "");
     let lost = 4.0 * n / (more.squared() + k.squared());

@@ -2,7 +2,7 @@
 //!
 //! Source: Karis, "Real Shading in Unreal Engine 4", SIGGRAPH course, 2013,
 //! <https://blog.selfshadow.com/publications/s2013-shading-course/>, after Lagarde's fit.
-//! The two constants are as published; the weight they give is off by .0038 at 86.8 degrees and by 1.7e-4 at
+//! The two constants are as published. The weight they give is off by .0038 at 86.8 degrees, and by 1.7e-4 at
 //! normal incidence, where F is not quite F0. Domain: F0 ≥ 0. Error: [`METHOD`]'s claims.
 
 use crate::language::ir::Expr;

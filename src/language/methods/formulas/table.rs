@@ -2,9 +2,9 @@
 //!
 //! Source: Selan, "Using Lookup Tables to Accelerate Color Transformations", GPU Gems 2, chapter 24, 2005,
 //! <https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color>
-//! (half a texel left at each end, so that texels' centres lie on both ends of the range). The warp
-//! `w = (1 + warp) c / (1 + warp c)` is ours: reflectance bends near grazing, and with warp = 4 half as many texels do.
-//! Domain: what a sampler filters linearly and clamps to the edge, one level. Error: that of the table, and 1/256 of
+//! (half a texel is left at each end, so that both ends of the range are texel centres). The warp
+//! `w = (1 + warp) c / (1 + warp c)` is ours: reflectance bends near grazing, and with warp = 4 half as many texels suffice.
+//! Domain: a texture of one mip level, filtered linearly and clamped to the edge. Error: that of the table, and 1/256 of
 //! the difference of two neighbouring texels for the sampler's weights.
 
 use crate::language::ir::{Expr, Ty};
@@ -14,10 +14,10 @@ use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Orig
 use crate::physics::cite::Citation;
 use crate::physics::num::Num;
 
-/// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
-/// texels gain nothing, fewer cost (half the size quadruples what filtering errs).
+/// The default number of texels of a table. With it, the rounding of texels is the largest error in half precision. More
+/// texels gain nothing there, and half as many quadruple the filtering error.
 pub const TEXELS: usize = 64;
-/// The warp of the axis where none is asked for: the one with the smallest errors at equal size.
+/// The default warp of the axis: the one with the smallest errors at equal size.
 pub const WARP: f64 = 4.0;
 /// The row of a texture that holds one table: its middle.
 pub const ONLY_ROW: f64 = 0.5;
@@ -32,7 +32,7 @@ impl Input {
             [0.0, 1.0],
             InputSource::Texture,
         )
-        // A table of a dielectric stands for all; its number is not looked at.
+        // The table of one dielectric stands for all. The number is not used.
         .tried(&[0.0])
     };
 
@@ -130,7 +130,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     ) * x.get(Input::TABLE_SCALE)
 }
 
-/// w of a cosine in [0, 1] as a step: [`warped`] in a graph.
+/// w of a cosine in [0, 1] as a node: [`warped`] in a graph.
 pub fn warped_step<'b>(warp: Expr<'b>, c: Expr<'b>) -> Expr<'b> {
     let w = (1.0 + warp) * c / (1.0 + warp * c);
     w.named(
@@ -139,14 +139,14 @@ pub fn warped_step<'b>(warp: Expr<'b>, c: Expr<'b>) -> Expr<'b> {
     )
 }
 
-/// A row of a texture of so many texels at w in [0, 1], whose ends are the centres of the first and the last texel.
+/// Samples a row of a texture that is `texels` wide at w in [0, 1]. The ends are the centres of the first and the last texel.
 pub fn fetch<'b>(table: Expr<'b>, w: Expr<'b>, texels: Expr<'b>, row: Expr<'b>) -> Expr<'b> {
     let u = w * (1.0 - 1.0 / texels) + 0.5 / texels;
     let u = u.named("u", "half a texel is left at each end");
     table.sample(u, row)
 }
 
-/// w of a cosine in [0, 1], in any kind of number: 0 at 0 and 1 at 1, exactly.
+/// w of a cosine in [0, 1], in any number type: exactly 0 at 0 and 1 at 1.
 pub fn warped<N: Num>(warp: f64, c: N) -> N {
     let number = N::from_f64;
     number(1.0 + warp) * c / (number(warp) * c + number(1.0))

@@ -11,7 +11,7 @@ use crate::physics::materials::formula::{DispersionCurve, Formula, NUMBERS};
 use crate::physics::materials::material::{GREATEST, LEAST_N};
 use crate::physics::materials::rows::{Columns, RowFault, TableReader};
 
-/// What an item gives.
+/// The curves that an item gives, and remarks.
 #[derive(Default)]
 pub struct Item {
     pub n: Option<DispersionCurve>,
@@ -187,7 +187,7 @@ impl Source<'_> {
             .collect()
     }
 
-    /// The place of a fault in a row of a block of text, where the block's lines are the file's; else the block's own.
+    /// The place of a fault in a row of a block of text, if the block's lines are the file's. Otherwise it is the block's place.
     fn in_row(&self, data: &Spanned<String>, at: usize, row: &str, fault: RowFault) -> FileFault {
         // The block is placed at its first line that is not empty.
         let empty = data.value.lines().take_while(|line| line.trim().is_empty());
@@ -215,8 +215,8 @@ impl Source<'_> {
     }
 }
 
-/// A formula with its range cut to where it gives an index, and the remark that says so. The part in which visible light lies stays,
-/// or what is nearest to it. Some formulas of the database are stated to go too far, GaSe's to 1.62 mm.
+/// A formula with its range cut to where it gives an index, and a remark on that. It keeps the part that holds visible light, or
+/// that is nearest to it. Some formulas of the database are stated for too wide a range, such as GaSe's up to 1.62 mm.
 fn cut(formula: Formula) -> Result<(Formula, Option<String>), String> {
     let (from, to) = (formula.from_nm, formula.to_nm);
     let outlier = |from: f64, to: f64| formula.outlier(from, to, LEAST_N, GREATEST);
@@ -244,7 +244,7 @@ fn cut(formula: Formula) -> Result<(Formula, Option<String>), String> {
     Ok((formula, Some(remark)))
 }
 
-/// The shortest whole wavelength above `bad` that is good, as all up to `good` are.
+/// The shortest integer wavelength above `bad` that is good, where all from some wavelength up to `good` are.
 fn shortest(mut bad: f64, mut good: f64, is_good: impl Fn(f64) -> bool) -> f64 {
     while good - bad > 0.5 {
         let middle = 0.5 * (bad + good);
@@ -257,7 +257,7 @@ fn shortest(mut bad: f64, mut good: f64, is_good: impl Fn(f64) -> bool) -> f64 {
     good.ceil()
 }
 
-/// Says what is beyond the formula.
+/// The remark on coefficients that the formula does not have, if some are given.
 fn unused(number: u8, count: usize) -> Option<String> {
     let most = match number {
         8 => 4,

@@ -1,4 +1,4 @@
-//! A page as a material: what the page does not say, its name, class and summary, is made from what it does.
+//! Converts a page to a material. A page states no name, class or summary: these are derived from its contents.
 
 use super::Page;
 use crate::physics::foreign::is_hidden;
@@ -7,16 +7,16 @@ use crate::physics::materials::formula::{DispersionCurve, Extrapolate};
 use crate::physics::materials::print::NOT_GIVEN;
 use crate::physics::materials::{FileFault, Index, Material, MaterialKind, name_fault};
 
-/// Where the class is guessed: near the middle of the visible range.
+/// The wavelength at which the class is guessed: near the middle of the visible range.
 pub(super) const GUESS_NM: f64 = 580.0;
 
-/// A k from which a medium that is no metal is taken for a semiconductor rather than a dielectric: a wave of visible
-/// light loses a factor e in some 50 micrometres of it.
+/// The k from which a non-metal is taken for a semiconductor rather than a dielectric. Visible light falls by a factor e
+/// over some 50 micrometres of it.
 const ABSORBING_K: f64 = 1e-3;
 
 impl Page {
-    /// The material of this page, under a name of yours or else [`Page::default_name`]. The fields are public: what you
-    /// know better, put in its place.
+    /// The material of this page, under the given name or else [`Page::default_name`]. The fields are public, so you can
+    /// replace those that you know better.
     ///
     /// # Errors
     /// The name is not a legal one, the page gives no n, or n and k share no range.
@@ -32,7 +32,7 @@ impl Page {
         let mut material = Material {
             substance: name.clone(),
             name,
-            // It is made of the file's name, and a field of one line.
+            // It contains the file's name, and must be one line.
             summary: self.summary().replace(is_hidden, " "),
             kind: MaterialKind::Dielectric,
             licence: or(&self.licence, NOT_GIVEN),
@@ -106,7 +106,7 @@ fn or(text: &str, other: &str) -> String {
     text.to_owned()
 }
 
-/// The class that n and k speak for, and the remark that says so.
+/// The class that n and k suggest, and the remark that says so.
 fn guessed(material: &Material) -> (MaterialKind, String) {
     let (from, to) = material.range_nm();
     let middle = (from + to) / 2.0;

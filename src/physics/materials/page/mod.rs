@@ -1,5 +1,5 @@
-//! A page of the refractiveindex.info database: YAML, made by hand over twenty years. It is read for what it says,
-//! refused where it cannot be meant, and what was done to its numbers is said in remarks.
+//! Reads a page of the refractiveindex.info database: YAML, written by hand over twenty years. Errors that can be repaired are, and
+//! remarks say how. Nonsense is refused.
 //!
 //! ```yaml
 //! REFERENCES: |            # HTML or Markdown
@@ -32,7 +32,7 @@ mod yaml;
 use super::file::FileFault;
 use super::formula::DispersionCurve;
 
-/// What a page of refractiveindex.info says, or a table that someone measured.
+/// The contents of a page of refractiveindex.info, or of a table of measurements.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
     /// The file, as the user named it.
@@ -41,23 +41,23 @@ pub struct Page {
     pub n: Option<DispersionCurve>,
     /// Extinction coefficient by wavelength, not below 0.
     pub k: Option<DispersionCurve>,
-    /// The licence of the numbers: CC0-1.0 for a page of the database; empty where nothing says it.
+    /// The licence of the numbers: CC0-1.0 for a page of the database; empty if unknown.
     pub licence: String,
     /// Who measured it, as one line of plain text; may be empty.
     pub reference: String,
     /// Where to read about it: its DOI as a link, or the first link; may be empty.
     pub link: String,
-    /// One line of plain text; may be empty.
+    /// Comments, as one line of plain text; may be empty.
     pub comments: String,
     /// Temperature, film thickness and the like, as `key: value, ...`, in SI units, keys as they are spelt; may be empty.
     pub conditions: String,
-    /// The index at the d line of helium, 587.5618 nm, that a glass's maker prints.
+    /// The index at the d line of helium, 587.5618 nm, that the manufacturer of a glass prints.
     pub nd: Option<f64>,
-    /// What was done to the numbers.
+    /// Remarks on what was done to the numbers.
     pub remarks: Vec<String>,
 }
 
-/// What every page of the database says in its first lines.
+/// The licence that every page of the database states in its first lines.
 const LICENCE: &str = "CC0-1.0";
 
 /// The longest text that is read: more than all pages together.
@@ -67,7 +67,7 @@ impl Page {
     /// Reads a page. `file` is for messages, and for the page's own name.
     ///
     /// # Errors
-    /// The text is not YAML, or its data are of a kind that is not read.
+    /// The text is not YAML, or its data are of a kind that is not supported.
     pub fn parse(file: &str, text: &str) -> Result<Page, FileFault> {
         check_text(file, text)?;
         let raw = yaml::read(file, text)?;
@@ -87,8 +87,8 @@ impl Page {
         Ok(page)
     }
 
-    /// Adds what one table or formula gives. Where two give the same quantity, the first counts: on the one page that
-    /// does so (PVP, Konig) the formula goes before a table that was computed from it.
+    /// Adds the curves of one table or formula. If two give the same quantity, the first counts. On the one page where that
+    /// happens (PVP, Konig), the formula precedes a table that was computed from it.
     pub(super) fn add(
         &mut self,
         n: Option<DispersionCurve>,
@@ -213,7 +213,7 @@ PROPERTIES:
         };
         assert_eq!(page.n, Some(DispersionCurve::Formula(expected)));
         for number in 1..=9 {
-            // A share of 1.5 would be a negative n² in formula 8.
+            // A value of 1.5 would be a negative n² in formula 8.
             let page = read(&formula(&number.to_string(), "0.3 2.5", "0.25"));
             assert!(page.n.is_some() && page.remarks.is_empty(), "{number}");
         }
@@ -325,7 +325,7 @@ PROPERTIES:
         refused(&table("k", "0.4 -0.21"), 5, 10, "k is -0.21");
         refused(&table("n", "0 1"), 5, 6, "the wavelength is 0");
         refused(&table("n", "-0.4 1"), 5, 6, "the wavelength is -0.4");
-        // Lines that were folded into one have no place of their own.
+        // Lines that YAML folded into one have no place of their own.
         refused(
             &data("- type: tabulated n\n  data: >\n    0.4 1\n    0.5 x\n"),
             5,
@@ -459,7 +459,7 @@ PROPERTIES:
         );
     }
 
-    /// As pages were before 2024.
+    /// The form of pages before 2024.
     #[test]
     fn the_range_of_the_old_schema_is_read() {
         let new = formula("2", "0.3 2.5", "0 1.03961212 0.00600069867");

@@ -1,29 +1,29 @@
-//! The names that a page's path gives: of the page in its database, and of the material.
+//! Names derived from a page's path: of the page in its database, and of the material.
 
 use deunicode::deunicode_char;
 
 use super::Page;
 use crate::physics::materials::name_fault;
 
-/// The folders that the database's data begins with.
+/// The top folders of the database.
 const SHELVES: [&str; 5] = ["main", "organic", "glass", "other", "specs"];
 
-/// Bytes of a material's name.
+/// The most bytes of a material's name.
 const LONGEST: usize = 64;
 
 impl Page {
-    /// The page's path in the database, from its shelf on (`main/Au/nk/Johnson.yml`), where the file's path has one.
+    /// The page's path in the database, from its shelf on (`main/Au/nk/Johnson.yml`); empty if the file's path has no shelf.
     pub fn path(&self) -> String {
         let parts: Vec<&str> = self.file.split(['/', '\\']).collect();
         let shelf = parts.iter().rposition(|part| SHELVES.contains(part));
-        // Below a shelf there are a book and the page, or more.
+        // Below a shelf there are at least a book and the page.
         match shelf {
             Some(at) if parts.len() >= at + 3 => parts[at..].join("/"),
             _ => String::new(),
         }
     }
 
-    /// The page's folder and name in words: the book, or the maker of a glass, and what the file is named.
+    /// The page's folder and name in words: the book, or the manufacturer of a glass, and the file's name.
     pub fn book_and_title(&self) -> (String, String) {
         let path = self.path();
         let file = self.file.rsplit(['/', '\\']).next().unwrap_or("");
@@ -38,8 +38,8 @@ impl Page {
         (book.to_owned(), title.to_owned())
     }
 
-    /// The name that a material of this page has by default: `main/Au/nk/Olmon-ts.yml` is `au_olmon_ts`. It is a name
-    /// that [`name_fault`] allows, whatever the file's name is; two pages can come out the same.
+    /// The default name of this page's material: `main/Au/nk/Olmon-ts.yml` is `au_olmon_ts`. [`name_fault`] allows it,
+    /// whatever the file's name is. Two pages can have the same one.
     pub fn default_name(&self) -> String {
         let (book, title) = self.book_and_title();
         let title = cut(&snake(&title), LONGEST - 2).to_owned();
@@ -58,7 +58,7 @@ impl Page {
     }
 }
 
-/// Small letters and digits, with one underscore between. Letters outside ASCII are spelt by the nearest of ASCII.
+/// A text in snake_case: lower-case letters and digits, with single underscores between. Letters outside ASCII are transliterated.
 fn snake(text: &str) -> String {
     let text: String = text.chars().map(spelt).collect();
     let words = text.split(|c: char| !c.is_ascii_alphanumeric());

@@ -1,15 +1,15 @@
-//! HTML or Markdown as one line of plain text, and its link. Pages use a handful of tags, and will use Markdown.
+//! Converts HTML or Markdown to one line of plain text, and finds its link. Pages use a handful of tags, and will use Markdown.
 
 use crate::physics::materials::is_hidden;
 
-/// The longest tag or mark that is looked for: beyond it, a `<` is a `<`. With the length of a text that is read, ten
-/// times what any page has, it keeps a hostile text from being searched to its end at every letter.
+/// The longest tag or mark that is searched for. Without an end within it, a `<` is a `<`. Together with the limit on the text,
+/// ten times what any page has, it keeps a hostile text from being searched to its end at every letter.
 const LONGEST: usize = 2_000;
 const LONGEST_TEXT: usize = 20_000;
-/// Marks within marks: `[*Phys. Rev.* **6**](...)`.
+/// The deepest nesting of marks, as in `[*Phys. Rev.* **6**](...)`.
 const DEEPEST: u8 = 4;
 
-/// Tags and marks dropped, entities resolved, one line. A superscript keeps a `^`: 10<sup>15</sup> is not 1015.
+/// One line of text, without tags and marks, and with entities resolved. A superscript keeps a `^`: 10<sup>15</sup> is not 1015.
 pub fn line(text: &str) -> String {
     let plain = |line| unmarked(&untagged(line), DEEPEST);
     let lines: Vec<String> = clipped(text).lines().map(plain).collect();
@@ -21,7 +21,7 @@ pub fn line(text: &str) -> String {
     legal.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The first DOI as a link; without one, the first link; without any, nothing.
+/// The first DOI as a link, or else the first link, or else nothing.
 pub fn link(text: &str) -> String {
     let links = || links(clipped(text));
     links()
@@ -35,7 +35,7 @@ fn links(text: &str) -> impl Iterator<Item = String> {
     starts.filter_map(|at| link_at(text, at))
 }
 
-/// The link that starts here: to the quote that it began with, or to a space or bracket.
+/// The link that starts here. It ends at the quote that it began with, or at a space or bracket.
 fn link_at(text: &str, at: usize) -> Option<String> {
     let rest = &text[at..];
     if !rest.starts_with("http://") && !rest.starts_with("https://") {
@@ -58,7 +58,7 @@ fn link_at(text: &str, at: usize) -> Option<String> {
     (found.len() <= LONGEST).then(|| resolved(found).replace(' ', "%20"))
 }
 
-/// `https://doi.org/10....` of a link that holds a DOI: of doi.org or of a journal.
+/// `https://doi.org/10....` for a link that holds a DOI, at doi.org or at a journal.
 fn doi(link: String) -> Option<String> {
     let at = link.find("/10.")?;
     let registrant = link[at + 4..].split('/').next()?;
@@ -87,7 +87,7 @@ fn untagged(text: &str) -> String {
     plain + rest
 }
 
-/// The bytes of the tag that a text starts with. `<100>` is a direction in a crystal, and `<` alone is less than.
+/// The length in bytes of the tag that a text starts with. `<100>` is a direction in a crystal, and `<` alone means less than.
 fn tag_length(text: &str) -> Option<usize> {
     let name = text[1..].strip_prefix('/').unwrap_or(&text[1..]);
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -105,7 +105,7 @@ fn tag_length(text: &str) -> Option<usize> {
     None
 }
 
-/// Markdown's links and emphases as their text. A `*` that nothing closes is a footnote's.
+/// Markdown's links and emphases reduced to their text. A `*` that nothing closes marks a footnote, and stays.
 fn unmarked(text: &str, depth: u8) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text;
@@ -132,7 +132,7 @@ fn unmarked(text: &str, depth: u8) -> String {
     plain
 }
 
-/// The text of `[text](link)`, and the bytes of the whole.
+/// The text of `[text](link)`, and the length of the whole in bytes.
 fn linked(rest: &str) -> Option<(&str, usize)> {
     let middle = near(rest).find("](")?;
     let link = link_at(rest, middle + 2).unwrap_or_default();
@@ -142,7 +142,7 @@ fn linked(rest: &str) -> Option<(&str, usize)> {
     is_link.then_some((&rest[1..middle], end + 1))
 }
 
-/// The text between a run of marks and the same run again, and the bytes of the whole.
+/// The text between a run of marks and the same run again, and the length of the whole in bytes.
 fn emphasised(rest: &str, mark: char) -> Option<(&str, usize)> {
     let run = rest.chars().take(4).take_while(|c| *c == mark).count();
     let marks = &rest[..run];
@@ -158,12 +158,12 @@ fn emphasised(rest: &str, mark: char) -> Option<(&str, usize)> {
     closes.then_some((&inside[..length], length + 2 * run))
 }
 
-/// As much of a text as is searched.
+/// The part of a text that is searched.
 fn near(text: &str) -> &str {
     first(text, LONGEST)
 }
 
-/// As much of a text as is read.
+/// The part of a text that is read.
 fn clipped(text: &str) -> &str {
     first(text, LONGEST_TEXT)
 }
@@ -173,7 +173,7 @@ fn first(text: &str, count: usize) -> &str {
     end.map_or(text, |(at, _)| &text[..at])
 }
 
-/// The named entities that pages use, and their like. What is not here stays: `&url=` stands in links.
+/// The named entities that pages use, and similar ones. Others stay as they are: `&url=` occurs in links.
 const ENTITIES: [(&str, &str); 16] = [
     ("amp", "&"),
     ("lt", "<"),
@@ -206,7 +206,7 @@ fn resolved(text: &str) -> String {
     plain + rest
 }
 
-/// What the entity at the start of a text means, and its bytes.
+/// The meaning of the entity at the start of a text, and its length in bytes.
 fn entity(rest: &str) -> Option<(String, usize)> {
     const LONGEST_NAME: usize = 10;
     let end = first(rest, LONGEST_NAME).find(';')?;

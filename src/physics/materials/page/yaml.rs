@@ -1,4 +1,4 @@
-//! The YAML of a page: its fields as texts with their places. Aliases, and nests deeper than any page's, are refused.
+//! The YAML of a page: its fields as texts with their places. Aliases, and nesting deeper than any page's, are refused.
 
 use std::fmt;
 
@@ -41,7 +41,7 @@ pub struct Properties {
 }
 
 impl Properties {
-    /// The index at the d line, where it is a number.
+    /// The index at the d line, if it is a number.
     pub fn nd(&self) -> Option<f64> {
         let nd = self.nd.as_ref()?.parse::<f64>().ok()?;
         nd.is_finite().then_some(nd)
@@ -53,7 +53,7 @@ impl Properties {
 pub struct Pairs(Vec<(String, String)>);
 
 impl Pairs {
-    /// As `key: value, key: value`.
+    /// The pairs as `key: value, key: value`.
     pub fn said(&self) -> String {
         let said = |(key, value): &(String, String)| format!("{key}: {value}");
         self.0.iter().map(said).collect::<Vec<_>>().join(", ")
@@ -94,8 +94,8 @@ pub fn read(file: &str, text: &str) -> Result<Raw, FileFault> {
     })
 }
 
-/// A page of the database has some 150 events and is 5 deep. None has an anchor, with which a short text can unfold to
-/// gigabytes.
+/// The parser's limits. A page of the database has some 150 events and is 5 deep. None has an anchor, with which a short text
+/// can expand to gigabytes.
 fn options() -> Options {
     const MOST_EVENTS: usize = 10_000;
     serde_saphyr::options! {
@@ -114,7 +114,7 @@ fn options() -> Options {
     }
 }
 
-/// The parser's message without the place, which stands before it in a fault, and without its advice to programmers.
+/// The parser's message without its place, which a fault prints in front, and without its advice to programmers.
 fn message(error: &Error) -> String {
     const LONGEST: usize = 200;
     let error = error.without_snippet();

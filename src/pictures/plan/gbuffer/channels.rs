@@ -1,6 +1,4 @@
-//! The channels of a G-buffer, and where a file has them.
-//!
-//! The space of a G-buffer's light, where its file states one.
+//! The channels of a G-buffer, where a file has them, and the colour space of its light where the file states one.
 
 use std::io::Cursor;
 
@@ -16,7 +14,7 @@ use crate::physics::spectra::Space;
 pub struct GbufferChannel {
     /// Its name in the file.
     pub name: &'static str,
-    /// What stands in its place where the file lacks it; `None` where it must be there.
+    /// The value used where the file lacks the channel; `None` where the channel is required.
     pub default: Option<f64>,
 }
 
@@ -47,7 +45,7 @@ pub const CHANNELS: [GbufferChannel; 10] = [
     optional("other.G", 0.0),
     optional("other.B", 0.0),
 ];
-/// Their places in the list; three stand behind `LIGHT`, and three behind `OTHER`.
+/// Indices into the list; three channels begin at `LIGHT`, and three at `OTHER`.
 pub const COS_THETA: usize = 0;
 pub const MATERIAL_ID: usize = 1;
 pub const ROUGHNESS: usize = 2;
@@ -55,15 +53,15 @@ pub const COVERAGE: usize = 3;
 pub const LIGHT: usize = 4;
 pub const OTHER: usize = 7;
 
-/// So many names of present channels are listed.
+/// The most names of present channels that a message lists.
 const LISTED: usize = 40;
 
-/// Where each channel stands in the file: part, and channel of the part.
+/// The place of each channel in the file: part, and channel within the part.
 pub struct Places(pub [Option<(usize, usize)>; CHANNELS.len()]);
 
 impl Places {
     /// # Errors
-    /// A channel that must be there is missing, or one stands twice.
+    /// A required channel is missing, or a channel stands twice.
     pub fn of(parts: &[Header]) -> Result<Places, GbufferFault> {
         let present = present_channels(parts);
         let mut places = [None; CHANNELS.len()];
@@ -93,7 +91,7 @@ impl Places {
         Ok(Places(places))
     }
 
-    /// The first wanted channel of a part; nothing where the part has none.
+    /// The first wanted channel of a part; `None` where the part has none.
     pub fn first_of(&self, part: usize) -> Option<usize> {
         let is_there = |place: &Option<(usize, usize)>| place.is_some_and(|(its, _)| its == part);
         self.0.iter().position(is_there)
@@ -102,9 +100,9 @@ impl Places {
 
 /// A channel of the file.
 struct PresentChannel {
-    /// Part, and channel of the part.
+    /// Part, and channel within the part.
     place: (usize, usize),
-    /// As it stands in the part.
+    /// Its name within the part.
     name: String,
     /// With the part's name before it, where the part has one.
     long_name: Option<String>,
@@ -115,11 +113,11 @@ impl PresentChannel {
         self.name == name || self.long_name.as_deref() == Some(name)
     }
 
-    /// As Blender names it: the view layer stands before it, and a single value is channel `V` of its pass.
+    /// Blender's names: the view layer stands before the name, and a single value is channel `V` of its pass.
     fn has_name_in_layer(&self, name: &str) -> bool {
         let full = self.long_name.as_deref().unwrap_or(&self.name);
         let is_it = |found: &str| found == name || found.strip_suffix(".V") == Some(name);
-        // A layer's own name may hold points.
+        // A layer's own name may hold dots.
         let mut dots = full.match_indices('.');
         is_it(full) || is_it(&self.name) || dots.any(|(at, _)| is_it(&full[at + 1..]))
     }
@@ -144,7 +142,7 @@ fn present_channels(parts: &[Header]) -> Vec<PresentChannel> {
 fn missing(channel: &'static str, present: &[PresentChannel]) -> GbufferFault {
     let full = |one: &PresentChannel| one.long_name.clone().unwrap_or(one.name.clone());
     let names: Vec<String> = present.iter().map(full).collect();
-    // What has its own right name is not offered for another.
+    // A channel that is already used under its right name is not offered for another.
     let is_known =
         |one: &PresentChannel, name: &str| one.has_name(name) || one.has_name_in_layer(name);
     let is_free = |one: &&PresentChannel| !CHANNELS.iter().any(|known| is_known(one, known.name));
@@ -166,10 +164,10 @@ fn missing(channel: &'static str, present: &[PresentChannel]) -> GbufferFault {
     }
 }
 
-/// Holds the primaries that a file states against the plan's space. A file that states none is taken for it.
+/// Checks the primaries that a file states against the plan's space. A file that states none is assumed to be in it.
 ///
 /// # Errors
-/// It states others. What cannot be read at all is left to [`super::read_gbuffer`].
+/// The file states others. A file that cannot be read at all is left to [`super::read_gbuffer`].
 pub fn check_primaries(bytes: &[u8], space: Space) -> Result<(), GbufferFault> {
     let Ok(meta) = MetaData::read_from_buffered(Cursor::new(bytes), false) else {
         return Ok(());

@@ -5,13 +5,13 @@ use thiserror::Error;
 use super::GREATEST_SIDE;
 use crate::physics::foreign::{Foreign, one_line};
 
-/// Why a file is no G-buffer. The file's name is the caller's to put before it.
+/// Why a file is no usable G-buffer. The caller puts the file's name before it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum GbufferFault {
-    /// No OpenEXR file, or one that is cut short or broken.
+    /// The file is no OpenEXR file, or is truncated or broken.
     #[error("not a readable OpenEXR file: {}", Foreign(_0))]
     Unreadable(String),
-    /// More pixels than a frame has.
+    /// The frame has too many pixels.
     #[error(
         "a frame of {width} x {height} pixels; the largest has {GREATEST_SIDE} x {GREATEST_SIDE}, the smallest 1 x 1"
     )]
@@ -21,7 +21,7 @@ pub enum GbufferFault {
         /// Pixels down.
         height: usize,
     },
-    /// Light of another space than the plan's.
+    /// The light is in another space than the plan's.
     #[error(
         "its `chromaticities` are those of {stated}, and the plan's light is in {wanted}: {advice}"
     )]
@@ -33,7 +33,7 @@ pub enum GbufferFault {
         /// What to do.
         advice: String,
     },
-    /// A header that announces more than the file can hold.
+    /// The header announces more than the file can hold.
     #[error(
         "its header announces {announced} bytes of pixels, which {held} bytes of file cannot hold: the file is broken or cut short"
     )]
@@ -43,17 +43,17 @@ pub enum GbufferFault {
         /// Bytes of the file.
         held: usize,
     },
-    /// A part that is stored in a way that is not read.
+    /// A part is stored in a way that is not read.
     #[error("the part with channel `{channel}` has {}; {allowed}", Foreign(found))]
     Stored {
-        /// The first channel of that part which is wanted.
+        /// The first wanted channel of that part.
         channel: &'static str,
         /// How it is stored.
         found: String,
         /// What is read.
         allowed: &'static str,
     },
-    /// A channel that must be there.
+    /// A required channel is missing.
     #[error(
         "channel `{channel}` is missing{}; the file has {}",
         one_line(offered),
@@ -62,12 +62,12 @@ pub enum GbufferFault {
     Missing {
         /// The channel.
         channel: &'static str,
-        /// The question whether a present one was meant, or nothing.
+        /// The question whether a present channel was meant, or nothing.
         offered: String,
-        /// The names of channels that are there.
+        /// The names of the channels that are present.
         present: String,
     },
-    /// A channel that stands twice.
+    /// A channel stands twice.
     #[error(
         "channel `{channel}` stands twice, {}; it must stand once",
         twice_in(names, *parts)
@@ -80,7 +80,7 @@ pub enum GbufferFault {
         /// The parts that hold it, counted from 0: two, or one twice.
         parts: [usize; 2],
     },
-    /// Two parts with different pixels.
+    /// Two parts have different pixels.
     #[error(
         "channel `{channel}` has the data window {found}, and `{first_channel}` has {first}; all channels need the same"
     )]
@@ -91,7 +91,7 @@ pub enum GbufferFault {
         found: String,
         /// A channel before it.
         first_channel: &'static str,
-        /// That one's data window.
+        /// The data window of that channel.
         first: String,
     },
     /// A value that the channel cannot have.
@@ -108,7 +108,7 @@ pub enum GbufferFault {
     },
 }
 
-/// Where a channel stands twice: by its names where they differ, else by the parts, counted from 1.
+/// Where a channel stands twice: its names where they differ, else the parts, counted from 1.
 fn twice_in([name, other]: &[String; 2], [first, second]: [usize; 2]) -> String {
     if name != other {
         return format!("as `{}` and as `{}`", Foreign(name), Foreign(other));

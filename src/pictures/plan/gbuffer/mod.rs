@@ -1,4 +1,4 @@
-//! G-buffers of any renderer: OpenEXR files with a channel for each thing that a pixel's error depends on.
+//! G-buffers of any renderer: OpenEXR files with a channel for each quantity that a pixel's error depends on.
 //!
 //! | channel | what it holds | must be there |
 //! |---|---|---|
@@ -26,15 +26,15 @@ pub use fault::GbufferFault;
 
 /// Pixels across, and down: no frame has more.
 pub const GREATEST_SIDE: usize = 8192;
-/// Interpolated cosines and rounded shares leave [0, 1] by no more than this.
+/// How far interpolated cosines and rounded shares may leave [0, 1].
 const ROUNDING: f64 = 1e-3;
 
-/// The pixels of an OpenEXR file that show a material of the map. What the file shows of the background, and of ids that the map
-/// ignores, is skipped unseen, and so is what has no coverage.
+/// The pixels of an OpenEXR file that show a material of the map. Pixels of the background, of ids that the map ignores, and
+/// without coverage are skipped unchecked.
 ///
 /// # Errors
-/// The file cannot be read, is too large, or lacks a channel; or a pixel holds a value that the channel cannot have, or an id that
-/// the map lacks. The fault names channel and pixel.
+/// The file cannot be read, is too large, or lacks a channel. Or a pixel holds a value that the channel cannot have, or an id
+/// that the map lacks. The fault names channel and pixel.
 pub fn read_gbuffer(bytes: &[u8], ids: &MaterialIds) -> Result<FramePixels, GbufferFault> {
     let reader = samples::opened(bytes)?;
     let places = Places::of(reader.headers())?;
@@ -52,14 +52,14 @@ pub fn read_gbuffer(bytes: &[u8], ids: &MaterialIds) -> Result<FramePixels, Gbuf
     Ok(pixels)
 }
 
-/// What was read, before it is believed.
+/// The samples as read, before they are checked.
 struct Frame {
     planes: Planes,
     width: usize,
 }
 
 impl Frame {
-    /// A pixel and the index of its material, unless it shows none.
+    /// A pixel and the index of its material; `None` if it shows no material.
     fn pixel(
         &self,
         place: usize,

@@ -1,7 +1,7 @@
-//! The samples of the wanted channels, by the crate `exr`.
+//! The samples of the wanted channels, read by the crate `exr`.
 //!
-//! The crate holds whatever a header announces. So sizes are compared with the length of the file before anything is allocated,
-//! and only lossless compressions are read.
+//! The crate allocates whatever a header announces. So sizes are compared with the length of the file before anything is
+//! allocated, and only lossless compressions are read.
 
 use std::collections::BTreeSet;
 use std::io::Cursor;
@@ -21,7 +21,7 @@ use crate::pictures::scene::is_deep;
 pub type Opened<'a> = Reader<Cursor<&'a [u8]>>;
 
 /// # Errors
-/// It does not begin as OpenEXR files do, or its headers contradict themselves.
+/// The file does not begin as OpenEXR files do, or its headers contradict themselves.
 pub fn opened(bytes: &[u8]) -> Result<Opened<'_>, GbufferFault> {
     if is_deep(bytes) {
         let what = "it holds deep pixels; flat ones are read";
@@ -37,12 +37,12 @@ fn unreadable(why: &exr::error::Error) -> GbufferFault {
 /// Pixels across and down. `held` is the length of the file.
 ///
 /// # Errors
-/// The wanted channels differ in their pixels, are stored in a way that is not read, or cannot all be in the file.
+/// The wanted channels differ in their pixels, are stored in a way that is not read, or do not all fit in the file.
 pub fn size(parts: &[Header], places: &Places, held: usize) -> Result<[usize; 2], GbufferFault> {
     let mut first: Option<(usize, &Header)> = None;
     let mut chunks = 0_u64;
     for (part, header) in parts.iter().enumerate() {
-        // Each chunk has an entry of 8 bytes in the table of chunks, and 8 bytes before its data.
+        // Each chunk has an entry of 8 bytes in the chunk table, and 8 bytes before its data.
         chunks = chunks.saturating_add(header.chunk_count as u64);
         announced(chunks.saturating_mul(16), held)?;
         check_tiles(part, header)?;
@@ -81,8 +81,8 @@ fn announced(bytes: u64, held: usize) -> Result<(), GbufferFault> {
     })
 }
 
-/// How many bytes a byte of the file stands for at most. RLE: 128 bytes in 2. Deflate, of ZIP: 258 bytes in 2 bits. PIZ: 256 samples
-/// of 2 bytes in 10 bits, which is less.
+/// The most bytes that a byte of the file can stand for. RLE: 128 bytes in 2. Deflate, used by ZIP: 258 bytes in 2 bits. PIZ: 256
+/// samples of 2 bytes in 10 bits, which is less.
 fn most_a_byte(compression: Compression) -> u64 {
     match compression {
         Compression::Uncompressed => 1,
@@ -97,7 +97,7 @@ fn window(header: &Header) -> String {
     format!("{width} x {height} at ({x}, {y})")
 }
 
-/// The tiles of any part, since the crate multiplies their sides.
+/// Checks the tiles of any part, since the crate multiplies their sides.
 fn check_tiles(part: usize, header: &Header) -> Result<(), GbufferFault> {
     let BlockDescription::Tiles(tiles) = header.blocks else {
         return Ok(());
@@ -116,7 +116,7 @@ fn is_frame(sides: [usize; 2]) -> bool {
 }
 
 /// # Errors
-/// A part that is deep, subsampled or compressed with loss.
+/// The part is deep, subsampled or compressed with loss.
 fn check_stored(header: &Header, channel: usize) -> Result<(), GbufferFault> {
     let fault = |found: String, allowed| GbufferFault::Stored {
         channel: CHANNELS[channel].name,
@@ -172,7 +172,7 @@ impl Planes {
 /// Reads the wanted channels.
 ///
 /// # Errors
-/// The pixels are cut short or broken.
+/// The pixels are truncated or broken.
 pub fn planes(
     reader: Opened<'_>,
     places: &Places,
@@ -217,7 +217,7 @@ pub fn planes(
 }
 
 impl Planes {
-    /// Enters the wanted samples of a block.
+    /// Stores the wanted samples of a block.
     fn enter(
         &mut self,
         block: &UncompressedBlock,
@@ -243,7 +243,7 @@ impl Planes {
 }
 
 impl Samples {
-    /// Enters samples in the machine's order of bytes; nothing where they have no place.
+    /// Stores samples in native byte order; `None` where they do not fit.
     fn enter(&mut self, range: Range<usize>, bytes: &[u8]) -> Option<()> {
         fn copy<T, const N: usize>(into: &mut [T], bytes: &[u8], number: fn([u8; N]) -> T) {
             let (numbers, _) = bytes.as_chunks::<N>();

@@ -1,4 +1,4 @@
-//! What accessors hold: numbers in buffers, strided, with single elements replaced where an accessor is sparse.
+//! The contents of accessors: numbers in buffers, strided, with single elements replaced where an accessor is sparse.
 
 use std::borrow::Cow;
 
@@ -11,12 +11,12 @@ use super::super::scene_file::ReadFile;
 use super::container::{Container, Place, embedded, path_of};
 use crate::lab::raster::MOST_TRIANGLES;
 
-/// An accessor has at most so many elements: three corners for each triangle.
+/// The most elements of an accessor: three corners for each triangle.
 pub const MOST_ELEMENTS: usize = 3 * MOST_TRIANGLES;
-/// One that no buffer stands behind, whose elements are 0 but for those that it replaces.
+/// The most elements of an accessor without a buffer, whose elements are 0 except those that it replaces.
 const MOST_ZEROS: usize = 1 << 20;
 
-/// All buffers together have at most so many bytes: several may name one file.
+/// The most bytes of all buffers together. Several buffers may name one file.
 const MOST_BYTES: usize = 1 << 30;
 
 /// All buffers of a file.
@@ -40,7 +40,7 @@ impl<'a> Strided<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// The bytes of all buffers, at least as many as the file says of each.
+    /// The bytes of all buffers. Each has at least as many as the file announces.
     pub fn read(
         root: &'a Root,
         container: &Container<'a>,
@@ -97,7 +97,8 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// Colours of three or four channels in [0, 1]; without a fourth it is 1. The specification wants floats clamped (section 3.7.2.1).
+    /// Colours of three or four channels in [0, 1]; a missing fourth is 1. The specification wants floats clamped (section
+    /// 3.7.2.1).
     pub fn colours(&self, index: Index<Accessor>, place: &str) -> Result<Vec<[f32; 4]>, Place> {
         let accessor = &self.root.accessors[index.value()];
         let kinds = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
@@ -146,7 +147,7 @@ impl<'a> Buffers<'a> {
         Ok(all)
     }
 
-    /// How many elements an accessor says that it has.
+    /// How many elements an accessor announces.
     pub fn count(&self, index: Index<Accessor>, place: &str) -> Result<usize, Place> {
         count(&self.root.accessors[index.value()], place)
     }
@@ -178,7 +179,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// The elements in the accessor's buffer; none where nothing stands behind it.
+    /// The elements in the accessor's buffer; `None` where it has no buffer.
     fn base(
         &self,
         accessor: &Accessor,
@@ -193,7 +194,7 @@ impl<'a> Buffers<'a> {
         self.strided(view, offset, [count, size], place).map(Some)
     }
 
-    /// Hands on what a sparse accessor replaces.
+    /// Passes on the elements that a sparse accessor replaces.
     fn replace(
         &self,
         accessor: &Accessor,
@@ -242,7 +243,7 @@ impl<'a> Buffers<'a> {
         Ok(())
     }
 
-    /// So many elements of a view, each of so many bytes, which lie in it and in its buffer.
+    /// Elements of a view, given their number and their size in bytes, checked to lie in the view and in its buffer.
     fn strided(
         &self,
         view: Index<buffer::View>,
@@ -289,13 +290,13 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// A part of some bytes, if they have it.
+/// A range of bytes, if it lies within them.
 fn part(bytes: &[u8], from: u64, length: u64) -> Option<&[u8]> {
     let end = from.checked_add(length)?;
     bytes.get(usize::try_from(from).ok()?..usize::try_from(end).ok()?)
 }
 
-/// The number of elements, within limits.
+/// The number of elements, checked against the limit.
 fn count(accessor: &Accessor, place: &str) -> Result<usize, Place> {
     let most = match accessor.buffer_view {
         Some(_) => MOST_ELEMENTS,
@@ -335,7 +336,7 @@ fn colour(bytes: &[u8], component: ComponentType) -> [f32; 4] {
     colour
 }
 
-/// A whole number of one, two or four bytes.
+/// An unsigned integer of one, two or four bytes.
 fn whole(bytes: &[u8]) -> u32 {
     let mut four = [0; 4];
     four[..bytes.len()].copy_from_slice(bytes);

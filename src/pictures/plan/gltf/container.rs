@@ -1,6 +1,5 @@
-//! The two forms of a file: JSON, or GLB, which holds JSON and one buffer as chunks (section 4.4 of the specification).
-//!
-//! What is wrong with a glTF file, and where in its JSON.
+//! The two containers of a glTF file: JSON, or GLB, which holds JSON and one buffer as chunks (section 4.4 of the specification).
+//! Also the faults of a glTF file, with their place in its JSON.
 
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -53,7 +52,7 @@ impl<'a> Container<'a> {
     }
 }
 
-/// The JSON of a chunk whose end is padded with NUL, as some writers do. The specification wants spaces, which JSON passes over.
+/// The JSON of a chunk without the NUL padding that some writers append. The specification wants spaces, which JSON ignores.
 fn without_padding(json: &[u8]) -> &[u8] {
     let end = json.iter().rposition(|byte| *byte != 0);
     &json[..end.map_or(0, |end| end + 1)]
@@ -77,7 +76,7 @@ fn chunk<'a>(bytes: &'a [u8], at: usize, kind: &[u8]) -> Result<Option<&'a [u8]>
     Ok((found == kind).then_some(whole))
 }
 
-/// The bytes of a `data:` URI; none where it is another.
+/// The bytes of a `data:` URI; `None` for any other URI.
 pub fn embedded(uri: &str) -> Option<Result<Vec<u8>, String>> {
     let rest = uri.strip_prefix("data:")?;
     let Some((_, data)) = rest.split_once(";base64,") else {
@@ -89,7 +88,7 @@ pub fn embedded(uri: &str) -> Option<Result<Vec<u8>, String>> {
     Some(decoded.map_err(|error| format!("no base64: {error}")))
 }
 
-/// The path that a relative URI means: `%20` and its like decoded.
+/// The path that a relative URI means, with `%20` and the like decoded.
 pub fn path_of(uri: &str) -> Result<String, String> {
     let is_elsewhere = uri.starts_with(['/', '\\']) || uri.contains(':');
     if is_elsewhere || uri.is_empty() {
@@ -128,7 +127,7 @@ pub fn path_of(uri: &str) -> Result<String, String> {
 pub struct GltfFault {
     /// The file, as the user named it.
     pub file: String,
-    /// Where in its JSON, as `meshes[2].primitives[0].attributes.POSITION`, or in its bytes.
+    /// The place in its JSON, such as `meshes[2].primitives[0].attributes.POSITION`, or in its bytes.
     pub place: String,
     /// What was found, and what is allowed.
     pub what: String,

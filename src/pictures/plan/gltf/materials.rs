@@ -1,11 +1,11 @@
-//! What stands for the materials of a file.
+//! The catalogue materials that stand for the materials of a file.
 //!
 //! ```text
 //! dielectrics: other light = base colour × light from around; coverage = alpha where it blends
 //! ```
 //!
-//! What is seen through a material (KHR_materials_transmission) is taken to be as bright as what is around it, so that its share
-//! does not matter. Source of the default index: Khronos, KHR_materials_ior, 2020,
+//! What is seen through a material (KHR_materials_transmission) is assumed to be as bright as its surroundings, so its share does
+//! not matter. Source of the default index: Khronos, KHR_materials_ior, 2020,
 //! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_materials_ior>.
 
 use std::collections::HashMap;
@@ -30,19 +30,19 @@ const USUAL_INDEX: f32 = 1.5;
 const CONSTANT: &str = "ior_";
 /// The key in a material's extras.
 const KEY: &str = "fresnel_gen";
-/// What a material's extension does to the reflection of its surface.
+/// How a material's extension changes the reflection of its surface.
 enum Effect {
     /// Nothing.
     None,
-    /// Something, unless this factor, which is 0 where it is not given, is 0 in all its channels.
+    /// A change, unless this factor is 0 in all its channels. A factor that is not given is 0.
     Factor(&'static str, &'static str),
-    /// Something, always.
+    /// A change in every case.
     Always(&'static str),
 }
 
-/// All ratified extensions of materials that are not read, and two that nobody should write any more. Those that are read are
-/// `KHR_materials_ior`, `KHR_materials_specular` and `KHR_materials_transmission`. Dispersion, by its specification, bends what is seen
-/// through a material and leaves the index of its reflection what it is.
+/// All ratified material extensions that are not read, and two deprecated ones. Those that are read are `KHR_materials_ior`,
+/// `KHR_materials_specular` and `KHR_materials_transmission`. Dispersion, by its specification, bends what is seen through a
+/// material and does not change the index of its reflection.
 const EXTENSIONS: [(&str, Effect); 13] = [
     ("KHR_materials_volume", Effect::None),
     ("KHR_materials_volume_scatter", Effect::None),
@@ -89,17 +89,17 @@ const EXTENSIONS: [(&str, Effect); 13] = [
     ),
 ];
 
-/// A material that is seen and not planned.
+/// A material that is seen but not planned.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unplanned {
     /// What the file calls it.
     pub name: String,
-    /// Why not.
+    /// Why it is not planned.
     pub reason: String,
 }
 
-/// A dielectric of the same index at all wavelengths, by the name that [`super::GltfScene::materials`] gives it: `ior_1_5` for 1.5.
-/// None for all other names.
+/// A dielectric of the same index at all wavelengths, by the name that [`super::GltfScene::materials`] gives it: `ior_1_5` for
+/// 1.5. `None` for all other names.
 pub fn constant_index(name: &str) -> Option<Material> {
     let index = name.strip_prefix(CONSTANT)?.replacen('_', ".", 1);
     let is_number = index
@@ -119,14 +119,14 @@ fn name_of(index: f32) -> String {
     format!("{CONSTANT}{index}").replace('.', "_")
 }
 
-/// The looks of a file's materials, found as they are seen.
+/// The looks of a file's materials, resolved as they are met.
 pub struct Looks<'a> {
     pub materials: Vec<MappedMaterial>,
     pub unplanned: Vec<Unplanned>,
-    /// What of a planned material is not read though it changes what is seen.
+    /// What is not read of planned materials although it changes the picture.
     pub remarks: Vec<String>,
     root: &'a Root,
-    /// What all other light of a white pixel is.
+    /// The other light of a white pixel.
     around: [f32; 3],
     /// By the index of the file's material; the default one has none.
     known: HashMap<Option<usize>, Option<SurfaceLook>>,
@@ -146,7 +146,7 @@ impl<'a> Looks<'a> {
         }
     }
 
-    /// How a primitive looks; none where it is not seen at all.
+    /// The look of a primitive; `None` where it is not seen at all.
     pub fn of(
         &mut self,
         material: Option<Index<GltfMaterial>>,
@@ -206,7 +206,7 @@ impl<'a> Looks<'a> {
         }))
     }
 
-    /// What the file calls a material, told apart from others of the same name.
+    /// The file's name for a material, made distinct from others of the same name.
     fn free_name(&self, material: &GltfMaterial, key: Option<usize>) -> String {
         let place = key.map_or("the default material".to_owned(), |key| {
             format!("materials[{key}]")
@@ -234,7 +234,7 @@ fn is_dielectric(name: &str) -> bool {
     found.is_some_and(|material| material.kind == MaterialKind::Dielectric)
 }
 
-/// The numbers of a material.
+/// The factors of a material.
 struct Factors {
     roughness: f32,
     metallic: f32,
@@ -278,7 +278,7 @@ impl Factors {
     }
 }
 
-/// The material that stands for one of the file's, or why none does.
+/// The catalogue material that stands for one of the file's, or why there is none.
 fn stands_for(
     material: &GltfMaterial,
     factors: &Factors,
@@ -327,7 +327,7 @@ fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, 
     }
 }
 
-/// A dielectric by its index alone.
+/// A dielectric, by its index alone.
 fn by_index(material: &GltfMaterial) -> Result<String, String> {
     let extensions = material.extensions.as_ref();
     let others = extensions.map(|all| &all.others);
@@ -361,7 +361,7 @@ fn by_index(material: &GltfMaterial) -> Result<String, String> {
     })
 }
 
-/// What the extensions of a material that stands for one of the catalogue change, since it is planned as that alone.
+/// A remark on the extensions that change a material which a catalogue material stands for, since only the latter is planned.
 fn left_out(material: &GltfMaterial, name: &str, found: &str) -> Option<String> {
     let others = material.extensions.as_ref().map(|all| &all.others);
     let mut others = others.into_iter().flatten();
@@ -369,7 +369,7 @@ fn left_out(material: &GltfMaterial, name: &str, found: &str) -> Option<String> 
     Some(format!("{name}: planned as {found} alone; {reason}"))
 }
 
-/// What an extension changes about the reflection, in words; nothing where it changes nothing.
+/// The change of the reflection by an extension, in words; `None` where it changes nothing.
 fn change(name: &str, value: &serde_json::Value) -> Option<String> {
     let known = EXTENSIONS.iter().find(|(known, _)| *known == name);
     let is_zero = |factor: &serde_json::Value| match factor.as_array() {

@@ -1,12 +1,13 @@
-//! Scenes of others: glTF 2.0, as `.gltf` with its buffers, or as one `.glb`.
+//! Scenes in glTF 2.0, as `.gltf` with its buffers or as one `.glb`.
 //!
-//! The crate `gltf-json` reads the JSON and holds every index against what is there. What buffers hold is read here ([`accessor`]),
+//! The crate `gltf-json` reads the JSON and checks that every index exists. The contents of buffers are read here ([`accessor`]),
 //! after lengths, strides and counts are checked, so that a file cannot announce more than it has.
 //!
-//! What stands for a glTF material: the name in its `extras` (`{"fresnel_gen": "gold"}`), else its own name if the catalogue has it,
-//! else, for what is no metal, the constant index of KHR_materials_ior. A metal without a name is Schlick's approximation by the
-//! specification, so that there is nothing to hold functions against. Factors and vertex colours are read, textures are not, which a remark says; a metal of factor 0
-//! alone counts as none.
+//! The catalogue material that stands for a glTF material is the one named in its `extras` (`{"fresnel_gen": "gold"}`). Without
+//! it, it is the one of the material's own name, if the catalogue has it. Without that, a non-metal gets the constant index of
+//! KHR_materials_ior. By the specification a metal without a name is Schlick's approximation, so there is nothing to compare
+//! functions with. Factors and vertex colours are read. Textures are not, which a remark says. Only a metallic factor of
+//! exactly 0 makes a non-metal.
 //!
 //! Source: Khronos, *glTF 2.0 Specification*, 2021, <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, sections 3.6 for
 //! buffers, 3.7 for meshes, 3.9 and appendix B for materials, 3.10 for cameras.
@@ -42,7 +43,7 @@ pub use materials::{Unplanned, constant_index};
 pub struct GltfView {
     /// Pixels across and down. The vertical field of view is a camera's own.
     pub size: [u32; 2],
-    /// What comes from around.
+    /// The light that surrounds the scene.
     pub light: SceneLight,
 }
 
@@ -51,9 +52,9 @@ pub struct GltfView {
 pub struct GltfScene {
     /// Whether the cameras are the file's own. If it has none, 36 turn about its middle ([`GltfScene::view`]).
     pub has_cameras: bool,
-    /// The materials that are seen and not planned, and why.
+    /// The materials that are seen but not planned, with the reasons.
     pub unplanned: Vec<Unplanned>,
-    /// What the file says and is not read, though it changes what is seen.
+    /// What the file states and this program does not read although it changes the picture.
     pub remarks: Vec<String>,
     scene: DrawnScene,
     cameras: Vec<Camera>,
@@ -61,12 +62,12 @@ pub struct GltfScene {
 }
 
 impl GltfScene {
-    /// Reads a `.gltf` or `.glb`. `file` is only for messages; `read` gets the path of a buffer that lies in a file of its own, as
-    /// the glTF file has it.
+    /// Reads a `.gltf` or `.glb`. `file` is only for messages; `read` gets the path of a buffer's file as the glTF file states
+    /// it.
     ///
     /// # Errors
-    /// It is no glTF 2.0, an index leads to nothing, a buffer is shorter than it should be, a number is not finite, it needs an
-    /// extension that changes its triangles, or it has too many: with the place in its JSON.
+    /// The file is no glTF 2.0, an index leads to nothing, a buffer is shorter than it should be, a number is not finite, it
+    /// needs an extension that changes its triangles, or it has too many triangles. The fault has its place in the JSON.
     pub fn read(
         file: &str,
         bytes: &[u8],
@@ -105,7 +106,7 @@ impl GltfScene {
         self.cameras.len()
     }
 
-    /// What it is seen by, in words.
+    /// The cameras of the scene, in words.
     pub fn view(&self) -> String {
         if self.has_cameras {
             "the file's cameras".to_owned()
@@ -125,7 +126,7 @@ impl GltfScene {
     }
 }
 
-/// The JSON, with every index held against what is there.
+/// The JSON, with every index checked.
 fn root(container: &Container) -> Result<Root, Place> {
     let json = without_mark(container.json).map_err(|fault| Place::new("line 1", fault.what))?;
     let root = Root::from_slice(json).map_err(|error| {
@@ -149,7 +150,7 @@ fn root(container: &Container) -> Result<Root, Place> {
     let mut first = None;
     root.validate(&root, gltf_json::Path::new, &mut |path, error| {
         let place = path().to_string().replace("[\"", ".").replace("\"]", "");
-        // Extensions have a list of ours, and the extent of positions is not read.
+        // Extensions are checked against a list of our own, and the bounds of positions are not read.
         let is_read = error != Error::Unsupported
             && !(error == Error::Missing && place.contains(".attributes."));
         if is_read && first.is_none() {
@@ -169,7 +170,7 @@ fn root(container: &Container) -> Result<Root, Place> {
     Ok(root)
 }
 
-/// The crate takes the accessors of positions to be there before it holds any index against what is there.
+/// The crate assumes that the accessors of positions exist before it checks any index.
 fn check_positions(root: &Root) -> Result<(), Place> {
     for (i, mesh) in root.meshes.iter().enumerate() {
         for (j, primitive) in mesh.primitives.iter().enumerate() {
@@ -188,7 +189,7 @@ fn check_positions(root: &Root) -> Result<(), Place> {
 
 fn check_extensions(root: &Root) -> Result<(), Place> {
     for (i, name) in root.extensions_required.iter().enumerate() {
-        // These change how surfaces look, which the catalogue's materials replace.
+        // These change the look of surfaces, which the catalogue's materials replace.
         let is_harmless = [
             "KHR_materials_",
             "KHR_texture_",

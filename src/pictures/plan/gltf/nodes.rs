@@ -1,8 +1,7 @@
-//! The nodes of the scene, with their transforms into the world.
+//! The nodes of the scene with their transforms into the world, and the cameras among them.
 //!
-//! What a file says that is not read, though it changes what is seen: a remark each, so that nothing is passed over in silence.
-//!
-//! The cameras of a file, or those that turn about its middle.
+//! A file without cameras gets some that turn about its middle. Remarks name what the file states and this program does not read
+//! although it changes the picture, so that nothing is ignored silently.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json::{Material, Node, Root, camera};
@@ -12,19 +11,19 @@ use super::container::Place;
 use crate::lab::raster::{Camera, Lens, Mesh, rotated};
 use crate::physics::foreign::Foreign;
 
-/// A node where it is.
+/// A node in its place in the world.
 pub struct PlacedNode<'a> {
     /// Its index.
     pub index: usize,
     pub node: &'a Node,
-    /// From its own axes into the world.
+    /// The transform from its own axes into the world.
     pub into_world: DAffine3,
 }
 
-/// The nodes of the default scene, or of the first one, or all that are nobody's children: parents first.
+/// The nodes of the default scene, or of the first scene, or all nodes without a parent; parents come first.
 ///
 /// # Errors
-/// A node stands in two places, or below itself, or a number of its transform is not finite.
+/// A node stands in two places or below itself, or a number of its transform is not finite.
 pub fn placed(root: &Root) -> Result<Vec<PlacedNode<'_>>, Place> {
     let first = (!root.scenes.is_empty()).then_some(0);
     let scene = root.scene.map(|scene| scene.value()).or(first);
@@ -75,7 +74,7 @@ pub fn placed(root: &Root) -> Result<Vec<PlacedNode<'_>>, Place> {
     Ok(placed)
 }
 
-/// Nodes that are nobody's children.
+/// The nodes without a parent.
 fn top(root: &Root) -> impl Iterator<Item = usize> {
     let mut is_child = vec![false; root.nodes.len()];
     for child in root
@@ -88,7 +87,7 @@ fn top(root: &Root) -> impl Iterator<Item = usize> {
     (0..root.nodes.len()).filter(move |node| !is_child[*node])
 }
 
-/// From a node's axes into its parent's: a matrix, or first a scale, then a turn, then a move.
+/// The transform from a node's axes into its parent's: a matrix, or first a scale, then a rotation, then a translation.
 fn own_transform(node: &Node) -> DAffine3 {
     if let Some(matrix) = node.matrix {
         return DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)));
@@ -96,7 +95,7 @@ fn own_transform(node: &Node) -> DAffine3 {
     let vector = |three: [f32; 3]| DVec3::from_array(three.map(f64::from));
     let turn = node.rotation.map_or(DQuat::IDENTITY, |turn| {
         let turn = DQuat::from_array(turn.0.map(f64::from));
-        // A quaternion without a length turns nothing.
+        // A quaternion of length zero rotates nothing.
         if turn.length_squared() > 0.0 {
             turn.normalize()
         } else {
@@ -108,12 +107,12 @@ fn own_transform(node: &Node) -> DAffine3 {
     DAffine3::from_scale_rotation_translation(scale, turn, by)
 }
 
-/// Extensions that are read, or that a material's own reason names.
+/// Extensions that are read, or that a material's own reason or remark names.
 const READ: [&str; 3] = ["KHR_materials_", "KHR_texture_", "EXT_texture_"];
-/// A camera's aspect may differ from that of the frames by rounding.
+/// How far a camera's aspect may differ from that of the frames, as rounding does.
 const ROUNDING: f64 = 0.005;
 
-/// What of a material is not read.
+/// A remark on the parts of a material that are not read.
 pub fn not_read(material: &Material, name: &str) -> Option<String> {
     let pbr = &material.pbr_metallic_roughness;
     let emits = material.emissive_factor.0 != [0.0; 3];
@@ -140,7 +139,7 @@ pub fn not_read(material: &Material, name: &str) -> Option<String> {
     (!parts.is_empty()).then(|| format!("{name}: not read: {list}"))
 }
 
-/// What of the scene is not read; `size` is that of the frames.
+/// Remarks on the parts of the scene that are not read; `size` is that of the frames.
 pub fn of_scene(root: &Root, size: [u32; 2]) -> Vec<String> {
     let mut remarks = Vec::new();
     let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
@@ -172,7 +171,7 @@ pub fn of_scene(root: &Root, size: [u32; 2]) -> Vec<String> {
     remarks
 }
 
-/// A camera of another shape than the frames. Its height is kept.
+/// A remark on cameras whose aspect differs from that of the frames. Their height is kept.
 fn aspect(root: &Root, frames: f64) -> Option<String> {
     let own = root.cameras.iter().filter_map(|camera| {
         let perspective = camera
@@ -190,16 +189,16 @@ fn aspect(root: &Root, frames: f64) -> Option<String> {
     ))
 }
 
-/// What stands for the cameras of a file that has none.
+/// The cameras that stand in for those of a file without any.
 pub const AROUND_IN_WORDS: &str = "36 cameras about the middle of all triangles, 10 degrees apart about y, 20 degrees above it, 45 degrees of view, as far away as shows all";
 const FRAMES: u32 = 36;
 const ABOVE_DEGREES: f64 = 20.0;
 const VERTICAL_DEGREES: f64 = 45.0;
 
-/// A camera for each node that has one. It looks along its own -z; its +y is up. It sees what lies between its clip planes.
+/// A camera for each node that has one. It looks along its own -z, its +y is up, and it sees what lies between its clip planes.
 ///
 /// # Errors
-/// A field of view or a height lies outside its limits, a transform has no directions, or there are too many.
+/// A field of view or a height lies outside its limits, a transform has no directions, or there are too many cameras.
 pub fn cameras(root: &Root, nodes: &[PlacedNode], size: [u32; 2]) -> Result<Vec<Camera>, Place> {
     let mut cameras = Vec::new();
     for node in nodes {
@@ -224,7 +223,7 @@ pub fn cameras(root: &Root, nodes: &[PlacedNode], size: [u32; 2]) -> Result<Vec<
     Ok(cameras)
 }
 
-/// To the right, down and forwards; none where the directions are none.
+/// The camera's axes: right, down and forwards; `None` where the directions are degenerate.
 fn axes(forwards: DVec3, up: DVec3) -> Option<[DVec3; 3]> {
     let forwards = forwards.try_normalize()?;
     let right = forwards.cross(up).try_normalize()?;
@@ -274,7 +273,7 @@ fn camera(
     }
 }
 
-/// The distances between which a camera sees anything (section 3.10.3).
+/// The distances of a camera's clip planes (section 3.10.3).
 fn planes([near, far]: [f64; 2], place: &str, what: &str) -> Result<[f64; 2], Place> {
     if near < 0.0 {
         let says = format!("it is {near}; it must not be below 0");
@@ -297,7 +296,7 @@ pub fn around(mesh: &Mesh, size: [u32; 2]) -> Vec<Camera> {
         .map(|place| (place - middle).length())
         .fold(1e-6, f64::max);
     let half = (VERTICAL_DEGREES / 2.0).to_radians();
-    // A picture that is higher than wide shows less to the sides.
+    // A picture that is higher than wide shows less at its sides.
     let aspect = (f64::from(size[0]) / f64::from(size[1])).min(1.0);
     let distance = radius / libm::sin(libm::atan(aspect * libm::tan(half)));
     let start = rotated(

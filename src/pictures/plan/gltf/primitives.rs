@@ -1,4 +1,4 @@
-//! The triangles of all meshes, in the world.
+//! The triangles of all meshes, in world space.
 
 use glam::{DAffine3, DVec3};
 use gltf_json::material::AlphaMode;
@@ -13,16 +13,16 @@ use super::materials::Looks;
 use super::nodes::PlacedNode;
 use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex};
 
-/// What COLOR_0 multiplies by at each corner: red, green, blue, alpha.
+/// The factors of COLOR_0 at each corner: red, green, blue, alpha.
 pub type Tints = Vec<[f32; 4]>;
 
-/// Nothing is farther away, in metres, along each axis.
+/// The largest coordinate along each axis, in metres.
 const FARTHEST: f64 = 1e6;
 
-/// Hands on the triangles of each primitive, and how they look.
+/// Passes the triangles of each primitive and their look to `add`.
 ///
 /// # Errors
-/// An accessor is not as it should be, a number is not finite or too large, or there are too many triangles.
+/// An accessor is malformed, a number is not finite or too large, or there are too many triangles.
 pub fn add_parts(
     root: &Root,
     nodes: &[PlacedNode],
@@ -30,7 +30,7 @@ pub fn add_parts(
     looks: &mut Looks,
     add: &mut dyn FnMut(&Mesh, SurfaceLook, Option<Tints>),
 ) -> Result<(), Place> {
-    // What was read so far: triangles, and elements of accessors.
+    // The counts so far, of triangles and of accessor elements.
     let (mut triangles, mut elements) = (0, 0);
     for node in nodes {
         let Some(index) = node.node.mesh.map(|mesh| mesh.value()) else {
@@ -77,7 +77,7 @@ fn alpha_mode(root: &Root, primitive: &Primitive) -> AlphaMode {
     }
 }
 
-/// Where the corners of a primitive are.
+/// The accessors of a primitive's corners.
 struct Corners {
     place: String,
     mode: Mode,
@@ -88,7 +88,7 @@ struct Corners {
 }
 
 impl Corners {
-    /// None where it has no triangles: points and lines, or nothing that says where.
+    /// `None` where the primitive has no triangles (points and lines) or no positions.
     fn of(primitive: &Primitive, place: &str) -> Option<Corners> {
         let Checked::Valid(mode) = primitive.mode else {
             return None;
@@ -112,7 +112,7 @@ impl Corners {
         format!("{}.{what}", self.place)
     }
 
-    /// How many elements its accessors say that they have.
+    /// The number of elements that its accessors announce.
     fn elements(&self, buffers: &Buffers) -> Result<usize, Place> {
         let parts = [
             (Some(self.positions), "attributes.POSITION"),
@@ -132,7 +132,7 @@ impl Corners {
     fn read(&self, buffers: &Buffers, node: &PlacedNode) -> Result<Mesh, Place> {
         let place = self.place_of("attributes.POSITION");
         let positions = buffers.vectors(self.positions, &place)?;
-        // Without normals faces are flat (section 3.7.2.1), as the rasteriser draws corners without a normal.
+        // Without normals faces are flat (section 3.7.2.1); the rasteriser draws corners without a normal so.
         let mut normals = vec![DVec3::ZERO; positions.len()];
         if let Some(index) = self.normals {
             let place = self.place_of("attributes.NORMAL");
@@ -154,7 +154,7 @@ impl Corners {
             return Err(Place::new(place, what));
         }
         let mut triangles = self.triangles(buffers, vertices.len())?;
-        // A mirror turns the way that corners go round (section 3.7.4).
+        // A mirroring transform reverses the winding (section 3.7.4).
         if node.into_world.matrix3.determinant() < 0.0 {
             triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
         }
@@ -164,7 +164,7 @@ impl Corners {
         })
     }
 
-    /// What COLOR_0 multiplies the base colour by, at each corner; alpha is 1 unless the material blends.
+    /// The factors of COLOR_0 on the base colour at each corner. Alpha is 1 unless the material blends.
     fn tints(
         &self,
         buffers: &Buffers,
@@ -209,7 +209,7 @@ impl Corners {
         };
         self.check_whole(order.len())?;
         Ok(match self.mode {
-            // Each other triangle goes round the other way (section 3.7.2.1).
+            // Every other triangle has the opposite winding (section 3.7.2.1).
             Mode::TriangleStrip => (order.windows(3).enumerate())
                 .map(|(i, w)| match i % 2 {
                     0 => [w[0], w[1], w[2]],
@@ -226,7 +226,7 @@ impl Corners {
 }
 
 impl Corners {
-    /// Refuses corners, or indices of them, that are too few or too many for whole triangles (section 3.7.2.1).
+    /// Refuses a count of corners or indices that does not make whole triangles (section 3.7.2.1).
     fn check_whole(&self, count: usize) -> Result<(), Place> {
         let is_whole = match self.mode {
             Mode::Triangles => count.is_multiple_of(3),
@@ -248,7 +248,7 @@ impl Corners {
     }
 }
 
-/// A corner in the world. Normals are turned by the cofactors of the matrix, which needs no inverse.
+/// A corner in world space. Normals are transformed by the matrix's cofactors, which need no inverse.
 fn in_world(into_world: &DAffine3, position: DVec3, normal: DVec3) -> Vertex {
     let [x, y, z] = [
         into_world.matrix3.x_axis,

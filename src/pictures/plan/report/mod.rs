@@ -1,4 +1,4 @@
-//! A plan for people, and as JSON that `--plan` reads back.
+//! The report of a plan: text for people, and JSON that `--plan` reads back.
 
 mod page;
 
@@ -18,27 +18,27 @@ pub struct PlanReport {
     #[serde(flatten)]
     origin: Origin,
     device: Option<String>,
-    /// The GPUs whose costs decide.
+    /// The GPU family whose costs decide.
     gpu: &'static str,
     /// What a cost counts.
     cost_of: &'static str,
-    /// What errors are measured by.
+    /// The metric of errors.
     metric: &'static str,
-    /// Its unit in words.
+    /// The metric's unit in words.
     #[serde(skip)]
     unit: &'static str,
-    /// What functions are held against.
+    /// The reference that functions are compared with.
     reference: &'static str,
-    /// The space of the pictures and of the functions.
+    /// The colour space of the pictures and of the functions.
     space: &'static str,
-    /// Frames of the scene.
+    /// How many frames the scene has.
     frames: usize,
     total: PlanTotal,
-    /// Materials that are not planned.
+    /// Materials that are not planned, with the reasons.
     unplanned: Vec<Unplanned>,
-    /// What the scene says and is not read.
+    /// What the scene states and this program does not read.
     remarks: Vec<String>,
-    /// What came of the functions' text, where that was run.
+    /// The results of running the functions' text, where it was run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     proofs: Vec<Proof>,
     rows: Vec<PlanRow>,
@@ -73,7 +73,7 @@ impl PlanReport {
         }
     }
 
-    /// The same, with what came of the functions' text on a device.
+    /// The same report, with the results of running the functions' text on a device.
     #[must_use]
     pub fn with_proofs(self, device: Option<String>, proofs: Vec<Proof>) -> PlanReport {
         PlanReport {
@@ -83,12 +83,12 @@ impl PlanReport {
         }
     }
 
-    /// The command that makes it again.
+    /// The command that makes the report again.
     fn command(&self) -> &str {
         self.origin.command()
     }
 
-    /// How a run ends by its proofs: 1 where one fails, 3 where one could not be made.
+    /// The exit code that follows from the proofs: 1 where one fails, 3 where one could not be made.
     pub fn proof_code(&self) -> u8 {
         let has = |status| self.proofs.iter().any(|proof| proof.status == status);
         match (has(Status::Fail), has(Status::NotChecked)) {
@@ -98,7 +98,7 @@ impl PlanReport {
         }
     }
 
-    /// As text: the functions, why each, what they cost together.
+    /// The report as text: the functions, the reason for each, and what they cost together.
     pub fn text(&self) -> String {
         let columns = [
             "material",
@@ -183,7 +183,7 @@ fn named(row: &PlanRow) -> String {
     }
 }
 
-/// What came of a function's text.
+/// The line on the result of a function's text.
 fn proof_line(proof: &Proof) -> String {
     let Proof {
         material,

@@ -1,4 +1,4 @@
-//! The page of a plan: of each material the choice and its reason, the angles with errors over them, and pictures.
+//! The HTML page of a plan: for each material the choice and its reason, the angles with errors over them, and pictures.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -14,11 +14,11 @@ use crate::pictures::png::rgb_png;
 use crate::pictures::table::short_number;
 
 const TEMPLATE: &str = include_str!("../../../../templates/plan.html.tera");
-/// Where a picture shows nothing.
+/// The colour of a picture's empty pixels.
 const EMPTY: [u8; 3] = [40, 42, 46];
-/// A chart ends at so many times the budget, or above the chosen function's largest error.
+/// A chart ends at this many times the budget, or above the chosen function's largest error.
 const ABOVE_BUDGET: f64 = 4.0;
-/// How high the histogram is, as a share of the chart.
+/// The height of the histogram, as a share of the chart.
 const HISTOGRAM: f64 = 0.9;
 
 const ANGLES: Look = Look {
@@ -39,7 +39,7 @@ const BUDGET: Look = Look {
 struct Section {
     material: String,
     why: String,
-    /// Facts of the choice, each with its name.
+    /// Facts about the choice, as pairs of name and text.
     facts: Vec<[String; 2]>,
     /// The chart as SVG.
     chart: String,
@@ -101,7 +101,7 @@ fn section(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> Result<Se
     })
 }
 
-/// The errors over angles, above a histogram of the angles.
+/// The chart of errors over angles, above a histogram of the angles.
 fn chart(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> LineChart {
     let most = |curve: &AngleCurve| curve.points.iter().map(|(_, e)| *e).fold(0.0, f64::max);
     let all = view.curves.iter().map(most).fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! A scene file with the files that it names: triangles in their places, and light.
+//! A scene file together with the files that it names: triangles in their places, and light.
 
 use glam::DVec3;
 use toml::Spanned;
@@ -12,17 +12,17 @@ use crate::physics::materials::FileFault;
 use crate::physics::spectra::mesh_text;
 use crate::pictures::scene::Environment;
 
-/// How far a plane reaches beyond all else, so that it ends within 1e-7 of the horizon.
+/// How far a plane reaches beyond everything else, so that it ends within 1e-7 of the horizon.
 const BEYOND: f64 = 1e7;
 
-/// Reads a file that a scene names, by its path as the scene has it, or says why not.
+/// Reads a file that a scene names, by its path as the scene states it, or says why it cannot.
 pub type ReadFile<'a> = &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>;
 
 impl SceneFile {
     /// The scene with all files that it names.
     ///
     /// # Errors
-    /// A file cannot be read or is not what the scene says, or there are too many triangles.
+    /// A file cannot be read or is not what the scene states, or there are too many triangles.
     pub fn read(&self, read: ReadFile) -> Result<DrawnScene, FileFault> {
         let light = self.light(read)?;
         let mut scene = DrawnScene::new(self.materials.len(), light);
@@ -69,7 +69,7 @@ impl SceneFile {
         read(path).map_err(|why| self.fault(at.span().start, format!("{path}: {why}")))
     }
 
-    /// The triangles of an object where it is.
+    /// The triangles of an object in its place.
     fn placed(&self, object: &Object, read: ReadFile) -> Result<Mesh, FileFault> {
         match object.shape.get_ref() {
             Shape::Body(body) => {
@@ -94,7 +94,7 @@ impl SceneFile {
         }
     }
 
-    /// A mesh of others, which keeps the size and the place that the scene does not state.
+    /// A user's mesh. It keeps its own size and place where the scene states none.
     fn own_place(&self, mesh: Mesh, object: &Object) -> Result<Mesh, FileFault> {
         let places = || mesh.vertices.iter().map(|vertex| vertex.position);
         let least = places().fold(DVec3::INFINITY, DVec3::min);
@@ -110,7 +110,7 @@ impl SceneFile {
         Ok(moved(mesh.with_extent(extent), centre))
     }
 
-    /// The farthest that anything is from the origin, cameras with it; at least 1 m.
+    /// The distance from the origin of the farthest vertex or camera; at least 1 m.
     fn radius(&self, mesh: &Mesh) -> f64 {
         let eyes = self.cameras.iter().map(|camera| camera.eye.length());
         eyes.fold(mesh.radius().max(1.0), f64::max)

@@ -1,4 +1,4 @@
-//! The values of a scene file within their limits.
+//! Checks that the values of a scene file lie within their limits.
 
 use std::collections::HashMap;
 
@@ -14,18 +14,18 @@ use crate::physics::materials::{self, FileFault, FileText};
 use crate::physics::names::UnknownName;
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 
-/// No place is farther away in metres, along each axis, and nothing is larger.
+/// The largest coordinate along each axis, and the largest size, in metres.
 pub const FARTHEST: f64 = 1e6;
-/// Nothing is smaller, in metres.
+/// The smallest size, in metres.
 const SMALLEST: f64 = 1e-6;
 /// The largest finite number of binary16, which environments hold.
 const BRIGHTEST: f64 = 65504.0;
-/// Pixels of a frame that does not state its size.
+/// Pixels of a frame whose size is not stated.
 const USUAL_SIZE: [u32; 2] = [512, 512];
 /// The name of a plane among the bodies.
 const PLANE: &str = "plane";
 
-/// What a scene file says.
+/// The checked contents of a scene file.
 pub struct Checked {
     pub display: Display,
     pub cameras: Vec<Camera>,
@@ -77,7 +77,7 @@ impl Checked {
         Ok(checked)
     }
 
-    /// The place of an object's material among all, which it enters if it is new.
+    /// The index of an object's material among all materials. A new material is appended.
     fn material(
         &mut self,
         object: &RawObject,
@@ -116,7 +116,7 @@ fn first_place(cameras: &OneOrMany<RawCamera>) -> usize {
 impl FileText<'_> {
     fn number(&self, value: &Spanned<f64>, key: &str, [low, high]: [f64; 2]) -> Read<f64> {
         let number = *value.get_ref();
-        // NaN lies within no limits.
+        // NaN fails every range.
         if (low..=high).contains(&number) {
             return Ok(number);
         }
@@ -151,7 +151,7 @@ impl FileText<'_> {
         Ok(colour.to_array().map(|channel| channel as f32))
     }
 
-    /// A text that names something: not empty, without what a terminal obeys.
+    /// Refuses a name that is empty or holds control characters, which a terminal would obey.
     fn legible(&self, key: &str, text: &Spanned<String>) -> Read<()> {
         let is_legible =
             !text.get_ref().trim().is_empty() && !text.get_ref().chars().any(materials::is_hidden);
@@ -231,7 +231,7 @@ impl FileText<'_> {
             (Some(height), None) => {
                 let height = self.number(height, "orthographic", [SMALLEST, FARTHEST])?;
                 let axes = Camera::looking(eye, at, lens(1.0)).axes;
-                // Where along its axis it stands does not matter to parallel rays.
+                // Parallel rays do not depend on the eye's place along the axis.
                 Camera::orthographic(at, axes, height, size)
             }
             (None, Some(degrees)) => {
@@ -294,7 +294,7 @@ impl FileText<'_> {
                 material: Some(material),
                 roughness: self.or(raw.roughness.as_ref(), "roughness", unit, 0.0)? as f32,
                 other: other.map_or(Ok([0.0; 3]), |other| self.colour(other, "other"))?,
-                // The least share that eight bits of alpha tell from nothing.
+                // The smallest share that eight bits of alpha can tell from zero.
                 coverage: self.or(raw.coverage.as_ref(), "coverage", [1.0 / 256.0, 1.0], 1.0)?
                     as f32,
                 is_one_sided: false,
@@ -343,7 +343,7 @@ impl FileText<'_> {
     }
 }
 
-/// A camera turned about a place by an angle.
+/// A camera turned by an angle about an axis through a place.
 fn turned(camera: &Camera, at: DVec3, axis: DVec3, degrees: f64) -> Camera {
     let turn = |vector| rotated(vector, axis, degrees.to_radians());
     Camera {

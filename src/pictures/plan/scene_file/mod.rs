@@ -1,4 +1,4 @@
-//! The scene file: a scene that we draw ourselves, as TOML.
+//! The scene file: a scene that this program draws itself, as TOML.
 //!
 //! ```toml
 //! exposure = 0.0                # stops; 1 doubles. May be left out
@@ -44,12 +44,12 @@ use raw::RawScene;
 
 pub use assets::ReadFile;
 
-/// A scene has at most so many frames.
+/// The most frames of a scene.
 pub const MOST_FRAMES: usize = 720;
-/// Pixels along a side of a frame, least and most.
+/// The least and the most pixels along a side of a frame.
 pub const SIDES: [u32; 2] = [16, 4096];
 
-/// A scene that we draw ourselves.
+/// A scene that this program draws itself.
 #[derive(Clone, Debug)]
 pub struct SceneFile {
     /// How its pictures are shown.
@@ -59,12 +59,12 @@ pub struct SceneFile {
     file: String,
     text: String,
     cameras: Vec<Camera>,
-    /// Where the first camera stands in the text.
+    /// The offset of the first camera in the text.
     camera_at: usize,
     light: Light,
     objects: Vec<Object>,
     materials: Vec<MappedMaterial>,
-    /// Where each material is named first.
+    /// The offset where each material is first named.
     materials_at: Vec<usize>,
 }
 
@@ -74,12 +74,12 @@ enum Light {
     Environment(Spanned<String>),
 }
 
-/// What an object's triangles are.
+/// The source of an object's triangles.
 #[derive(Clone, Debug)]
 enum Shape {
     Body(&'static crate::lab::raster::Body),
     Plane,
-    /// A path.
+    /// The path of a mesh.
     Mesh(String),
 }
 
@@ -129,17 +129,17 @@ impl SceneFile {
         &self.materials
     }
 
-    /// A frame, from 0, of a scene whose files were read ([`SceneFile::read`]).
+    /// A frame, counted from 0, of a scene whose files were read ([`SceneFile::read`]).
     pub fn frame(&self, index: usize, scene: &DrawnScene) -> FramePixels {
         scene.frame(&self.cameras[index])
     }
 
-    /// A fault where a material is named: its file cannot be read.
+    /// A fault at the place where a material is named: its file cannot be read.
     pub fn material_fault(&self, material: usize, what: String) -> FileFault {
         self.fault(self.materials_at[material], what)
     }
 
-    /// The fault of a scene none of whose frames shows anything.
+    /// The fault of a scene in which no frame shows anything.
     pub fn nothing_is_seen(&self) -> FileFault {
         let what = "no frame shows anything of an object; is the camera turned away, or too near?";
         self.fault(self.camera_at, what.to_owned())

@@ -1,4 +1,4 @@
-//! The scene file as TOML has it, with the place of every value that can be wrong.
+//! The scene file as TOML states it, with the place of every value that can be wrong.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -60,7 +60,7 @@ pub struct RawObject {
     pub coverage: Option<Spanned<f64>>,
 }
 
-/// `[camera]` or several `[[camera]]`, each with its place. An untagged enum would lose places and messages.
+/// `[camera]` or several `[[camera]]`, each with its place. An untagged enum would lose the places and the messages.
 pub struct OneOrMany<T>(pub Vec<Spanned<T>>);
 
 enum Shape<T> {

@@ -9,9 +9,9 @@ use crate::pictures::plot::text::{AXIS, FOOT, MARK, TICK};
 
 /// The least height of the plot; the picture grows rather than go below it.
 const LEAST_HEIGHT: f64 = 210.0;
-/// From the end of the plot to the margin: half of the last tick's label.
+/// The gap between the plot's end and the margin: half of the last tick's label.
 const RIGHT_GAP: f64 = 8.0;
-/// The height in which the line from a label slants to its place.
+/// The height in which the line from a label slants to its position.
 const SLANT: f64 = 11.0;
 const LABEL_GAP: f64 = 10.0;
 /// Half of the widest line, so that a curve along the edge stays whole.
@@ -21,7 +21,7 @@ const EDGE: f64 = 1.5;
 pub(super) struct Plot<'a> {
     chart: &'a LineChart,
     frame: PanelFrame,
-    /// The name of the clip path, of which a document may hold several.
+    /// The name of the clip path. A document may hold several.
     clip: &'a str,
     labels: Vec<Label>,
     x_label: Vec<String>,
@@ -31,7 +31,7 @@ pub(super) struct Plot<'a> {
     axes: Axes,
 }
 
-/// The label of a guide line: `at` is where it points, `centre` where it is.
+/// The label of a guide line: `at` is where it points, `centre` where it stands.
 struct Label {
     lines: Vec<String>,
     at: f64,
@@ -158,7 +158,7 @@ impl<'a> Plot<'a> {
         format!("<path {} d=\"{data}\"/>", series.style.attributes())
     }
 
-    /// The dots of a curve, where its style has any: whole ones, on both axes.
+    /// The dots of a curve, where its style has any. Only dots whose point lies on both axes are drawn.
     fn dots(&self, series: &Series) -> Vec<String> {
         let Axes { x, y, .. } = &self.axes;
         let points = series.points.iter();

@@ -1,8 +1,8 @@
 //! A pool: a tiled basin in a paved court, with posts that stand in the water and a ball that floats. The water's surface is y = 0, and a
 //! unit is a metre.
 //!
-//! Light on tiles, stones and posts is painted on them: radiance by place, the same from all directions. Both the device and the
-//! tracer look it up.
+//! The light on tiles, stones and posts is painted on them as radiance by place, the same in all directions. Both the device and
+//! the tracer look it up.
 
 mod paint;
 mod solids;
@@ -22,13 +22,13 @@ pub use solids::quad;
 const BASIN_MIN: DVec3 = DVec3::new(-3.0, -1.4, -4.0);
 const BASIN_MAX: DVec3 = DVec3::new(3.0, 0.12, 4.0);
 
-/// Texels of a side of the normal map.
+/// Texels along a side of the normal map.
 const SIDE: usize = 512;
 
 /// The pool with its tables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pool {
-    /// The radiance of all that is solid.
+    /// The radiance of all solid parts.
     pub paint: Texels,
     /// The normal map of the waves, over the whole surface.
     pub normals: Texels,
@@ -56,15 +56,15 @@ pub fn pool() -> &'static Pool {
 }
 
 impl Pool {
-    /// What the picture shows: a ball of this radius around the origin.
+    /// The picture shows a ball of this radius around the origin.
     pub const RADIUS: f64 = 1.9;
 
-    /// The triangles of all that is solid.
+    /// The triangles of all solid parts.
     pub fn solids(&self) -> Vec<[Vertex; 3]> {
         solids::triangles()
     }
 
-    /// The triangles of the water's surface without its waves, with the texture coordinates of the normal map.
+    /// The triangles of the water's surface without waves, with the texture coordinates of the normal map.
     pub fn surface(&self) -> Vec<[Vertex; 3]> {
         let (min, max) = (BASIN_MIN, BASIN_MAX);
         let corners = [

@@ -1,7 +1,7 @@
-//! The paint of the pool: what each place reflects of the sun and the sky, and of the sun's light that waves gather on the floor.
+//! The paint of the pool: what each place reflects of the sun, of the sky, and of the sunlight that waves focus on the floor.
 //!
-//! Light on the floor is counted, photon by photon, as the sun's rays fall on the waves and are refracted. Other parts have the cosine of
-//! their normal, and no shadow.
+//! Light on the floor is counted photon by photon, as the sun's rays are refracted by the waves. Other parts take the cosine of
+//! their normal, without shadows.
 
 use glam::{DVec2, DVec3};
 
@@ -14,17 +14,17 @@ use crate::pictures::scene::environment::to_sun;
 use crate::pictures::scene::texels::{Texels, scattered, smooth_noise};
 use crate::pictures::scene::trace::refracted;
 
-/// Reflected by white: of the sun where it falls square, and of the sky.
+/// The radiance of white: from the sun at normal incidence, and from the sky.
 const SUN: DVec3 = DVec3::new(0.95, 0.9, 0.8);
 const SKY: DVec3 = DVec3::new(0.3, 0.36, 0.45);
 /// The index of water, and how its path dims the sun's light, of red, green and blue, per metre: Hale and Querry, Applied Optics 12,
 /// 1973, <https://doi.org/10.1364/AO.12.000555>, at 610, 550 and 460 nm.
 const WATER: f64 = 1.333;
 const ABSORPTION: DVec3 = DVec3::new(0.25, 0.045, 0.027);
-/// Cells of the floor that photons are counted in, and photons of a cell along each side.
+/// Cells of the floor in which photons are counted, and photons along each side of a cell.
 const CELLS: [usize; 2] = [512, 384];
 const PHOTONS: usize = 3;
-/// How often neighbouring cells are averaged, as the sun has a width.
+/// How many times neighbouring cells are averaged, for the width of the sun.
 const BLURS: usize = 1;
 const TILE: f64 = 0.25;
 const GROUT: f64 = 0.014;
@@ -53,7 +53,7 @@ pub fn paint(waves: &Waves) -> Texels {
     })
 }
 
-/// What a place of a part sends out.
+/// The radiance of a place of a part.
 fn radiance(part: Part, at: DVec2, light: &Texels) -> DVec3 {
     let (place, normal) = part.in_world(at);
     let depth = (-place.y).max(0.0);
@@ -91,7 +91,7 @@ fn albedo(part: Part, at: DVec2, place: DVec3) -> DVec3 {
     }
 }
 
-/// Tiles of glass in their grout; a dark band lies so far from the edge.
+/// Glass tiles in their grout. A dark band lies at a distance from the edge.
 fn tile(place: DVec2, to_edge: f64) -> DVec3 {
     let number = (place / TILE).floor();
     let within = place - TILE * number;
@@ -121,7 +121,7 @@ fn stone(at: DVec2, part: Part) -> DVec3 {
     colour * (0.82 + 0.12 * grain)
 }
 
-/// Plaster under a coping, with leaves that climb it.
+/// Plaster under a coping, with climbing leaves.
 fn garden(at: DVec2, place: DVec3) -> DVec3 {
     let flat = DVec2::new(place.x, place.y);
     if at.y < 0.07 {
@@ -135,7 +135,7 @@ fn garden(at: DVec2, place: DVec3) -> DVec3 {
     DVec3::new(0.78, 0.45, 0.25) * (0.8 + 0.2 * smooth_noise(9.0 * flat))
 }
 
-/// Stripes that wind around it, with weed at the water line.
+/// Stripes that wind around the post, with weed at the water line.
 fn post(at: DVec2, y: f64) -> DVec3 {
     let turns = at.x + 2.2 * y;
     let is_white = turns - turns.floor() < 0.5;
@@ -164,8 +164,8 @@ fn ball(at: DVec2) -> DVec3 {
     }
 }
 
-/// The sun's light on the floor, 1 where water without waves and without a surface would let it: shadows of what stands in its way, and
-/// caustics of the waves.
+/// The sunlight on the floor, relative to that under water without waves or losses at the surface: shadows of what stands in its
+/// way, and caustics of the waves.
 fn sun_on_floor(waves: &Waves) -> Texels {
     let [along, across] = CELLS;
     let size = BASIN_MAX - BASIN_MIN;
@@ -214,7 +214,7 @@ fn landing(waves: &Waves, place: DVec2) -> Option<(DVec2, f64)> {
     (hit.part == Part::Floor).then_some((hit.at, 1.0 - r))
 }
 
-/// Each cell the mean of nine; at an edge the nearest cells stand for those beyond.
+/// Each cell becomes the mean of nine. At an edge the nearest cells stand in for those beyond it.
 fn blurred(cells: &[f64], width: usize, height: usize) -> Vec<f64> {
     let at = |column: i64, row: i64| {
         let column = column.clamp(0, width as i64 - 1) as usize;

@@ -1,4 +1,4 @@
-//! What is solid: where a ray meets it, its triangles, and where each part's paint lies in the table.
+//! The solid parts of the pool: where a ray meets them, their triangles, and where the paint of each part lies in the table.
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -29,9 +29,9 @@ const ROWS: usize = 64;
 /// A kind of surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Of the basin.
+    /// The basin's floor.
     Floor,
-    /// Of the basin, by its side: -x, +x, -z, +z.
+    /// A wall of the basin, by its side: -x, +x, -z, +z.
     Wall(usize),
     /// A square of the court.
     Court,
@@ -65,16 +65,16 @@ pub const TABLE: [usize; 2] = [1024, 1280];
 /// Where a ray meets something.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
-    /// How far it is.
+    /// The distance along the ray.
     pub distance: f64,
-    /// What it meets.
+    /// The part that it meets.
     pub part: Part,
-    /// Where in the part, 0 to 1.
+    /// The place within the part, 0 to 1.
     pub at: DVec2,
 }
 
 impl Part {
-    /// Left, top, width and height of its paint.
+    /// Left, top, width and height of its paint in the table.
     pub fn region(self) -> [usize; 4] {
         match self {
             Part::Floor => [0, 0, 1024, 640],
@@ -87,14 +87,14 @@ impl Part {
         }
     }
 
-    /// The texture coordinates of a place in it: from the middle of its first texel to that of its last.
+    /// The texture coordinates of a place in it, from the middle of its first texel to that of its last.
     pub fn uv(self, at: DVec2) -> DVec2 {
         let [left, top, width, height] = self.region().map(|texels| texels as f64);
         let texel = at * DVec2::new(width - 1.0, height - 1.0) + DVec2::new(left, top) + 0.5;
         texel / DVec2::new(TABLE[0] as f64, TABLE[1] as f64)
     }
 
-    /// The place in the world of a place in it, and the normal there; of the first post.
+    /// The position in the world of a place in it, and the normal there; for posts, of the first post.
     pub fn in_world(self, at: DVec2) -> (DVec3, DVec3) {
         let size = BASIN_MAX - BASIN_MIN;
         let along = |share: f64| BASIN_MIN + share * size;
@@ -131,7 +131,7 @@ impl Part {
     }
 }
 
-/// The nearest that a ray meets; the direction is of unit length.
+/// The nearest hit of a ray; the direction is of unit length.
 pub fn hit(origin: DVec3, direction: DVec3) -> Option<Hit> {
     let mut hits = Vec::with_capacity(8);
     for axis in 0..3 {
@@ -159,7 +159,7 @@ pub fn hit(origin: DVec3, direction: DVec3) -> Option<Hit> {
     ahead.min_by(|one, other| one.distance.total_cmp(&other.distance))
 }
 
-/// On the floor or a wall.
+/// A hit on the floor or a wall.
 fn in_basin(axis: usize, is_low: bool, distance: f64, place: DVec3) -> Option<Hit> {
     let share = (place - BASIN_MIN) / (BASIN_MAX - BASIN_MIN);
     let within = |axis: usize| (0.0..=1.0).contains(&share[axis]);
@@ -245,13 +245,13 @@ fn on_ball(origin: DVec3, direction: DVec3) -> Option<Hit> {
     })
 }
 
-/// The share of a turn from -z by way of +x.
+/// The share of a turn from -z through +x.
 fn around(place: DVec2) -> f64 {
     let turn = libm::atan2(place.x, -place.y) / std::f64::consts::TAU;
     if turn < 0.0 { turn + 1.0 } else { turn }
 }
 
-/// The triangles of all of it.
+/// The triangles of all solid parts.
 pub fn triangles() -> Vec<[Vertex; 3]> {
     let mut all = Vec::new();
     let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
@@ -289,7 +289,7 @@ fn flat(part: Part, corners: [DVec3; 4], places: [DVec2; 4]) -> [[Vertex; 3]; 2]
     quad(corners, places.map(|at| part.uv(at)), normal, DVec4::ZERO)
 }
 
-/// A rectangle, by its corners one after the other.
+/// A rectangle, by its corners in order.
 pub fn quad(
     corners: [DVec3; 4],
     uvs: [DVec2; 4],

@@ -1,7 +1,7 @@
-//! The pool as light goes, in f64: from the eye to the water, and from there along the mirrored and along the refracted ray to what they
-//! meet. It follows the waves as a surface with its heights, and a second time as a plane with their normals.
+//! The true light of the pool, in f64: from the eye to the water, and from there along the reflected and the refracted ray to
+//! what they meet. Rays meet the waves once as a surface with its heights, and once as a plane with the waves' normals.
 //!
-//! Waves: a sum of sines. Their height is the surface of the truth, their slopes are the normal map of what is drawn.
+//! The waves are a sum of sines. Their height is the surface of the truth; their slopes are the normal map of the drawn picture.
 
 use glam::{DVec2, DVec3};
 
@@ -11,22 +11,23 @@ use crate::physics::optics;
 use crate::pictures::scene::glass::Glass;
 use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
 
-/// Places along a ray between the highest crest and the lowest trough that are tried, and steps of the search between two of them.
+/// How many places are tried along a ray between the highest crest and the lowest trough, and the steps of the search between two
+/// of them.
 const TRIES: usize = 12;
 const STEPS: usize = 6;
-/// A ray is mirrored so often at most.
+/// The most reflections of a ray at the water.
 const MOST_REFLECTIONS: usize = 3;
 
 /// The surface of the water.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Surface {
-    /// With the heights of its waves.
+    /// With the heights of the waves.
     Waves,
-    /// The plane, with the normals of its waves.
+    /// The plane, with the normals of the waves.
     Plane,
 }
 
-/// What light meets.
+/// The pool and its surroundings, as light meets them.
 struct Light<'a> {
     pool: &'a Pool,
     /// The index of the water.
@@ -73,7 +74,7 @@ impl Light<'_> {
         }
     }
 
-    /// What comes along a ray above the water that is mirrored so often at most.
+    /// The radiance along a ray above the water that may be reflected this many more times.
     fn above(&self, surface: Surface, place: DVec3, direction: DVec3, left: usize) -> DVec3 {
         let solid = hit(place, direction);
         let nearest = solid.map_or(f64::INFINITY, |solid| solid.distance);
@@ -85,7 +86,7 @@ impl Light<'_> {
         }
     }
 
-    /// What a place of the surface shows along a ray from above.
+    /// The radiance of a place of the surface along a ray from above.
     fn at_water(&self, surface: Surface, place: DVec3, direction: DVec3, left: usize) -> DVec3 {
         let normal = self.normal(surface, place);
         let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
@@ -121,7 +122,7 @@ impl Light<'_> {
         }
     }
 
-    /// How far it is to the water, for rays that go down.
+    /// The distance to the water, for rays that go down.
     fn meets(&self, surface: Surface, origin: DVec3, direction: DVec3) -> Option<f64> {
         if direction.y >= 0.0 {
             return None;
@@ -136,7 +137,7 @@ impl Light<'_> {
         is_within.then_some(distance)
     }
 
-    /// The first of some places that lies below the surface, and a search between it and the one before.
+    /// Finds the first sample below the surface, and searches between it and the one before.
     fn meets_waves(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         let waves = &self.pool.waves;
         let to_height = |height: f64| ((height - origin.y) / direction.y).max(0.0);
@@ -161,7 +162,7 @@ impl Light<'_> {
     }
 }
 
-/// Where a function is 0 between two places, by the secant.
+/// A root of a function between two places, by the secant method.
 fn between(mut before: (f64, f64), mut after: (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..STEPS {
         let share = before.1 / (before.1 - after.1);
@@ -187,7 +188,7 @@ const WAVES: [[f64; 4]; 7] = [
     [0.33, 1.6, 0.018, 3.6],
 ];
 
-/// A sine.
+/// A sine wave.
 #[derive(Clone, Debug, PartialEq)]
 struct Wave {
     /// 2 pi over the wavelength, along its direction.
@@ -200,7 +201,7 @@ struct Wave {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waves {
     waves: Vec<Wave>,
-    /// No crest is higher.
+    /// The height that no crest exceeds.
     pub highest: f64,
 }
 

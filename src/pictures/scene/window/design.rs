@@ -8,9 +8,9 @@ const PARTS: f64 = 12.0;
 /// The radius of the rose, and of the middle medallion.
 const ROSE: f64 = 1.0;
 const MIDDLE: f64 = 0.2;
-/// Medallions of each part: how far from the middle, and their radius.
+/// The medallions of each part: their distance from the middle, and their radius.
 const MEDALLIONS: [[f64; 2]; 2] = [[0.47, 0.088], [0.79, 0.13]];
-/// Seeds of the mosaic's pieces of each part: how far from the middle, and at which angle in degrees.
+/// The seeds of the mosaic's pieces of each part: their distance from the middle, and their angle in degrees.
 const SEEDS: [[f64; 2]; 11] = [
     [0.25, 15.0],
     [0.32, 0.0],
@@ -24,7 +24,7 @@ const SEEDS: [[f64; 2]; 11] = [
     [0.94, 15.0],
     [0.97, 0.0],
 ];
-/// Half the width of leads: between pieces, and around medallions.
+/// Half the width of the leads between pieces, and of those around medallions.
 const LEAD: f64 = 0.0075;
 const THICK_LEAD: f64 = 0.012;
 /// How far the stone's rim is rounded, and how far the room's light reaches.
@@ -41,17 +41,17 @@ const EMERALD: DVec3 = DVec3::new(0.05, 0.55, 0.18);
 const VIOLET: DVec3 = DVec3::new(0.35, 0.08, 0.6);
 const PEARL: DVec3 = DVec3::new(0.88, 0.9, 0.8);
 
-/// What is at a place of the wall.
+/// The piece at a place of the wall.
 struct Piece {
     colour: DVec3,
-    /// Its number, for what differs from piece to piece.
+    /// Its number, which seeds what differs from piece to piece.
     number: [i64; 2],
-    /// How far the nearest lead's middle is, and half that lead's width.
+    /// The distance to the middle of the nearest lead, and half that lead's width.
     to_lead: f64,
     half_lead: f64,
 }
 
-/// The colours of a place: of glass with 1 in alpha, of lead and stone with 0.
+/// The colour at a place. Alpha is 1 for glass, 0 for lead and stone.
 pub fn paint(place: DVec2) -> DVec4 {
     let radius = place.length();
     if radius > ROSE {
@@ -67,12 +67,12 @@ pub fn paint(place: DVec2) -> DVec4 {
     let turned = DVec2::from_angle(3.0 * scattered(j, i)).rotate(place);
     let streaks = 0.85 + 0.3 * smooth_noise(turned * DVec2::new(12.0, 45.0));
     let tint = piece.colour.powf(depth * streaks);
-    // Paint has run together along the leads, as grime does.
+    // Paint and grime have gathered along the leads.
     let grime = ((piece.to_lead - piece.half_lead) / 0.012).clamp(0.0, 1.0);
     (tint * (0.55 + 0.45 * grime)).extend(1.0)
 }
 
-/// The slope of a place, to the right and up: rounded leads, bumps of glass.
+/// The slope at a place, to the right and up: rounded leads, bumps of glass.
 pub fn slope(place: DVec2) -> DVec2 {
     let radius = place.length();
     if radius > ROSE {
@@ -96,7 +96,7 @@ pub fn slope(place: DVec2) -> DVec2 {
     0.09 * tilt + strength * hammered(place)
 }
 
-/// Sines in directions a golden angle apart: dimples of some three centimetres.
+/// Dimples of about three centimetres: sines in directions a golden angle apart.
 fn hammered(place: DVec2) -> DVec2 {
     let mut slope = DVec2::ZERO;
     for i in 0..6 {
@@ -118,7 +118,7 @@ fn grain(place: DVec2) -> DVec2 {
     )
 }
 
-/// Blocks around the rose, lit by the room less the farther they are, and by the panes beside them.
+/// Blocks around the rose. The room lights them less the farther away they are; the panes beside them light them too.
 fn stone(place: DVec2) -> DVec3 {
     let radius = place.length();
     let far = (radius - ROSE) / REACH;
@@ -163,7 +163,7 @@ fn piece(place: DVec2) -> Piece {
 }
 
 impl Piece {
-    /// With another lead, so far away and so wide by half.
+    /// The piece with another lead, given the distance to it and half its width.
     fn with(self, [to_lead, half_lead]: [f64; 2]) -> Piece {
         let is_nearer = to_lead - half_lead < self.to_lead - self.half_lead;
         let (to_lead, half_lead) = if is_nearer {
@@ -201,7 +201,7 @@ fn medallion(from: DVec2, size: f64, petals: f64, id: [i64; 2], colours: [DVec3;
     }
 }
 
-/// The cell of the nearest seed; its lead runs where another seed is as near.
+/// The mosaic's piece with the nearest seed. Its lead runs where two seeds are equally near.
 fn mosaic(local: DVec2, part: i64) -> Piece {
     let mut seeds = Vec::with_capacity(3 * SEEDS.len());
     for shift in -1..=1 {

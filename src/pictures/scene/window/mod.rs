@@ -1,6 +1,7 @@
-//! A window of stained glass in a dark wall, seen from the room: panes between leads. A unit is a metre.
+//! A window of stained glass in a dark wall, seen from inside the room: panes between leads. A unit is a metre.
 //!
-//! Panes are plane outside and bumpy inside; the normal map holds the bumps, the rounded leads, and the tilt of each pane in its leads.
+//! Panes are flat outside and bumpy inside. The normal map holds the bumps, the rounded leads, and the tilt of each pane in its
+//! leads.
 
 mod design;
 mod truth;
@@ -13,9 +14,9 @@ use super::body::Vertex;
 use super::pool::quad;
 use super::texels::Texels;
 
-/// Texels of a side of the tables.
+/// Texels along a side of the tables.
 const SIDE: usize = 1600;
-/// Half the width of what they hold. The wall is black beyond.
+/// Half the width that the tables cover. The wall is black beyond.
 const HALF: f64 = 1.9;
 /// The middle of the rose.
 const CENTRE: DVec2 = DVec2::new(0.0, 0.17);
@@ -25,7 +26,7 @@ const WALL: f64 = 4.0;
 /// The window with its tables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Window {
-    /// Of glass what it transmits along its normal, and 1 in alpha; of lead and stone what they reflect, and 0.
+    /// The transmittance of glass along its normal, with 1 in alpha; the reflectance of lead and stone, with 0.
     pub paint: Texels,
     /// The normal map: along the wall to the right, down, and into the room.
     pub normals: Texels,
@@ -51,23 +52,23 @@ pub fn window() -> &'static Window {
     })
 }
 
-/// Out of the room: level, toward where the sun stands.
+/// The direction out of the room: level, toward the sun.
 fn outward() -> DVec3 {
     DVec3::new(-0.45, 0.0, 0.4).normalize()
 }
 
-/// To the right, as seen from the room.
+/// The direction to the right, as seen from inside the room.
 fn right() -> DVec3 {
     outward().cross(DVec3::Y)
 }
 
-/// Texture coordinates of a place of the wall: to the right of its middle, and up.
+/// Texture coordinates of a place of the wall, which is given to the right of its middle and up.
 fn uv(place: DVec2) -> DVec2 {
     DVec2::new(0.5 + 0.5 * place.x / HALF, 0.5 - 0.5 * place.y / HALF)
 }
 
 impl Window {
-    /// What the picture shows: a ball of this radius around the origin.
+    /// The picture shows a ball of this radius around the origin.
     pub const RADIUS: f64 = 1.02;
 
     /// The triangles of the wall.
@@ -80,7 +81,7 @@ impl Window {
         quad(places, corners.map(uv), -outward(), tangent).to_vec()
     }
 
-    /// Its colours at a place.
+    /// Its colour at a place.
     fn paint_at(&self, place: DVec2) -> DVec4 {
         self.paint.at(uv(place))
     }

@@ -1,6 +1,7 @@
-//! The window as light goes, in f64: slabs of glass with two surfaces, and light that is reflected between them.
+//! The true light through the window, in f64: slabs of glass with two surfaces, and light that is reflected between them.
 //!
-//! The thickness counts: a ray leaves beside where it entered, under another bump or behind a lead, and its tint grows with its path.
+//! The thickness matters: a ray leaves beside the point where it entered, under another bump or behind a lead, and its tint grows
+//! with its path.
 
 use glam::{DVec2, DVec3};
 
@@ -11,12 +12,13 @@ use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
 
 /// The thickness of the glass.
 const THICKNESS: f64 = 0.006;
-/// How often light is followed from the front to the back.
+/// How many times light is followed from the front to the back.
 const MOST_TURNS: usize = 8;
 const LEAST: f64 = 1e-5;
 
 impl Window {
-    /// What a ray from the eye shows: with all reflections between both surfaces, and by refraction alone in glass without thickness.
+    /// What a ray from the eye shows: with all reflections between both surfaces, and by refraction alone in glass without
+    /// thickness.
     pub fn seen(&self, glass: &Glass, around: Around, eye: DVec3, direction: DVec3) -> Traced {
         let distance = -eye.dot(outward()) / direction.dot(outward());
         let place = eye + distance * direction;
@@ -53,7 +55,8 @@ impl Window {
         }
     }
 
-    /// What comes along a ray in the glass from its front: all, and what leaves at first as if the glass had no thickness.
+    /// The radiance along a ray in the glass from its front: by all paths, and by what leaves at first as if the glass had no
+    /// thickness.
     fn inside(&self, mut at: DVec2, mut direction: DVec3, n: f64, around: Around) -> [DVec3; 2] {
         let (mut all, mut once, mut left) = (DVec3::ZERO, DVec3::ZERO, DVec3::ONE);
         for turn in 0..MOST_TURNS {
@@ -100,12 +103,12 @@ impl Window {
     }
 }
 
-/// How far a ray goes along the wall between both surfaces.
+/// How far a ray moves along the wall between the two surfaces.
 fn across(direction: DVec3, cosine: f64) -> DVec2 {
     THICKNESS / cosine * DVec2::new(direction.dot(right()), direction.y)
 }
 
-/// The light in the room, by where it comes from: the floor is lit by the windows.
+/// The light in the room by direction: the windows light the floor.
 fn room(direction: DVec3) -> DVec3 {
     DVec3::new(0.055, 0.048, 0.04) * (1.2 - 0.8 * direction.y)
 }

@@ -1,0 +1,155 @@
+//! A request step by step, as a build script makes one.
+
+use std::path::Path;
+
+use super::source::read;
+use super::{Materials, Request, Source};
+use crate::generator::emit::HeaderForm;
+use crate::generator::error::Error;
+use crate::generator::flavours::Flavour;
+use crate::language::effects::Effect;
+use crate::language::methods::Method;
+use crate::language::targets::Target;
+use crate::physics::materials::ViewingConditions;
+use crate::physics::num::Precision;
+use crate::physics::spectra::Space;
+
+impl Request {
+    /// What the program does without flags.
+    pub fn new() -> Request {
+        Request::default()
+    }
+
+    /// Adds a target. Without any, the default ones are written.
+    #[must_use]
+    pub fn target(mut self, target: &Target) -> Request {
+        self.targets.push(target.name.to_owned());
+        self
+    }
+
+    /// Adds a method. Without any, the library has all, and a material gets its four default ones.
+    #[must_use]
+    pub fn method(mut self, method: &Method) -> Request {
+        self.methods.push(method.name.to_owned());
+        self
+    }
+
+    /// Adds an effect.
+    #[must_use]
+    pub fn effect(mut self, effect: &Effect) -> Request {
+        self.effects.push(effect.name.to_owned());
+        self
+    }
+
+    /// Adds an adapter for an engine.
+    #[must_use]
+    pub fn flavour(mut self, flavour: &Flavour) -> Request {
+        self.flavours.push(flavour.name.to_owned());
+        self
+    }
+
+    /// Adds a material of the catalogue. Without any, gold, platinum, water and diamond are meant.
+    #[must_use]
+    pub fn material(self, name: &str) -> Request {
+        self.material_from(Source::Named(name.to_owned()))
+    }
+
+    /// Adds a material from a file: TOML, a table of n and k, or a page of refractiveindex.info.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn material_file(self, path: impl AsRef<Path>) -> Result<Request, Error> {
+        let file = path.as_ref().to_string_lossy().into_owned();
+        let text = read(&file)?;
+        Ok(self.material_from(Source::File { file, text }))
+    }
+
+    fn material_from(mut self, source: Source) -> Request {
+        match &mut self.materials {
+            Materials::These(sources) => sources.push(source),
+            other => *other = Materials::These(vec![source]),
+        }
+        self
+    }
+
+    /// The medium that the light comes from: a material of the catalogue, or an index from 1 to 10 such as `1.5`.
+    #[must_use]
+    pub fn medium(mut self, name: &str) -> Request {
+        self.medium = Some(Source::Named(name.to_owned()));
+        self
+    }
+
+    /// The linear space that colours are given in. Without it, that of sRGB.
+    #[must_use]
+    pub fn space(mut self, space: Space) -> Request {
+        self.viewing.integration.space = space;
+        self
+    }
+
+    /// The viewing conditions: observer, illuminant, space, gamut.
+    #[must_use]
+    pub fn viewing(mut self, viewing: ViewingConditions) -> Request {
+        self.viewing = viewing;
+        self
+    }
+
+    /// The precision of functions. Without it, single precision.
+    #[must_use]
+    pub fn precision(mut self, precision: Precision) -> Request {
+        self.precision = precision;
+        self
+    }
+
+    /// How much the comments of files say.
+    #[must_use]
+    pub fn header(mut self, header: HeaderForm) -> Request {
+        self.header = header;
+        self
+    }
+
+    /// Adds lookup tables of the materials, as EXR and with a function that reads them: what `fresnel-gen bake` writes by default.
+    #[must_use]
+    pub fn tables(mut self) -> Request {
+        self.tables = true;
+        self
+    }
+
+    /// The files that it was made from, for `cargo::rerun-if-changed`.
+    pub fn inputs(&self) -> Vec<&str> {
+        let materials = match &self.materials {
+            Materials::These(sources) => sources.as_slice(),
+            _ => &[],
+        };
+        let files = materials.iter().chain(&self.medium);
+        let paths = files.filter_map(|source| match source {
+            Source::File { file, .. } => Some(file.as_str()),
+            Source::Named(_) | Source::BroughtAlong(_) => None,
+        });
+        paths.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_files_are_added_one_by_one() {
+        let target: &Target = "wgsl".parse().unwrap();
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/data/materials/gold.toml");
+        let request = Request::new().target(target).method(Method::FITTED);
+        let request = request.material("water").material_file(file).unwrap();
+        let request = request.space(Space::DisplayP3).medium("1.5");
+        assert_eq!(request.targets, ["wgsl"]);
+        assert_eq!(request.methods, ["fitted"]);
+        assert_eq!(request.inputs(), [file]);
+        assert_eq!(request.materials.sources().len(), 2);
+        assert!(Request::new().material_file("none.toml").is_err());
+    }
+
+    #[test]
+    fn a_wrong_name_is_told_the_nearest() {
+        let fault = "wsgl".parse::<&Target>().unwrap_err();
+        assert!(fault.to_string().contains("`wgsl`"), "{fault}");
+    }
+}
