@@ -62,6 +62,7 @@ pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
 /// # Ok::<(), fresnel_gen::Error>(())
 /// ```
 ///
+/// # Errors
 /// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over
 /// the whole spectrum, or two functions would have the same name.
 pub fn generate(request: &Request) -> Result<Generated, Error> {

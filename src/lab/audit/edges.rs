@@ -63,7 +63,7 @@ pub struct EdgeRow {
     pub result: [Option<f64>; 3],
     /// Whether a fault there is a finding.
     pub counts: bool,
-    /// What is wrong.
+    /// The fault, if any.
     pub fault: Option<&'static str>,
 }
 

@@ -289,7 +289,7 @@ pub struct Given {
     pub(super) value: GivenValue,
 }
 
-/// What is given.
+/// The value that a user gives for an argument.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GivenValue {
     /// One number, or three.

@@ -88,7 +88,7 @@ pub struct Audit {
 pub struct AuditRows {
     /// A row for each material that has values for all arguments.
     pub rows: Vec<AuditRow>,
-    /// Why others have none.
+    /// Why other materials have no row.
     pub skipped: Vec<String>,
 }
 

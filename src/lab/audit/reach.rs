@@ -10,7 +10,7 @@ use crate::generator::emit::shader_words::Token;
 /// The words of each macro's definitions, without its arguments.
 pub type MacroBodies<'t, 'a> = BTreeMap<&'a str, Vec<Vec<&'t Token<'a>>>>;
 
-/// What is reached.
+/// The parts, macros and variables that a part needs.
 #[derive(Debug, Default)]
 pub struct Reached {
     /// The index of the part that all is reached from.

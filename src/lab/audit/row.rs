@@ -87,7 +87,7 @@ pub struct AuditRow {
     pub cost: Vec<AuditCost>,
     /// Whether these costs are compared with ours.
     pub is_cost_comparable: bool,
-    /// Why they are not.
+    /// Why these costs are not compared.
     pub cost_remark: Option<String>,
     /// The methods that dominate it and take no more numbers of a material.
     pub dominated_by: Vec<Dominating>,

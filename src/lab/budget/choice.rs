@@ -1,8 +1,5 @@
-//! The cheapest function within a budget, and the errors of cheaper ones. Pure.
-//!
-//! How far published measurements of a material differ: fitting one of them better than this gains nothing.
-//!
-//! Why no function can be chosen.
+//! The choice of the cheapest function within a budget, with the errors of cheaper ones, and the reasons why none can be chosen.
+//! Also how far published measurements of a material differ: fitting one of them better than this gains nothing. Pure.
 
 use core::cmp::Ordering;
 use core::fmt;
@@ -15,30 +12,30 @@ use crate::language::methods::Light;
 use crate::physics::materials::{self, Material, Surface, ViewingConditions};
 use crate::physics::num::each_channel;
 
-/// A function that could be taken.
+/// A function that could be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BudgetCandidate {
     /// Its method.
     pub method: &'static str,
-    /// What an evaluation costs, without its texture fetches, and its largest error.
+    /// The cost of an evaluation, without texture fetches, and the largest error.
     pub point: CostAndError,
     /// Whether it reads a texture.
     pub is_textured: bool,
 }
 
-/// What comes of a choice.
+/// The result of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheapestFunction {
-    /// The cheapest function within the budget; of equally cheap ones the most accurate.
+    /// The cheapest function within the budget, and the most accurate of equally cheap ones.
     pub chosen: BudgetCandidate,
-    /// The most accurate of those that cost less.
+    /// The most accurate of the cheaper functions.
     pub cheaper: Option<BudgetCandidate>,
     /// A function within the budget that reads a texture and costs less, not counting the texture fetch.
     pub textured: Option<BudgetCandidate>,
 }
 
-/// Chooses. A function that reads a texture is taken only where no other is within the budget, because counts do not include the
-/// texture fetch.
+/// Chooses a function. One that reads a texture is chosen only where no other is within the budget, because counts do not include
+/// the texture fetch.
 pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<CheapestFunction> {
     let within = |is_textured: bool| {
         let own = candidates
@@ -59,7 +56,7 @@ pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<CheapestF
     })
 }
 
-/// The candidate with the smallest error; of equal ones the cheapest.
+/// The candidate with the smallest error, and the cheapest of equal ones.
 pub fn most_accurate<'a>(
     candidates: impl Iterator<Item = &'a BudgetCandidate>,
 ) -> Option<BudgetCandidate> {
@@ -73,17 +70,17 @@ fn first<'a>(
     candidates.min_by(|a, b| order(&a.point, &b.point)).copied()
 }
 
-/// How far measurements differ.
+/// How far published measurements of a substance differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// The largest difference of two at one angle in one channel.
+    /// The largest difference of reflectance between two of them, at one angle in one channel.
     pub most: f64,
-    /// How many there are.
+    /// The number of measurements.
     pub sources: usize,
 }
 
-/// The spread of the catalogue's pages of a material's substance that can be seen so. None for a user's own file, for what is known
-/// at three wavelengths only, seen from itself, and where there is one page.
+/// The spread of the catalogue's pages of a material's substance under these viewing conditions. None for a user's own file, for
+/// data at three wavelengths only, for a material seen from itself, and where there is only one page.
 pub fn spread(
     subject: &MaterialInMedium,
     catalogue: &[Material],
@@ -122,19 +119,19 @@ fn apart(curves: &[Vec<[f64; 3]>]) -> f64 {
     all.fold(0.0, f64::max)
 }
 
-/// How many materials without a function an error names.
+/// The most materials without a function that an error names.
 const NAMED: usize = 3;
 
 /// Why no function can be chosen.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A budget that is no error of reflectance.
+    /// A budget that is not a positive number.
     #[error("--budget is {most}; it is an error of reflectance, above 0, such as 0.001")]
     OutOfRange {
         /// The budget.
         most: f64,
     },
-    /// GPUs of which no costs are recorded.
+    /// GPUs for which no costs are recorded.
     #[error("no costs are recorded of {gpu}: {reason}; name another --gpu")]
     NoCosts {
         /// The family.
@@ -142,12 +139,12 @@ pub enum Error {
         /// Why not.
         reason: &'static str,
     },
-    /// No method among which a budget chooses.
+    /// None of the methods can be chosen by a budget.
     #[error(
         "--budget chooses among methods for unpolarised light that keep the contract; none of --method is one"
     )]
     NoMethod,
-    /// Materials that have no function within the budget.
+    /// Materials without a function within the budget.
     #[error("nothing is within --budget {most}; {}", named(faults))]
     NothingWithin {
         /// The budget.
@@ -163,14 +160,14 @@ pub enum Error {
     Material(materials::FileFault),
 }
 
-/// A material of which no function is within the budget.
+/// A material without a function within the budget.
 #[derive(Clone, Debug)]
 pub struct NoFunction {
     /// The material's name.
     pub material: String,
     /// The GPUs whose costs decide.
     pub gpu: &'static str,
-    /// The function with the smallest error; none where no cost is known.
+    /// The function with the smallest error. None where no cost is known.
     pub best: Option<BudgetCandidate>,
 }
 

@@ -17,7 +17,7 @@ use choice::{cheapest, most_accurate, spread};
 
 pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, Spread, rounded_error};
 
-/// What is asked for.
+/// The request: an error and a family of GPUs.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
     /// The largest error of reflectance, over angles and channels.
@@ -30,7 +30,7 @@ impl Budget {
     /// A budget of this error on these GPUs.
     ///
     /// # Errors
-    /// The error is no error of reflectance, or no costs are recorded of these GPUs.
+    /// The error is not a positive number, or no costs are recorded for these GPUs.
     pub fn new(most: f64, family: &'static Family) -> Result<Budget, Error> {
         if !(most > 0.0 && most.is_finite()) {
             return Err(Error::OutOfRange { most });
@@ -48,9 +48,9 @@ impl Budget {
 pub struct BudgetRow {
     /// The material's name.
     pub material: String,
-    /// What was asked for.
+    /// The request.
     pub budget: Budget,
-    /// The function, and what stands beside it.
+    /// The function, and alternatives to it.
     pub choice: CheapestFunction,
     /// The form whose costs decided: `specialised`, or `library` where the record lacks a specialised function of the material.
     pub form: FunctionForm,
@@ -103,7 +103,7 @@ fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static M
     }
 }
 
-/// What is the same for all materials.
+/// The parts of the search that are the same for all materials.
 struct Search<'a> {
     viewing: &'a ViewingConditions,
     budget: Budget,
@@ -136,8 +136,8 @@ impl Search<'_> {
         }))
     }
 
-    /// The functions that could be taken, and the form whose costs are theirs: the specialised one's where all are recorded, else
-    /// the library's, since costs of two forms cannot be compared.
+    /// The candidates, and the form that their costs are of: the specialised one where all are recorded, otherwise the library's,
+    /// since costs of two forms cannot be compared.
     fn candidates(
         &self,
         subject: &MaterialInMedium,

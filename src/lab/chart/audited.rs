@@ -1,6 +1,5 @@
-//! A user's function as a point of charts, from its rows.
-//!
-//! A user's function among ours: one entry more, one error more of each material, one cost more on each axis.
+//! A user's function as a point of charts, made from its audit rows. It adds one entry, one error for each material, and one cost
+//! on each axis.
 
 use std::collections::BTreeMap;
 
@@ -10,10 +9,11 @@ use crate::lab::audit::AuditRow;
 use crate::lab::verify::Status;
 use crate::physics::foreign::Foreign;
 
-/// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
+/// The largest share of cosines without a number. Errors leave those cosines out, and above this share do not describe the
+/// function.
 const MOST_UNDEFINED: f64 = 0.01;
 
-/// The point, from the rows of all materials; none where there are no rows.
+/// The point, from the rows of all materials. None where there are no rows.
 pub fn charted_function(rows: &[AuditRow]) -> Option<ChartedFunction> {
     let first = rows.first()?;
     let file = Foreign(&first.file);
@@ -36,7 +36,7 @@ pub fn charted_function(rows: &[AuditRow]) -> Option<ChartedFunction> {
     })
 }
 
-/// Why its costs have no place beside ours: they are those of one channel, or of branches.
+/// Why its costs are not comparable with ours: they are those of one channel, or of branches.
 fn no_cost(row: &AuditRow) -> Option<String> {
     match (&row.cost_remark, row.channels) {
         (Some(why), _) => Some(format!("its cost is {why}")),
@@ -45,7 +45,7 @@ fn no_cost(row: &AuditRow) -> Option<String> {
     }
 }
 
-/// Its error on each axis; none where it was not run, or gives no number too often.
+/// Its error on each axis. None where it was not run, or gives no number too often.
 fn errors(row: &AuditRow) -> MethodErrors {
     let (Some(error), Some(perceived)) = (&row.model_error, &row.perceived) else {
         return MethodErrors::default();
@@ -62,8 +62,8 @@ fn errors(row: &AuditRow) -> MethodErrors {
     }
 }
 
-/// The cost on each family where it is known: of materials, the most. A function of single numbers is called once where channels
-/// are the same.
+/// The cost on each family where it is known: the largest over materials, since a function of single numbers is called only once
+/// where channels are equal.
 fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     let mut costs = BTreeMap::new();
     let rows = rows.iter().filter(|row| no_cost(row).is_none());
@@ -76,26 +76,26 @@ fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     costs
 }
 
-/// What is known of a user's function.
+/// A user's function with its errors and costs.
 #[derive(Clone, Debug)]
 pub struct ChartedFunction {
     /// The function.
     pub user: UserFunction,
-    /// For each material the error on each axis; none where it gave no number.
+    /// The errors for each material. None where it gave no number.
     pub errors: Vec<MethodErrors>,
-    /// What an evaluation costs, by the names of axes.
+    /// The cost of an evaluation, by the names of axes.
     pub costs: BTreeMap<String, f64>,
 }
 
 impl ChartedFunction {
-    /// Its errors behind those of all others.
+    /// Appends its errors to those of all others.
     pub fn join(&self, errors: &mut [Vec<MethodErrors>]) {
         for (all, own) in errors.iter_mut().zip(&self.errors) {
             all.push(*own);
         }
     }
 
-    /// The charts with it as their last entry; its errors have joined already.
+    /// The charts with it as their last entry. Its errors have been appended before.
     pub fn with_function(&self, mut data: ChartData) -> ChartData {
         for axis in &mut data.costs {
             axis.costs.push(self.cost(axis));
@@ -108,7 +108,8 @@ impl ChartedFunction {
         data
     }
 
-    /// An axis in powers of ten has no 0: what costs nothing to the last count costs a count, or as little as any of ours.
+    /// Its cost on an axis. A logarithmic axis has no 0, so a function that costs nothing is drawn at one count, or at the least
+    /// of ours.
     fn cost(&self, axis: &CostAxis) -> Option<f64> {
         let cost = *self.costs.get(axis.name)?;
         let least = axis.costs.iter().flatten().copied().fold(1.0, f64::min);

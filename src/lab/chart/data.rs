@@ -1,15 +1,12 @@
-//! What charts show: the error of every method for every material, with its intended inputs and with its best ones, and what an
-//! evaluation of its library function costs where that was recorded; a user's own function beside them.
+//! The data of charts. It holds the error of every method for every material, with its intended inputs and with its best ones, the
+//! recorded cost of its library function, and a user's own function beside them.
 //!
-//! What methods are worth whose numbers were chosen on a class of materials: each substance judged by numbers that were chosen
-//! without it. `tests/fit-f82 --left-out` finds the figures.
+//! The axes of cost are compilers' counts of library functions, the graph's own operations, and times. A logarithmic axis has no
+//! 0, so a function that costs nothing has no point there. Methods without a point, or with one that leaves materials out, are
+//! listed with the reason.
 //!
-//! Which methods have no point on a chart, or one without some of the materials, and why.
-//!
-//! What some methods and the exact law give for one material at all angles.
-//!
-//! The axes of cost: what compilers count in library functions, the graph's own operations, and times. An axis in powers of ten has no
-//! 0: a function that costs nothing has no cost there, and so no point.
+//! Methods whose numbers were chosen on a class of materials also have left-out errors: each substance is judged by numbers that
+//! were chosen without it. `tests/fit-f82 --left-out` finds these figures.
 
 use std::collections::BTreeMap;
 
@@ -39,7 +36,7 @@ pub fn cost_names() -> Vec<&'static str> {
     axes.iter().map(|axis| axis.name).collect()
 }
 
-/// The data of charts of these materials, with a user's function as one more entry. `progress` hears how many are done.
+/// The data of charts of these materials, with a user's function as one more entry. `progress` is told how many are done.
 pub fn chart_data(
     subjects: &[MaterialInMedium],
     space: Space,
@@ -64,7 +61,7 @@ pub fn chart_data(
     }
 }
 
-/// Every method for unpolarised light, and beside it the same with its best inputs where it has inputs of its own to choose.
+/// Every method for unpolarised light, and a second entry with its best inputs where its inputs can be chosen.
 fn entries() -> Vec<ChartEntry> {
     let mut entries = Vec::new();
     for method in ALL
@@ -101,7 +98,7 @@ fn errors(
     })
 }
 
-/// The errors of all entries for a material; unknown of methods that do not describe it.
+/// The errors of all entries for a material. Unknown for methods that do not describe it.
 fn entry_errors(
     entries: &[ChartEntry],
     subject: &MaterialInMedium,
@@ -124,24 +121,25 @@ fn entry_errors(
 
 static RECORD: &str = include_str!("../../../data/records/left-out.csv");
 
-/// Largest errors over angles and channels, of materials by numbers that were chosen without their substance.
+/// Statistics of the largest errors over angles and channels, for materials judged by numbers that were chosen without their
+/// substance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOutErrors {
-    /// The median, each measurement once.
+    /// The median over measurements.
     pub median: f64,
-    /// The 90th percentile, each measurement once.
+    /// The 90th percentile over measurements.
     pub p90: f64,
-    /// The median, each substance once.
+    /// The median over substances.
     pub median_by_substance: f64,
-    /// The 90th percentile, each substance once.
+    /// The 90th percentile over substances.
     pub p90_by_substance: f64,
 }
 
-/// How many of the sample's measurements are of metals.
+/// The number of the sample's measurements that are of metals.
 const METALS_OF_THE_SAMPLE: usize = 66;
 
-/// The errors of a method over the sample of metals and semiconductors on which its numbers were chosen; none beside sets of other materials
-/// or of fewer metals than the sample has, and for methods whose numbers were not chosen on it.
+/// The left-out errors of a method over the sample of metals and semiconductors on which its numbers were chosen. None for sets
+/// of other materials or of fewer metals than the sample has, and for methods whose numbers were not chosen on it.
 pub fn left_out(method: &Method, set: &MaterialSet) -> Option<LeftOutErrors> {
     let is_set = |statistic| set.name == set_name(MaterialClass::Metals, statistic);
     if set.count < METALS_OF_THE_SAMPLE || !STATISTICS.into_iter().any(is_set) {
@@ -158,7 +156,7 @@ pub fn left_out(method: &Method, set: &MaterialSet) -> Option<LeftOutErrors> {
     })
 }
 
-/// A sentence for each reason, with the functions that it keeps from the chart.
+/// A sentence for each reason why functions have no complete point on a chart, with their names.
 pub fn without_point(view: &ChartView) -> Vec<String> {
     let entries = view.data.entries.iter().enumerate();
     let functions = entries.filter(|(_, entry)| !entry.is_best);
@@ -176,7 +174,7 @@ fn reason(view: &ChartView, place: usize, entry: &ChartEntry) -> Option<String> 
     let (undescribed, count) = (&view.set.undescribed[place], view.set.count);
     let has_error = view.error_of(place).is_some();
     let Some(method) = entry.method() else {
-        // A user's function without a point says why itself.
+        // The reason of a user's function without a point is stated elsewhere.
         let is_part = has_error && !undescribed.is_empty();
         return is_part.then(|| {
             format!(
@@ -207,20 +205,19 @@ fn reason(view: &ChartView, place: usize, entry: &ChartEntry) -> Option<String> 
     unknown.then(|| format!("costs nothing or is not recorded on {}", view.cost.name))
 }
 
-/// The reflectance of a material of the catalogue at these angles, in degrees: by each of these methods, and last by the exact law
-/// of the whole spectrum.
+/// The reflectance of a material of the catalogue over angles: by each of some methods, and by the exact law of the whole spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reflectances {
-    /// By methods, in their order.
+    /// By each method, in the methods' order.
     pub by_methods: Vec<Vec<[f64; 3]>>,
     /// By the exact law.
     pub exact: Vec<[f64; 3]>,
 }
 
-/// Computes them, in air and as materials are seen by default.
+/// The reflectances at these angles in degrees, in air and under the default viewing conditions.
 ///
 /// # Errors
-/// A material or a method is not there, or cannot be seen.
+/// The material or a method does not exist, or the material is not known under these conditions.
 pub fn exact_and_approximated(
     material: &str,
     methods: &[&str],
@@ -246,7 +243,7 @@ pub fn exact_and_approximated(
     Ok(Reflectances { by_methods, exact })
 }
 
-/// An axis for each family of which anything is recorded, and one of times.
+/// An axis for each family with recorded costs, and one of times.
 pub fn axes(entries: &[ChartEntry]) -> Vec<CostAxis> {
     let mut axes = Vec::new();
     for family in FAMILIES.iter() {
@@ -280,7 +277,7 @@ fn title(family: &Family) -> String {
     }
 }
 
-/// Shares of time on the device of the record.
+/// The axis of times, as shares on the device of the record.
 fn timed(entries: &[ChartEntry]) -> Option<CostAxis> {
     let all: Vec<_> = times()
         .into_iter()

@@ -1,5 +1,5 @@
-//! Error against cost as data: every method a point, and a user's function where there is one, and the frontier of those that nothing
-//! beats in both. Pages and pictures of it stand in `report/frontier/`.
+//! Error against cost as data: every method is a point, as is a user's function if there is one, with the Pareto frontier. Pages
+//! and pictures of it are made in `pictures/frontier/`.
 
 mod audited;
 mod data;
@@ -23,15 +23,15 @@ pub use sets::{STATISTICS, set_name};
 pub struct ErrorAxis {
     /// Its name on the command line and in reports.
     pub name: &'static str,
-    /// What stands along the axis.
+    /// The label of the axis.
     pub short: &'static str,
-    /// What it is, in full.
+    /// Its description in full.
     pub title: &'static str,
     /// The error by this measure, where it is known.
     pub value: fn(&MethodErrors) -> Option<f64>,
 }
 
-/// All of them; the first is the default.
+/// All measures. The first is the default.
 pub static ERRORS: [ErrorAxis; 4] = [
     ErrorAxis {
         name: "max",
@@ -59,18 +59,18 @@ pub static ERRORS: [ErrorAxis; 4] = [
     },
 ];
 
-/// A function on the chart: a method with its intended inputs, or with those whose largest error is least; or a user's own.
+/// A function on the chart: a method with its intended inputs or with those of the smallest largest error, or a user's own.
 #[derive(Clone, Debug)]
 pub struct ChartEntry {
-    /// Whose it is.
+    /// The method, or the user's function.
     pub function: FunctionOrigin,
-    /// Whether its inputs are the best ones, not those that it was meant to have.
+    /// Whether its inputs are the best ones, not the intended ones.
     pub is_best: bool,
     /// Texture fetches, which instruction counts do not include.
     pub fetches: usize,
 }
 
-/// Whose a function is.
+/// The origin of a function.
 #[derive(Clone, Debug)]
 pub enum FunctionOrigin {
     /// A method's.
@@ -84,58 +84,58 @@ pub enum FunctionOrigin {
 pub struct UserFunction {
     /// Its name.
     pub name: String,
-    /// What it is, in a sentence without its full stop.
+    /// A description: a sentence without its full stop.
     pub about: String,
-    /// What is wrong with it, if anything is.
+    /// What is wrong with it, if anything.
     pub fails: Option<String>,
-    /// Why its cost has no place beside ours, if it has none.
+    /// Why its cost is not comparable with ours, if it is not.
     pub no_cost: Option<String>,
-    /// How many numbers a material takes by it.
+    /// How many numbers describe a material in it.
     pub input_numbers: usize,
 }
 
-/// What an evaluation costs somewhere.
+/// An axis of cost: that of an evaluation, by one measure.
 #[derive(Clone, Debug)]
 pub struct CostAxis {
     /// Its name on the command line: a family of GPUs, or `time`.
     pub name: &'static str,
-    /// What stands along the axis.
+    /// The label of the axis.
     pub title: String,
-    /// Whether the figure holds what a texture fetch costs.
+    /// Whether the figure includes the cost of texture fetches.
     pub holds_fetches: bool,
-    /// The cost of each entry's function; none where it is not known.
+    /// The cost of each entry's function. None where it is not known.
     pub costs: Vec<Option<f64>>,
 }
 
-/// A material, or many of them taken together.
+/// A material, or a class of materials summarised by a statistic.
 #[derive(Clone, Debug)]
 pub struct MaterialSet {
-    /// Its name on the page: a material's, or a class with how it is taken together.
+    /// Its name on the page: a material's, or a class's with a statistic.
     pub name: String,
-    /// In words.
+    /// Its name in words.
     pub title: String,
-    /// How many materials it holds.
+    /// The number of its materials.
     pub count: usize,
-    /// The errors of each entry; unknown where the method does not describe the material.
+    /// The errors of each entry. Unknown where the method does not describe the material.
     pub errors: Vec<MethodErrors>,
     /// The materials that the method of each entry does not describe.
     pub undescribed: Vec<Vec<String>>,
 }
 
-/// All that the charts show.
+/// The data of all charts.
 #[derive(Clone, Debug)]
 pub struct ChartData {
     /// The functions.
     pub entries: Vec<ChartEntry>,
     /// The axes of cost.
     pub costs: Vec<CostAxis>,
-    /// What errors are of.
+    /// The sets of materials.
     pub sets: Vec<MaterialSet>,
-    /// The command that makes it.
+    /// The command that makes the charts.
     pub command: String,
 }
 
-/// One chart of them: which set, by which cost, by which error.
+/// One of the charts: a set of materials, a measure of cost, and a measure of error.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartView<'a> {
     /// All data.
@@ -144,7 +144,7 @@ pub struct ChartView<'a> {
     pub set: &'a MaterialSet,
     /// The cost.
     pub cost: &'a CostAxis,
-    /// Which of [`ERRORS`].
+    /// The index of the measure of error in [`ERRORS`].
     pub error: usize,
 }
 
@@ -157,7 +157,7 @@ pub struct ChartPoint<'a> {
     pub cost: f64,
     /// Its error.
     pub error: f64,
-    /// Whether nothing is better in one and as good in the other.
+    /// Whether no point is better in one and as good in the other.
     pub is_on_frontier: bool,
 }
 
@@ -179,12 +179,12 @@ pub struct PointRow<'a> {
     left_out: Option<LeftOutErrors>,
 }
 
-/// What errs by less is drawn here, and is as good: no index was ever measured so well.
+/// The smallest error that is drawn. Smaller ones are drawn here and count as equal, since no index was ever measured so well.
 pub const LEAST_ERROR: f64 = 1e-5;
 
 impl<'a> ChartView<'a> {
-    /// The points, by cost, then by error. Where the figure does not hold what a fetch costs, what reads a texture is not on
-    /// the frontier, and keeps nothing from it; nor does a method that fails inside its domain.
+    /// The points, by cost, then by error. Some take no part in the frontier and keep no other point from it: functions that read
+    /// a texture, where the cost does not include fetches, and methods that fail inside their domain.
     pub fn points(&self) -> Vec<ChartPoint<'a>> {
         let rows = self.data.entries.iter().enumerate();
         let known = rows.filter_map(|(place, entry)| {
@@ -214,7 +214,7 @@ impl<'a> ChartView<'a> {
         known.iter().enumerate().map(point).collect()
     }
 
-    /// The error of an entry by the measure that is shown.
+    /// The error of an entry by the view's measure.
     fn error_of(&self, place: usize) -> Option<f64> {
         (ERRORS[self.error].value)(&self.set.errors[place])
     }
@@ -236,7 +236,7 @@ impl<'a> ChartView<'a> {
         Some(format!("{} has no point here: {why}.", user.name))
     }
 
-    /// What the chart shows, in one line that begins with the set's title.
+    /// The title of the chart: one line that begins with the set's title.
     pub fn title(&self) -> String {
         let (set, error) = (&self.set.title, ERRORS[self.error].title);
         format!("{set}: {error}, against cost")
@@ -266,7 +266,7 @@ impl<'a> ChartView<'a> {
 }
 
 impl ChartEntry {
-    /// What a method errs with the inputs that it was meant to have, by numbers that were chosen without the substance.
+    /// The left-out errors of a method with its intended inputs: those by numbers that were chosen without the substance.
     fn left_out(&self, set: &MaterialSet) -> Option<LeftOutErrors> {
         let method = self.method().filter(|_| !self.is_best);
         method.and_then(|method| left_out(method, set))
@@ -280,7 +280,7 @@ impl ChartEntry {
         }
     }
 
-    /// What is known of it as a user's, if it is one.
+    /// The user's function, if it is one.
     pub fn user(&self) -> Option<&UserFunction> {
         match &self.function {
             FunctionOrigin::Method(_) => None,
@@ -296,7 +296,7 @@ impl ChartEntry {
         }
     }
 
-    /// Its name on charts: a star where its inputs are the best ones, a word where it is a user's.
+    /// Its name on charts, with a star where its inputs are the best ones, or a word where it is a user's.
     pub fn label(&self) -> String {
         let mark = match (&self.function, self.is_best) {
             (FunctionOrigin::User(_), _) => " (yours)",
@@ -306,7 +306,7 @@ impl ChartEntry {
         format!("{}{mark}", self.name())
     }
 
-    /// Where it fails, if it breaks the contract of functions.
+    /// Where it fails, if it does not keep the contract of functions.
     pub fn fails(&self) -> Option<&str> {
         match &self.function {
             FunctionOrigin::User(user) => user.fails.as_deref(),
@@ -317,12 +317,12 @@ impl ChartEntry {
         }
     }
 
-    /// Whether its form is ours.
+    /// Whether its formula is ours.
     pub fn is_ours(&self) -> bool {
         self.method().is_some_and(Method::is_ours)
     }
 
-    /// How many numbers a material takes by it.
+    /// How many numbers describe a material in it.
     pub fn input_numbers(&self) -> usize {
         match &self.function {
             FunctionOrigin::User(user) => user.input_numbers,
@@ -330,7 +330,7 @@ impl ChartEntry {
         }
     }
 
-    /// Which inputs it has, or that it is a user's, in one word.
+    /// One word for its inputs, or for a user's function.
     pub fn inputs(&self) -> &'static str {
         match (&self.function, self.is_best) {
             (FunctionOrigin::User(_), _) => "yours",
@@ -341,7 +341,7 @@ impl ChartEntry {
     }
 }
 
-/// Where an error is drawn.
+/// The position at which an error is drawn, at least [`LEAST_ERROR`].
 pub fn drawn(error: f64) -> f64 {
     error.max(LEAST_ERROR)
 }

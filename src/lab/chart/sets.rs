@@ -1,15 +1,15 @@
-//! What errors are of: a material alone, or a class with its materials taken together in some way.
+//! The sets of materials that errors are shown for: a single material, or a class summarised by a statistic.
 
 use super::MaterialSet;
 use crate::generator::fit::MethodErrors;
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::physics::num::statistics::{median, medians, quantile};
 
-/// How a class is taken together: the middle of its materials, where nine of ten end, the worst, or the middle over substances,
-/// each with one vote however often it was measured.
+/// The statistics of a class: the median of its materials, the 90th percentile, the worst, or the median over substances, each of
+/// which counts once however often it was measured.
 pub const STATISTICS: [&str; 4] = ["median", "p90", "worst", "substances"];
 
-/// The sets of these materials: classes first, where they hold more than one, then each material.
+/// The sets of these materials: first the classes that hold more than one, then each material.
 pub fn sets(subjects: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
     let classes = MaterialClass::ALL.into_iter();
     let classes = classes.flat_map(|class| class_sets(class, subjects, errors));
@@ -31,7 +31,7 @@ pub fn set_name(class: MaterialClass, statistic: &str) -> String {
     format!("{}-{statistic}", class.name())
 }
 
-/// A class taken together in each way; nothing of fewer than two materials.
+/// A class by each statistic. Empty for fewer than two materials.
 fn class_sets(
     class: MaterialClass,
     subjects: &[MaterialInMedium],
@@ -55,7 +55,7 @@ fn class_sets(
     STATISTICS.iter().map(set).collect()
 }
 
-/// The materials of which each entry has no error, since its method does not describe them.
+/// The materials for which each entry has no error, since its method does not describe them.
 fn undescribed(own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<Vec<String>> {
     let entries = own.first().map_or(0, |(_, errors)| errors.len());
     let unknown = |place: usize| {
@@ -77,10 +77,10 @@ fn set_title(class: MaterialClass, statistic: &str, count: usize) -> String {
     format!("{statistic} {count} {}", class.title())
 }
 
-/// A method that describes all materials of a class but one in so many is shown for the others.
+/// A method is shown for a class if it describes all materials but one in this many.
 const ALL_BUT: usize = 20;
 
-/// Each entry's errors, of all materials together, or of all but the few that the method does not describe.
+/// Each entry's errors by a statistic over all materials, or over all but the few that the method does not describe.
 fn together(statistic: &str, own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<MethodErrors> {
     let taken = |described: &[(&str, MethodErrors)]| {
         let substances = || described.iter().map(|(substance, _)| *substance);

@@ -1,5 +1,6 @@
-//! The fragment shader around a measured function, in any language: a chain of evaluations `r0 = f(c0)`, `c1 = r0.x * r0.y - r0.z
-//! + w.z`, `r1 = f(c1)`, and so on. Also the shape of a text: the text with a mark in place of each number.
+//! The fragment shader around a measured function, in any language: a chain of evaluations `r0 = f(c0)`,
+//! `c1 = r0.x * r0.y - r0.z + w.z`, `r1 = f(c1)`, and so on. Also the shape of a text: the text with a mark in place of
+//! each number.
 //!
 //! Location 0 holds the weights `w` and the first number. The function is called [`MEASURED`], and takes its cosine first. Where
 //! its first argument is a vector, it is `w * c0`, `w * c1`, and so on.
@@ -180,7 +181,7 @@ fn is_number(text: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Digits, a point, an exponent with its sign, and letters that say the type.
+/// The length of a number: digits, a point, an exponent with its sign, and letters of the type.
 fn number_length(text: &str) -> usize {
     let plain = length(text, |c| c.is_ascii_alphanumeric() || c == '.');
     let is_open = text[..plain].ends_with(['e', 'E']);

@@ -154,8 +154,8 @@ impl CostRow {
         }
     }
 
-    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`, `exit_transmittance:
-    /// schlick`.
+    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`,
+    /// `exit_transmittance: schlick`.
     pub fn label(&self) -> String {
         let of = self.material.as_deref().or(self.effect);
         let names: Vec<&str> = of.into_iter().chain(self.method).collect();

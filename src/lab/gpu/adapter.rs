@@ -1,6 +1,4 @@
-//! What the machine has: its adapters, and the one that is wanted.
-//!
-//! What can go wrong between a shader and its results.
+//! The adapters of the machine, the choice among them, and the faults between a shader and its results.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -8,16 +6,16 @@ use std::sync::OnceLock;
 use super::egl;
 use super::quiet::hush;
 
-/// What a device is.
+/// A description of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Adapter {
     /// The name that its driver gives it.
     pub name: String,
     /// The driver with its version.
     pub driver: String,
-    /// The interface that it is spoken to by.
+    /// Its graphics interface.
     pub backend: Backend,
-    /// What stands behind it.
+    /// Its kind of hardware.
     pub kind: AdapterKind,
 }
 
@@ -36,39 +34,39 @@ pub enum Backend {
     Gles,
 }
 
-/// What stands behind an adapter, the fastest first.
+/// The kind of hardware of an adapter, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AdapterKind {
-    /// A card.
+    /// A discrete GPU.
     Discrete,
-    /// A part of the processor.
+    /// A GPU integrated with the processor.
     Integrated,
-    /// One that a host lends to a guest.
+    /// A GPU that a host provides to a guest.
     Virtual,
-    /// It does not say.
+    /// Not reported.
     Unknown,
     /// Software.
     Software,
 }
 
-/// What is asked for; nothing in it means: the best there is, OpenGL left out.
+/// The requested device. If nothing is given: the best there is, without OpenGL.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// The interface.
     pub backend: Option<Backend>,
-    /// A part of the name, in whatever case.
+    /// A part of the name, ignoring case.
     pub name: Option<String>,
 }
 
-/// What hides drivers that are installed.
+/// Variables that may hide installed drivers.
 const DRIVERS: &str =
     "; where VK_DRIVER_FILES or VK_ICD_FILENAMES is set it must name the file of a driver";
-/// What Vulkan needs on Debian, and OpenGL.
+/// The packages that Vulkan needs on Debian, and those that OpenGL needs.
 const VULKAN_PACKAGES: &str = "mesa-vulkan-drivers libvulkan1";
 pub(super) const OPENGL_PACKAGES: &str = "libegl1 libegl-mesa0 libgles2 libgl1-mesa-dri";
 
 impl Backend {
-    /// All of them, the preferred first.
+    /// All interfaces, the preferred first.
     pub const ALL: [Backend; 5] = [
         Backend::Vulkan,
         Backend::Metal,
@@ -101,16 +99,16 @@ impl fmt::Display for Adapter {
     }
 }
 
-/// Everything that shaders can be run on here.
+/// All devices here that can run shaders.
 pub fn adapters() -> Vec<Adapter> {
     let mut all: Vec<Adapter> = found().iter().map(describe).collect();
     all.extend(egl::Context::open().map(|context| context.adapter.clone()));
     all
 }
 
-/// The adapters of wgpu, the preferred first: looked for once in a process and kept. An instance that is dropped
-/// terminates the EGL display, and other contexts with it; and each search gives another handle to the same context of
-/// OpenGL with a lock of its own, so that two threads could take it at once.
+/// The adapters of wgpu, the preferred first, searched for once per process and kept. Dropping an instance terminates the EGL
+/// display, and other contexts with it. Each search would also give another handle to the same OpenGL context, with a lock of its
+/// own, so that two threads could use it at once.
 fn found() -> &'static [wgpu::Adapter] {
     static FOUND: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
     let (_, found) = FOUND.get_or_init(|| {
@@ -127,7 +125,7 @@ fn found() -> &'static [wgpu::Adapter] {
     found
 }
 
-/// The first adapter that is wanted.
+/// The first adapter that fits the request.
 pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, DeviceFault> {
     let found = found();
     let there: Vec<String> = found.iter().map(|a| describe(a).to_string()).collect();
@@ -141,7 +139,7 @@ pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, DeviceFa
 impl Wanted {
     fn fits(&self, adapter: &Adapter) -> bool {
         let lower = adapter.name.to_lowercase();
-        // OpenGL takes no SPIR-V, so it stands in for nothing: it is taken where it is named.
+        // OpenGL takes no SPIR-V, so it is not a fallback and is used only where it is named.
         self.backend
             .map_or(adapter.backend != Backend::OpenGl, |backend| {
                 backend == adapter.backend
@@ -184,7 +182,7 @@ fn absent(wanted: &Wanted, there: &[String]) -> DeviceFault {
     DeviceFault::Absent { what, get }
 }
 
-/// An adapter of wgpu in our words.
+/// The description of an adapter of wgpu.
 pub(super) fn describe(adapter: &wgpu::Adapter) -> Adapter {
     let info = adapter.get_info();
     let driver = format!("{} {}", info.driver, info.driver_info);
@@ -201,7 +199,7 @@ fn backend(backend: wgpu::Backend) -> Backend {
         wgpu::Backend::Metal => Backend::Metal,
         wgpu::Backend::Dx12 => Backend::Direct3d12,
         wgpu::Backend::Gl => Backend::OpenGl,
-        // The others are of the web and of tests, and not compiled.
+        // The others are for the web and for tests, and are not compiled in.
         _ => Backend::Vulkan,
     }
 }
@@ -219,15 +217,15 @@ fn kind(kind: wgpu::DeviceType) -> AdapterKind {
 /// Why a shader gave no results.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DeviceFault {
-    /// There is nothing to run on.
+    /// There is no device to run on.
     #[error("{what}; {get}")]
     Absent {
-        /// What is not there.
+        /// What is missing.
         what: String,
-        /// How to come by it, or what there is in its place.
+        /// How to get it, or what there is in its place.
         get: String,
     },
-    /// What there is cannot do this.
+    /// The device cannot do this.
     #[error("{device} cannot do this: {what}")]
     Unable {
         /// The device's name.
@@ -235,10 +233,10 @@ pub enum DeviceFault {
         /// What it was asked for.
         what: String,
     },
-    /// The program was not accepted, or what it was to be run with does not fit it.
+    /// The program was not accepted, or its inputs do not fit it.
     #[error("the shader was refused: {log}")]
     Refused {
-        /// The words of the compiler, or of what checked it.
+        /// The message of the compiler or the check.
         log: String,
     },
     /// The device stopped working.
@@ -250,7 +248,7 @@ pub enum DeviceFault {
 }
 
 impl DeviceFault {
-    /// A refusal in these words.
+    /// A refusal with this message.
     pub(super) fn refused(log: impl ToString) -> DeviceFault {
         let log = log.to_string().trim_end().to_owned();
         DeviceFault::Refused { log }

@@ -1,8 +1,7 @@
-//! Full-screen shaders drawn one over the other into one target, for the time that it takes: with the device's own
-//! timestamps where it has them.
+//! Full-screen shaders drawn over each other into one target, to measure their time, by the device's timestamps where it has them.
 //!
-//! A layer that blends is added to what lies below, so that no draw of it can be left out. The target holds half floats,
-//! as targets of scenes do.
+//! A blended layer is added to those below, so that none of its draws can be skipped. The target holds half floats, like those of
+//! scenes.
 
 use std::rc::Rc;
 
@@ -12,9 +11,9 @@ use super::adapter::{Adapter, DeviceFault};
 use super::kernel::{self, Compute};
 use super::slot::Texture;
 
-/// What a target holds: half floats blend everywhere.
+/// The format of the target. Half floats can be blended on all devices.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// The two timestamps of a pass.
+/// The bytes of the two timestamps of a pass.
 const STAMPS: u64 = 2 * wgpu::QUERY_SIZE as u64;
 
 /// A square target.
@@ -25,20 +24,20 @@ pub struct Canvas {
     stamps: Option<Stamps>,
 }
 
-/// A shader as it is drawn: text in WGSL with both entry points.
+/// A shader to be drawn: text in WGSL with both entry points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shader<'a> {
     /// The module.
     pub text: &'a str,
-    /// The entry point for vertices, three of which make a triangle that covers the target.
+    /// The vertex entry point. Its three vertices make a triangle that covers the target.
     pub vertex: &'a str,
-    /// The entry point for pixels.
+    /// The fragment entry point.
     pub fragment: &'a str,
-    /// The bytes of the uniform block at binding 0; none if there is none.
+    /// The bytes of the uniform block at binding 0. Empty if there is none.
     pub uniforms: &'a [u8],
-    /// What it reads at bindings 3 and 4.
+    /// The texture at binding 3, with its sampler at 4.
     pub texture: Option<&'a Texture<'a>>,
-    /// Whether it is added to what lies below, or replaces it.
+    /// Whether it is added to the layers below, or replaces them.
     pub blends: bool,
 }
 
@@ -48,7 +47,7 @@ pub struct Layer {
     group: Option<wgpu::BindGroup>,
 }
 
-/// Where the device writes the time at both ends of a pass.
+/// The queries and buffers of the timestamps at both ends of a pass.
 struct Stamps {
     set: wgpu::QuerySet,
     resolved: wgpu::Buffer,
@@ -78,7 +77,7 @@ impl Canvas {
         })
     }
 
-    /// What it is drawn on.
+    /// The device that draws.
     pub fn adapter(&self) -> &Adapter {
         &self.compute.adapter
     }
@@ -88,12 +87,12 @@ impl Canvas {
         self.compute.has(Features::SHADER_F16)
     }
 
-    /// How many pixels the target has.
+    /// The number of pixels in the target.
     pub fn pixels(&self) -> u64 {
         u64::from(self.pixels).pow(2)
     }
 
-    /// Compiles a shader and uploads what it reads.
+    /// Compiles a shader and uploads its inputs.
     ///
     /// # Errors
     /// It does not compile, or not for this device.
@@ -110,10 +109,10 @@ impl Canvas {
         })
     }
 
-    /// Writes down what is to be drawn, in one pass: each layer so many times.
+    /// Records one pass that draws each layer so many times.
     ///
     /// # Errors
-    /// The device does not take it.
+    /// The device does not accept it.
     pub fn record(&self, layers: &[(&Layer, u32)]) -> Result<wgpu::CommandBuffer, DeviceFault> {
         let device = &self.compute.device;
         self.compute.guarded(|| {
@@ -126,7 +125,7 @@ impl Canvas {
         })
     }
 
-    /// Draws what was written down, and waits for it.
+    /// Draws what was recorded, and waits for it.
     ///
     /// # Errors
     /// The device is lost.
@@ -137,7 +136,7 @@ impl Canvas {
         self.compute.wait(submission)
     }
 
-    /// The nanoseconds that the last drawing took by the device's own clock, where it has one.
+    /// The nanoseconds that the last drawing took by the device's timestamps, where it has them.
     ///
     /// # Errors
     /// The device is lost.
@@ -202,7 +201,7 @@ impl Stamps {
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.read, 0, STAMPS);
     }
 
-    /// The time between both; 0 where the clock stands still or runs backwards.
+    /// The time between both timestamps in nanoseconds. 0 where the clock stands still or runs backwards.
     fn read(&self, compute: &Compute) -> Result<f64, DeviceFault> {
         let whole = self.read.slice(..);
         compute.guarded(|| whole.map_async(wgpu::MapMode::Read, |_| {}))?;
@@ -238,7 +237,7 @@ fn target(device: &wgpu::Device, pixels: u32) -> wgpu::TextureView {
     made.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// What a pipeline reads, where it reads anything: its layout is what its text says.
+/// The bind group of a pipeline, where it reads anything. Its layout is derived from its text.
 fn bound(
     compute: &Compute,
     pipeline: &wgpu::RenderPipeline,
@@ -300,7 +299,7 @@ fn pipeline(device: &wgpu::Device, shader: &Shader) -> wgpu::RenderPipeline {
     })
 }
 
-/// What is drawn is added to what is there.
+/// Additive blending.
 const ADDED: wgpu::BlendState = {
     let sum = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,

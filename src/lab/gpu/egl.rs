@@ -1,4 +1,4 @@
-//! An OpenGL ES 3.0 context without a window, through EGL as the machine has it.
+//! An OpenGL ES 3.0 context without a window, through the machine's EGL library.
 #![allow(unsafe_code)]
 
 use std::sync::OnceLock;
@@ -16,7 +16,7 @@ pub(super) struct Context {
     egl: &'static Egl,
     display: egl::Display,
     context: egl::Context,
-    /// What it is.
+    /// The description of its device.
     pub adapter: Adapter,
     pub gl: glow::Context,
 }
@@ -45,7 +45,7 @@ impl Context {
         })
     }
 
-    /// Makes it current on this thread, which another may have left.
+    /// Makes it current on this thread, where another may be current.
     pub fn enter(&self) -> Result<&glow::Context, DeviceFault> {
         self.egl
             .bind_api(egl::OPENGL_ES_API)
@@ -56,7 +56,7 @@ impl Context {
 }
 
 impl Drop for Context {
-    /// The display is left as it is: it is the process's, and others may have contexts on it.
+    /// The display is kept: it belongs to the process, and others may have contexts on it.
     fn drop(&mut self) {
         if self.egl.get_current_context() == Some(self.context) {
             let _ = self.egl.make_current(self.display, None, None, None);
@@ -73,7 +73,7 @@ pub(super) fn library() -> Result<&'static Egl, DeviceFault> {
     LIBRARY.get_or_init(load).as_ref().map_err(absent)
 }
 
-/// The display without windows, or else the default one.
+/// The display without windows, or the default one.
 fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
     let none = [egl::ATTRIB_NONE];
     // SAFETY: these displays take no pointer; that of the platform must be the default.
@@ -85,7 +85,7 @@ fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
     }
 }
 
-/// A context of version 3.0: without a configuration, which only surfaces need, or else with the first that fits.
+/// A context of version 3.0, without a configuration, which only surfaces need, or otherwise with the first that fits.
 fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, DeviceFault> {
     let version = [
         egl::CONTEXT_MAJOR_VERSION,
@@ -94,7 +94,7 @@ fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, DeviceFault>
         0,
         egl::NONE,
     ];
-    // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never looked through.
+    // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never dereferenced.
     let no_config = unsafe { egl::Config::from_ptr(std::ptr::null_mut()) };
     if let Ok(context) = egl.create_context(display, no_config, None, &version) {
         return Ok(context);
@@ -117,7 +117,7 @@ pub(super) fn enter(
         .map_err(absent)
 }
 
-/// What the current context is.
+/// The description of the current context.
 fn describe(gl: &glow::Context) -> Adapter {
     // SAFETY: the caller has made the context current.
     let text = |name| unsafe { gl.get_parameter_string(name) };

@@ -1,4 +1,4 @@
-//! GLSL ES 3.00 as it is written: a vertex shader whose output is caught by transform feedback, exact to the bit.
+//! Runs GLSL ES 3.00 as it is written: a vertex shader whose output is captured by transform feedback, exact to the bit.
 #![allow(unsafe_code)]
 
 use std::rc::Rc;
@@ -10,11 +10,11 @@ use super::egl::Context;
 use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
 use super::slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 
-/// Cosines of a draw.
+/// The number of cosines in a draw.
 const BLOCK: usize = 1 << 18;
 /// Bytes of a result.
 const RESULT: usize = 12;
-/// Nothing is rasterised, and yet a program has two shaders.
+/// The fragment shader that every program needs, although nothing is rasterised.
 const FRAGMENT: &str = "#version 300 es\nvoid main() {}\n";
 /// Bytes of four numbers.
 const PLACE: usize = 16;
@@ -32,17 +32,17 @@ pub(super) struct Kernel {
     attributes: Attributes,
 }
 
-/// The arguments of a point.
+/// The vertex attributes of a point.
 #[derive(Clone, Copy)]
 enum Attributes {
     /// `cos_theta`, a number.
     Cosine,
-    /// `fg_0`, `fg_1` and so on, so many, four numbers each.
+    /// So many attributes `fg_0`, `fg_1` and so on, of four numbers each.
     Places(usize),
 }
 
 impl Attributes {
-    /// The attributes' names in the order of their places, and how many numbers each has.
+    /// The attributes' names in the order of their locations, and how many numbers each has.
     fn names(self) -> (Vec<String>, usize) {
         match self {
             Attributes::Cosine => (vec!["cos_theta".to_owned()], 1),
@@ -59,7 +59,7 @@ impl Attributes {
     }
 }
 
-/// What a run needs on the device, taken down when the run ends.
+/// The objects that a run needs on the device, deleted when the run ends.
 struct Objects<'a> {
     gl: &'a glow::Context,
     array: glow::VertexArray,
@@ -102,7 +102,7 @@ impl Kernel {
         })
     }
 
-    /// Runs over points: the numbers of each behind those of the one before.
+    /// Runs over points, whose numbers follow each other point by point.
     pub fn run(
         &self,
         points: &[f32],
@@ -131,7 +131,7 @@ impl Kernel {
         Ok(results)
     }
 
-    /// Sets the arguments. One that the compiler found unused has no place, and is passed over.
+    /// Sets the arguments. One that the compiler found unused has no location and is skipped.
     unsafe fn set(&self, gl: &glow::Context, uniforms: &[Uniform]) {
         for uniform in uniforms {
             // SAFETY: the caller has made the context current, and the program.
@@ -156,7 +156,7 @@ impl Drop for Kernel {
 }
 
 impl<'a> Objects<'a> {
-    /// Buffers for blocks of so many points, and a target to draw to, without which every draw is an error.
+    /// Buffers for blocks of so many points, and a render target, without which every draw is an error.
     fn new(
         gl: &'a glow::Context,
         points: usize,
@@ -200,7 +200,7 @@ impl<'a> Objects<'a> {
         }
     }
 
-    /// The same with a texture in unit 0, which is where a sampler looks unless told otherwise.
+    /// These objects with a texture in unit 0, the default unit of a sampler.
     fn with(mut self, texture: &Texture, context: &Context) -> Result<Objects<'a>, DeviceFault> {
         let gl = self.gl;
         let (internal, ty, needed) = match texture.format {
@@ -255,7 +255,7 @@ impl<'a> Objects<'a> {
         check(gl).map(|()| self)
     }
 
-    /// Draws so many points and reads what was caught.
+    /// Draws so many points and reads the captured results.
     fn draw(&self, numbers: &[f32], points: usize, results: &mut Vec<[f32; 3]>) {
         let gl = self.gl;
         let bytes = bytemuck::cast_slice(numbers);
@@ -317,7 +317,7 @@ fn link(
     }
 }
 
-/// Compiles both shaders of a program and links it; names are bound between.
+/// Compiles both shaders of a program, binds names, and links it.
 pub(super) unsafe fn build(
     gl: &glow::Context,
     program: glow::Program,
@@ -333,7 +333,7 @@ pub(super) unsafe fn build(
         ] {
             let shader = gl.create_shader(ty).map_err(DeviceFault::lost)?;
             gl.attach_shader(program, shader);
-            // It goes with the program.
+            // It is deleted with the program.
             gl.delete_shader(shader);
             gl.shader_source(shader, text);
             gl.compile_shader(shader);
@@ -358,7 +358,7 @@ fn cube_sides() -> Vec<u32> {
         .collect()
 }
 
-/// Takes up the first error since the last time.
+/// Reports the first error since the last check.
 fn check(gl: &glow::Context) -> Result<(), DeviceFault> {
     // SAFETY: the caller has made the context current.
     match unsafe { gl.get_error() } {

@@ -1,5 +1,5 @@
-//! A context of OpenGL ES on a device's render node, whose driver's remarks are kept: where it is told to, Mesa says of
-//! every shader what it became. Nothing is drawn, so that a stand-in for the kernel's driver is enough.
+//! A context of OpenGL ES on a device's render node that keeps the driver's debug messages. If told to, Mesa reports statistics
+//! of every compiled shader in them. Nothing is drawn, so a stand-in for the kernel driver is enough.
 #![allow(unsafe_code)]
 
 use std::ffi::{c_int, c_void};
@@ -16,30 +16,30 @@ use super::gles::build;
 
 /// A context on a render node. It lives as long as the process.
 pub struct GlesCompiler {
-    /// What the driver calls the device.
+    /// The driver's name of the device.
     pub name: String,
-    /// The version of OpenGL ES, and the driver's.
+    /// The version of OpenGL ES and of the driver.
     pub driver: String,
     gl: glow::Context,
     remarks: Arc<Mutex<Vec<String>>>,
 }
 
-/// The node of the first device.
+/// The render node of the first device.
 const PATH: &str = "/dev/dri/renderD128";
 /// `EGL_PLATFORM_GBM_KHR`, of the extension EGL_KHR_platform_gbm.
 const PLATFORM_GBM: egl::Enum = 0x31D7;
-/// `EGL_CONTEXT_FLAGS_KHR` and `EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR`, of the extension EGL_KHR_create_context: older drivers
-/// know no other way to ask for remarks.
+/// `EGL_CONTEXT_FLAGS_KHR` and `EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR`, of the extension EGL_KHR_create_context. Older drivers have no
+/// other way to ask for debug messages.
 const CONTEXT_FLAGS: egl::Int = 0x30FC;
 const DEBUG_BIT: egl::Int = 1;
-/// The attribute that the vertices come by.
+/// The location of the vertex attribute.
 const CORNER: u32 = 0;
 
 impl GlesCompiler {
     /// Opens the node with a context of this version of OpenGL ES, or a later one that takes its shaders.
     ///
     /// # Errors
-    /// There is none, or its driver gives no context.
+    /// There is no node, or its driver gives no context.
     pub fn open(major: i32) -> Result<GlesCompiler, DeviceFault> {
         let egl = library()?;
         let display = display(egl)?;
@@ -61,10 +61,10 @@ impl GlesCompiler {
         })
     }
 
-    /// Compiles and links a program, and gives what the driver remarked on the way. The vertices' attribute is `fg_corner`.
+    /// Compiles and links a program, and returns the driver's debug messages. The vertex attribute is `fg_corner`.
     ///
     /// # Errors
-    /// The driver refuses it, in its words.
+    /// The driver refuses it, with this message.
     pub fn link(&self, vertex: &str, fragment: &str) -> Result<Vec<String>, DeviceFault> {
         self.take();
         // SAFETY: the context is current on this thread, and the program is its own.
@@ -85,7 +85,7 @@ impl GlesCompiler {
     }
 }
 
-/// Keeps what the driver says.
+/// Keeps the driver's debug messages.
 fn listen(gl: &mut glow::Context, remarks: Arc<Mutex<Vec<String>>>) {
     let keep = move |_source, _type, _id, _severity, text: &str| {
         let mut kept = remarks.lock().unwrap_or_else(PoisonError::into_inner);
@@ -120,9 +120,9 @@ fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
     }
 }
 
-/// A context that reports.
+/// A debug context.
 fn context(egl: &Egl, display: egl::Display, major: i32) -> Result<egl::Context, DeviceFault> {
-    // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never looked through.
+    // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never dereferenced.
     let no_config = unsafe { egl::Config::from_ptr(std::ptr::null_mut()) };
     let wanted = [
         egl::CONTEXT_MAJOR_VERSION,

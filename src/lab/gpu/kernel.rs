@@ -1,6 +1,5 @@
-//! A compute program ready to run: its pipeline, and what is bound to it.
-//!
-//! A device of wgpu, whose errors are values: none of them prints, and none panics.
+//! A compute program ready to run, with its pipeline and bindings, and the wgpu device that it runs on. Errors of the device are
+//! values: none of them prints or panics.
 
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -53,7 +52,7 @@ impl Kernel {
         })
     }
 
-    /// Runs over cosines, block by block, and hands the results of each over in order.
+    /// Runs over cosines, block by block, and passes on the results of each block in order.
     pub fn run(
         &self,
         cosines: &[f32],
@@ -65,7 +64,7 @@ impl Kernel {
         self.pump(blocks, uniforms, texture, take)
     }
 
-    /// Runs over points of so many places, block by block, and hands the results of each over in order.
+    /// Runs over points of so many groups of four numbers, block by block, and passes on the results of each block in order.
     pub fn run_batch(
         &self,
         points: &[[f32; 4]],
@@ -117,7 +116,7 @@ impl Kernel {
         })
     }
 
-    /// What one block is bound to.
+    /// The bindings of one block.
     pub fn bind(
         &self,
         device: &wgpu::Device,
@@ -173,7 +172,7 @@ fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, De
     }
 }
 
-/// The layout is written out: that of a SPIR-V module cannot be derived.
+/// The pipeline of a program. Its layout is explicit, since that of a SPIR-V module cannot be derived.
 fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
@@ -200,13 +199,13 @@ fn pipeline(
     (pipeline, layout)
 }
 
-/// Whether binding 0 is there. wgpu numbers the bindings of a layout anew for Vulkan, without gaps, and shaders that it
-/// has not compiled do not hear of it (<https://github.com/gfx-rs/wgpu/issues/9326>): for SPIR-V it is always there.
+/// Whether binding 0 exists. For SPIR-V it always does: wgpu renumbers the bindings of a layout for Vulkan, without gaps, but not
+/// in shaders that it has not compiled (<https://github.com/gfx-rs/wgpu/issues/9326>).
 fn has_block(program: &Program) -> bool {
     !program.uniforms.is_empty() || matches!(program.code, ShaderCode::Spirv(_))
 }
 
-/// In the order of their numbers, for the same reason.
+/// The layout's entries, in the order of binding numbers, for the same reason.
 fn entries(program: &Program, inputs: PointInputs) -> Vec<wgpu::BindGroupLayoutEntry> {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
@@ -245,7 +244,7 @@ fn entries(program: &Program, inputs: PointInputs) -> Vec<wgpu::BindGroupLayoutE
 pub(super) fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
     let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
-        // One that nobody reads is not empty either.
+        // A buffer may not be empty, even if it is never read.
         size: bytes.len().max(16) as u64,
         usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
         mapped_at_creation: false,
@@ -355,11 +354,11 @@ pub(super) struct Compute {
     pub adapter: Adapter,
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
-    /// What the driver said when it lost the device, or of an error that no scope caught.
+    /// The driver's message when it lost the device, or on an error that no scope caught.
     lost: Arc<Mutex<Option<String>>>,
 }
 
-/// What is used of an adapter where it has it.
+/// The features that are used where an adapter has them.
 const FEATURES: Features = Features::PASSTHROUGH_SHADERS
     .union(Features::FLOAT32_BLENDABLE)
     .union(Features::FLOAT32_FILTERABLE)
@@ -368,7 +367,7 @@ const FEATURES: Features = Features::PASSTHROUGH_SHADERS
     .union(Features::SHADER_F16)
     .union(Features::TIMESTAMP_QUERY);
 
-/// How long a block may take. It is a fraction of a second on a processor of long ago; what takes longer never ends.
+/// How long a block may take. Even on an old processor it takes a fraction of a second, so what takes longer never ends.
 const PATIENCE: core::time::Duration = core::time::Duration::from_secs(120);
 
 impl Compute {
@@ -395,7 +394,7 @@ impl Compute {
         })
     }
 
-    /// Whether the device has this.
+    /// Whether the device has these features.
     pub fn has(&self, features: Features) -> bool {
         self.device.features().contains(features)
     }
@@ -409,7 +408,7 @@ impl Compute {
         shared && self.has(Features::MAPPABLE_PRIMARY_BUFFERS)
     }
 
-    /// Does something, and takes up every error that it raised.
+    /// Does some work, and returns any error that it raised.
     pub fn guarded<T>(&self, work: impl FnOnce() -> T) -> Result<T, DeviceFault> {
         let filters = [
             ErrorFilter::OutOfMemory,
@@ -418,7 +417,7 @@ impl Compute {
         ];
         let scopes = filters.map(|filter| self.device.push_error_scope(filter));
         let done = work();
-        // Scopes end in the reverse of the order in which they began.
+        // Scopes end in reverse order.
         let mut errors = scopes.into_iter().rev().map(|scope| block_on(scope.pop()));
         let [validation, internal, memory] = [(); 3].map(|()| errors.next().flatten());
         if let Some(why) = memory {
@@ -431,7 +430,7 @@ impl Compute {
         }
     }
 
-    /// Waits for what was submitted.
+    /// Waits for a submission.
     pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), DeviceFault> {
         let wait = PollType::Wait {
             submission_index: Some(submission),
@@ -440,7 +439,7 @@ impl Compute {
         match self.device.poll(wait) {
             Ok(_) => self.check_alive(),
             Err(wgpu::PollError::Timeout) => {
-                // Dropping them would wait for ever.
+                // Dropping them would block forever.
                 std::mem::forget((self.device.clone(), self.queue.clone()));
                 let seconds = PATIENCE.as_secs();
                 Err(DeviceFault::lost(format!(

@@ -1,11 +1,11 @@
 //! Shaders run on a real graphics stack: cosines in, reflectances out.
 //!
-//! A [`Device`] is chosen among what the machine has, takes a [`Program`] and gives a [`Kernel`], which is run over
-//! cosines, or a [`Stream`], which is run over all numbers of a range without uploading them. WGSL and SPIR-V run as
-//! compute shaders through wgpu (Vulkan, Metal, Direct3D 12, OpenGL); GLSL ES 3.00 runs as a vertex shader in a context
-//! of just that version, with its results caught by transform feedback, exact to the bit.
+//! A [`Device`] is chosen among those of the machine. It takes a [`Program`] and gives a [`Kernel`], which is run over cosines,
+//! or a [`Stream`], which is run over all numbers of a range without uploading them. WGSL and SPIR-V run as compute shaders
+//! through wgpu (Vulkan, Metal, Direct3D 12, OpenGL). GLSL ES 3.00 runs as a vertex shader in a context of exactly that version.
+//! Its results are captured by transform feedback, exact to the bit.
 //!
-//! Nothing is linked. What is not there is a [`DeviceFault`] that says what to install, never a result.
+//! No driver library is linked. A missing one is a [`DeviceFault`] that says what to install, never a result.
 
 mod adapter;
 mod draw;
@@ -32,9 +32,9 @@ pub use program::{Argument, Program, ShaderCode, Stream, Uniform};
 pub use slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
-/// What shaders are run on. It stays on its thread.
+/// A device that shaders are run on. It stays on its thread.
 pub struct Device {
-    /// What it is.
+    /// Its description.
     pub adapter: Adapter,
     stack: Stack,
 }
@@ -59,7 +59,7 @@ enum Prepared {
 }
 
 impl Device {
-    /// The device that is wanted; of several the one that computes fastest by its kind.
+    /// Opens the requested device. Of several it is the fastest by its kind.
     ///
     /// # Errors
     /// There is none, and the fault says what there is, or what to install.
@@ -75,7 +75,7 @@ impl Device {
         })
     }
 
-    /// OpenGL ES 3.0, for GLSL ES.
+    /// Opens OpenGL ES 3.0, for GLSL ES.
     ///
     /// # Errors
     /// There is none, and the fault says what to install.
@@ -87,7 +87,7 @@ impl Device {
         })
     }
 
-    /// Whether it computes in 16 bits where a text says so; in OpenGL ES that is left to the driver.
+    /// Whether it computes in 16 bits where a text says so. In OpenGL ES that is left to the driver.
     pub fn has_half(&self) -> bool {
         match &self.stack {
             Stack::Compute(compute) => compute.has(wgpu::Features::SHADER_F16),
@@ -95,7 +95,7 @@ impl Device {
         }
     }
 
-    /// A square target to draw full-screen shaders to, so many pixels a side.
+    /// A square target for full-screen shaders, with so many pixels per side.
     ///
     /// # Errors
     /// It is larger than the device allows, or the device does not draw here: OpenGL ES does not.
@@ -109,7 +109,7 @@ impl Device {
         }
     }
 
-    /// Drawing to textures of floats, which are read back.
+    /// A device for drawing to textures of floats, which are read back.
     ///
     /// # Errors
     /// The device does not draw here: OpenGL ES does not.
@@ -139,7 +139,7 @@ impl Device {
         Ok(Kernel(prepared))
     }
 
-    /// Compiles a program of many arguments: so many places of four numbers a point, in binding 1 as
+    /// Compiles a program of many arguments. Each point has so many groups of four numbers, in binding 1 as
     /// `var<storage, read> points: array<vec4<f32>>`, in OpenGL ES as attributes `fg_0`, `fg_1` and so on.
     ///
     /// # Errors
@@ -198,7 +198,7 @@ impl Kernel {
 }
 
 impl Batch {
-    /// The result at each point: the places of its arguments stand behind those of the point before.
+    /// The result at each point. `places` holds the arguments point by point, in groups of four numbers.
     ///
     /// # Errors
     /// The texture does not fit the program or the device, or the device is lost.

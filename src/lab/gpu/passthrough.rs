@@ -1,4 +1,4 @@
-//! SPIR-V handed to the driver as it is.
+//! SPIR-V modules passed to the driver unchanged.
 #![allow(unsafe_code)]
 
 use super::adapter::{Backend, DeviceFault};
@@ -31,7 +31,7 @@ pub(super) fn module(
         let log = format!("no compute entry point `{entry}`; there is {there}");
         return Err(DeviceFault::refused(log));
     }
-    // OpenGL has the feature too, and takes GLSL by it.
+    // OpenGL has the feature too, but for GLSL.
     let is_vulkan = compute.adapter.backend == Backend::Vulkan;
     if !is_vulkan || !compute.has(wgpu::Features::PASSTHROUGH_SHADERS) {
         let device = format!(

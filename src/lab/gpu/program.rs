@@ -1,21 +1,19 @@
-//! What is run: one shape of program, and what it is run with.
+//! Programs and their arguments, and streams: programs run over all numbers of a range without uploading them.
 //!
-//! A program run over all numbers of a range, none of which is uploaded.
-//!
-//! The program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks are
-//! in flight: the device computes one while the other is read where it lies.
+//! In a stream the program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks
+//! are in flight: the device computes one while the other is read in mapped memory.
 
 use super::DeviceFault;
 use super::kernel::Kernel;
 use super::slot::{BLOCK, Block, Texture, TextureShape};
 
-/// A shader as it will be run.
+/// A shader to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ShaderCode<'a> {
     /// A WGSL module with a compute entry point.
     Wgsl(&'a str),
-    /// A SPIR-V module with a compute entry point, handed to the driver as it is. Whoever makes one up must validate
-    /// it first: a driver may do anything with a module that is not valid.
+    /// A SPIR-V module with a compute entry point, passed to the driver unchanged. The caller must have validated it, since a
+    /// driver may do anything with an invalid module.
     Spirv(&'a [u8]),
     /// A vertex shader in GLSL ES 3.00, complete, `#version` included.
     Gles(&'a str),
@@ -23,10 +21,10 @@ pub enum ShaderCode<'a> {
 
 /// A program: cosines in, reflectances out.
 ///
-/// In compute, workgroups are 64 wide, and group 0 holds: binding 0, a uniform block with the run-time arguments, none if
-/// there are none; binding 1, the cosines or, in a stream, the bits of the first; binding 2, a storage array of
-/// `vec4<f32>`, as long as there are points; bindings 3 and 4, a `texture_2d<f32>` and its sampler, none if there is no
-/// texture. The last workgroup may be wider than what is left, and the program must check `arrayLength`.
+/// In compute, workgroups are 64 wide. Group 0 holds: binding 0, a uniform block with the run-time arguments, none if there are
+/// none; binding 1, the cosines or, in a stream, the bits of the first; binding 2, a storage array of `vec4<f32>` with one
+/// element per point; bindings 3 and 4, a `texture_2d<f32>` and its sampler, none if there is no texture. The last workgroup may
+/// extend beyond the points, so the program must check `arrayLength`.
 ///
 /// A vertex shader has `in highp float cos_theta`, its arguments as uniforms by name, `uniform highp sampler2D table`
 /// if there is a texture, and `out highp vec3 reflectance`.
@@ -34,7 +32,7 @@ pub enum ShaderCode<'a> {
 pub struct Program<'a> {
     /// The shader.
     pub code: ShaderCode<'a>,
-    /// The entry point; in GLSL ES it is `main`, whatever stands here.
+    /// The entry point. In GLSL ES it is always `main`, and this is ignored.
     pub entry: &'a str,
     /// The run-time arguments in the order of the block. Only names and shapes matter here.
     pub uniforms: &'a [Uniform],
@@ -42,14 +40,14 @@ pub struct Program<'a> {
     pub texture: Option<TextureShape>,
 }
 
-/// What binding 1 of a compute program is.
+/// The content of binding 1 of a compute program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PointInputs {
     /// `var<storage, read> cosines: array<f32>`.
     Cosines,
     /// `var<uniform> first: u32`: point i has the bits `first + i`.
     Bits,
-    /// `var<storage, read> points: array<vec4<f32>>`, so many places of four numbers a point.
+    /// `var<storage, read> points: array<vec4<f32>>`, with so many elements per point.
     Places(usize),
 }
 
@@ -58,7 +56,7 @@ pub(super) enum PointInputs {
 pub struct Uniform {
     /// Its name in the text.
     pub name: String,
-    /// What it is.
+    /// Its value.
     pub value: Argument,
 }
 
@@ -71,8 +69,8 @@ pub enum Argument {
     Rgb([f32; 3]),
 }
 
-/// The bytes of the uniform block of these arguments, by the rules that WGSL and std140 share: three channels begin at
-/// a multiple of 16, and a scalar may follow them in the fourth place.
+/// The bytes of the uniform block of these arguments, by the rules that WGSL and std140 share. Three channels begin at a multiple
+/// of 16 bytes, and a scalar may follow them in the fourth component.
 pub(super) fn block(uniforms: &[Uniform]) -> Vec<u8> {
     let mut words: Vec<f32> = Vec::new();
     for uniform in uniforms {
@@ -91,7 +89,7 @@ pub(super) fn block(uniforms: &[Uniform]) -> Vec<u8> {
 /// Checks that a program gets the arguments and the texture that it was prepared for.
 ///
 /// # Errors
-/// It does not, and the fault says what is different.
+/// It does not, and the fault says what differs.
 pub(super) fn check_fit(
     wanted: &[Uniform],
     given: &[Uniform],
@@ -127,9 +125,9 @@ pub(super) fn check_fit(
 pub struct Stream(pub(super) Kernel);
 
 impl Stream {
-    /// Runs over `count` numbers from that with the bits `first` on. Block by block and in order, `take` gets the bits of
-    /// the block's first number and the results, in the device's own memory: they last as long as the call.
-    /// After 2³² numbers the bits begin anew.
+    /// Runs over `count` numbers with consecutive bits, from `first` on. Block by block and in order, `take` gets the bits of the
+    /// block's first number and the results, in mapped memory that is valid during the call. After 2³² numbers the bits wrap
+    /// around.
     ///
     /// # Errors
     /// Arguments or texture do not fit the program or the device, or the device is lost.

@@ -1,10 +1,10 @@
-//! Mesa looks for a Wayland display, and without the variable XDG_RUNTIME_DIR the Wayland library says on stderr that
-//! there is none. Nobody here wants a display; its log is given to nobody.
+//! Silences the log of the Wayland library. Mesa looks for a Wayland display, and without the variable XDG_RUNTIME_DIR the
+//! library says on stderr that there is none. No display is needed here.
 #![allow(unsafe_code)]
 
 use std::sync::Once;
 
-/// Silences the Wayland library where it would complain. No program that shows a window runs without the variable.
+/// Silences the Wayland library where the variable is not set. No program that shows a window runs without it.
 pub(super) fn hush() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -15,7 +15,7 @@ pub(super) fn hush() {
     });
 }
 
-/// What the Wayland library hands its messages to: a format as of `printf`, and its values.
+/// The type of the Wayland library's log handler: a format as of `printf`, and its values.
 #[cfg(target_os = "linux")]
 type Log = unsafe extern "C" fn(format: *const std::ffi::c_char, values: *mut std::ffi::c_void);
 

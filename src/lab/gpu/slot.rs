@@ -1,6 +1,5 @@
-//! One block of points on its way: in, computed, and read from where the device left it.
-//!
-//! A texture as a program reads it: a picture or the six sides of a cube, one level.
+//! The buffers of one block of points, which is uploaded, computed and read back, and the textures that programs read: a picture
+//! or the six sides of a cube, one level.
 
 use std::sync::mpsc::{Receiver, channel};
 
@@ -11,9 +10,9 @@ use super::adapter::DeviceFault;
 use super::kernel::{Compute, Kernel, Resources};
 use super::program::PointInputs;
 
-/// Points of a block.
+/// The number of points in a block.
 pub(super) const BLOCK: usize = 1 << 18;
-/// Points of a block whose points have many arguments.
+/// The number of points in a block of a program of many arguments.
 pub(super) const BATCH: usize = 1 << 14;
 /// Bytes of a result.
 const RESULT: u64 = 16;
@@ -25,9 +24,9 @@ const UNIFORM: u64 = 16;
 pub(super) enum Block<'a> {
     /// These cosines.
     Cosines(&'a [f32]),
-    /// So many numbers, from that with these bits on.
+    /// `count` numbers with consecutive bits, from `first` on.
     Bits { first: u32, count: usize },
-    /// These points, of so many places each.
+    /// These points, of so many groups of four numbers each.
     Places {
         points: &'a [[f32; 4]],
         places: usize,
@@ -38,11 +37,11 @@ pub(super) enum Block<'a> {
 pub(super) struct Slot {
     inputs: wgpu::Buffer,
     results: wgpu::Buffer,
-    /// What the processor reads, where it cannot read the results themselves.
+    /// The buffer that the processor reads, where it cannot read the results directly.
     landing: Option<wgpu::Buffer>,
 }
 
-/// A block that the device is at.
+/// A block in flight on the device.
 pub(super) struct Flight {
     submission: wgpu::SubmissionIndex,
     mapped: Receiver<Result<(), wgpu::BufferAsyncError>>,
@@ -103,12 +102,12 @@ impl Slot {
         }
     }
 
-    /// What the processor reads.
+    /// The buffer that the processor reads.
     fn readable(&self) -> &wgpu::Buffer {
         self.landing.as_ref().unwrap_or(&self.results)
     }
 
-    /// Sets the device to work on a block, and does not wait for it.
+    /// Submits a block to the device, without waiting for it.
     pub fn submit(
         &self,
         compute: &Compute,
@@ -120,7 +119,7 @@ impl Slot {
         let bytes = block.points() as u64 * RESULT;
         compute.guarded(|| {
             compute.queue.write_buffer(&self.inputs, 0, &inputs);
-            // The bindings are as long as the block: the program asks for the length.
+            // The bindings are as long as the block, because the program queries the length.
             let group = kernel.bind(
                 &compute.device,
                 resources,
@@ -137,7 +136,7 @@ impl Slot {
             let (tell, mapped) = channel();
             self.readable()
                 .map_async(MapMode::Read, ..bytes, move |done| {
-                    // Nobody listens any more after a fault.
+                    // The receiver is gone after a fault.
                     let _ = tell.send(done);
                 });
             Flight {
@@ -148,7 +147,7 @@ impl Slot {
         })
     }
 
-    /// Waits for a block and hands its results over where they lie.
+    /// Waits for a block and passes its results on in mapped memory.
     pub fn read(
         &self,
         compute: &Compute,
@@ -185,35 +184,35 @@ pub struct Texture<'a> {
     pub width: usize,
     /// The rows one after the other, the first at v = 0.
     pub texels: &'a [[f32; 4]],
-    /// What each becomes.
+    /// The format of a texel on the device.
     pub format: TextureFormat,
-    /// What lies beyond the edge.
+    /// The addressing beyond the edge.
     pub wrap: Wrap,
-    /// What the rows are.
+    /// Whether the rows are a picture or a cube map.
     pub shape: TextureShape,
-    /// What lies between texels.
+    /// The filter between texels.
     pub filter: TextureFilter,
 }
 
-/// What the rows of a texture are.
+/// The shape of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureShape {
     /// A picture.
     Flat,
-    /// The sides of a cube, one below the other, as OpenGL and Vulkan order and turn them: +x, -x, +y, -y, +z, -z.
+    /// The sides of a cube map, one below the other, in the order and orientation of OpenGL and Vulkan: +x, -x, +y, -y, +z, -z.
     Cube,
 }
 
-/// What a sampler gives between texels.
+/// The result of a sampler between texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureFilter {
-    /// A mixture of neighbours.
+    /// Linear interpolation of neighbours.
     Linear,
     /// The nearest texel.
     Nearest,
 }
 
-/// The kind of number that a texel holds. What is given is rounded to the nearest.
+/// The number format of a texel. Given values are rounded to nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureFormat {
     /// binary16.
@@ -224,16 +223,16 @@ pub enum TextureFormat {
     Unorm8,
     /// 16 bits, 0 to 1. Not every device has it.
     Unorm16,
-    /// The same bits as [`TextureFormat::Unorm8`], which the sampler takes through the curve of sRGB.
+    /// The bits of [`TextureFormat::Unorm8`], which the sampler decodes by the sRGB curve.
     Srgb8,
 }
 
-/// What a sampler gives beyond the edge.
+/// The result of a sampler beyond the edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// The last texel.
     Clamp,
-    /// The texels again.
+    /// The texture, repeated.
     Repeat,
 }
 
@@ -241,7 +240,7 @@ impl Texture<'_> {
     /// The number of rows.
     ///
     /// # Errors
-    /// The texels are no whole rows.
+    /// The texels do not fill whole rows.
     pub(super) fn height(&self) -> Result<usize, DeviceFault> {
         let (texels, width) = (self.texels.len(), self.width);
         if width == 0 || texels == 0 || !texels.is_multiple_of(width) {
@@ -264,7 +263,7 @@ impl Texture<'_> {
         self.width * self.format.bytes()
     }
 
-    /// All texels as the device takes them.
+    /// The bytes of all texels, in the format of the device.
     pub(super) fn bytes(&self) -> Vec<u8> {
         let values = self.texels.iter().flatten().copied();
         let steps = |value: f32, largest: f32| (value.clamp(0.0, 1.0) * largest).round();

@@ -1,7 +1,7 @@
-//! A device that compiles and never runs: with `RADV_FORCE_FAMILY` set, Mesa's driver for AMD's cards offers one of any
-//! of its families, without a card. It tells what a pipeline became, by VK_KHR_pipeline_executable_properties.
+//! A Vulkan device that compiles and never runs. With `RADV_FORCE_FAMILY` set, Mesa's driver for AMD GPUs offers a device of any
+//! of its families, without the hardware. It reports statistics of pipelines by VK_KHR_pipeline_executable_properties.
 //!
-//! wgpu cannot open such a device, so this speaks Vulkan itself.
+//! wgpu cannot open such a device, so this calls Vulkan itself.
 #![allow(unsafe_code)]
 
 use std::ffi::CStr;
@@ -12,7 +12,7 @@ use super::adapter::DeviceFault;
 
 /// A device that compiles. It lives as long as the process: drivers leave threads behind.
 pub struct VulkanCompiler {
-    /// The device that the driver plays, as it names it.
+    /// The driver's name of the device that it emulates.
     pub name: String,
     /// The driver and its version.
     pub driver: String,
@@ -32,11 +32,11 @@ pub struct ModuleEntry<'a> {
 }
 
 const PACKAGES: &str = "on Debian install mesa-vulkan-drivers libvulkan1";
-/// What colours are written to: as in a renderer that works in linear light.
+/// The format of the colour target: that of a renderer in linear light.
 const FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 impl VulkanCompiler {
-    /// Opens the device; the environment says which family. All pipelines have this vertex shader.
+    /// Opens the device. The environment selects the family. All pipelines have this vertex shader.
     ///
     /// # Errors
     /// There is none.
@@ -65,16 +65,16 @@ impl VulkanCompiler {
                 vertex: module(&device, vertex).map_err(failed)?,
                 device,
             };
-            // Never unloaded, as the device is never destroyed.
+            // Never unloaded, since the device is never destroyed.
             std::mem::forget(entry);
             Ok(compiler)
         }
     }
 
-    /// What the compiler says of a fragment shader, under its own names.
+    /// The compiler's statistics of a fragment shader, under its own names.
     ///
     /// # Errors
-    /// The driver refuses it, in its words.
+    /// The driver refuses it, with this message.
     pub fn measure(
         &self,
         vertex: &CStr,
@@ -226,7 +226,7 @@ unsafe fn create(
             .enabled_extension_names(&names)
             .push_next(&mut told)
             .push_next(&mut rendering);
-        // Families from before 16-bit arithmetic are given none.
+        // Families without 16-bit arithmetic get none.
         let wanted = if has.shader_float16 == vk::TRUE {
             wanted.push_next(&mut half).push_next(&mut storage)
         } else {

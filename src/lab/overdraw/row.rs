@@ -143,7 +143,7 @@ pub enum Error {
     /// The process that draws cannot be started.
     #[error(transparent)]
     Process(#[from] process::Error),
-    /// There is no graphics device, or its driver fails: what it said.
+    /// There is no graphics device, or its driver fails, with this message.
     #[error("{0}")]
     Device(String),
     /// The process that should open the device gives an unexpected answer.

@@ -1,8 +1,8 @@
-//! Processes of this program that answer line by line, and what the processes of a run share.
+//! Worker processes of this program, which answer requests line by line, and what the processes of a run share.
 //!
-//! The protocol is one for all: a request and its response are a line of JSON each, and before the request stand the
-//! milliseconds that the response may take. `Worker` asks, `Inbox` answers, `Pool` shares jobs out among workers.
-//! What requests and responses are, each room says in types of its own.
+//! All use one protocol. A request and its response are a line of JSON each, and the request is preceded by the milliseconds that
+//! the response may take. `Worker` asks, `Inbox` answers, and `Pool` distributes jobs among workers. Each room has its own types
+//! of requests and responses.
 
 mod pool;
 mod surroundings;

@@ -1,6 +1,4 @@
-//! The one pool of workers: jobs shared out among processes, one for each thread.
-//!
-//! Why the processes of a run cannot be started.
+//! The pool of workers, which distributes jobs among processes, one for each thread, and the errors of starting processes.
 
 use core::time::Duration;
 use std::path::PathBuf;
@@ -13,12 +11,12 @@ use thiserror::Error;
 use super::surroundings::TEMPORARY;
 use super::worker::{Launch, Worker};
 
-/// How much a run may take.
+/// The limits of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Pool {
-    /// For one response.
+    /// The time limit of one response.
     pub limit: Duration,
-    /// Processes at once.
+    /// The number of processes at once.
     pub workers: usize,
 }
 
@@ -26,18 +24,18 @@ pub struct Pool {
 pub type Work<'a, Job, Done> =
     dyn Fn(&mut Worker, &Job, &dyn Fn()) -> Result<Done, Error> + Sync + 'a;
 
-/// What is done, and how.
+/// The jobs of a run, and how they are done.
 pub struct Task<'a, Job, Done> {
     /// All jobs.
     pub jobs: &'a [Job],
-    /// How the process of a job is started. A thread keeps its process while jobs want the same.
+    /// The launch of a job's process. A thread keeps its process as long as the launch is the same.
     pub launch: &'a (dyn Fn(&Job) -> Launch + Sync),
     /// Does a job. It calls the last argument whenever there is progress.
     pub work: &'a Work<'a, Job, Done>,
 }
 
 impl Pool {
-    /// What comes of each job, in the order of jobs. `progress` hears of a job whenever there is progress in it.
+    /// The results of all jobs, in order. `progress` is called with a job whenever there is progress in it.
     ///
     /// # Errors
     /// A process cannot be started.
@@ -72,7 +70,7 @@ impl Pool {
 }
 
 impl<Job, Done> Task<'_, Job, Done> {
-    /// One thread's share of the jobs, each with its place.
+    /// The results of one thread's share of the jobs, each with its index.
     fn share(
         &self,
         next: &AtomicUsize,
@@ -90,7 +88,7 @@ impl<Job, Done> Task<'_, Job, Done> {
                 Some(worker) if worker.is_of(&launch) => worker,
                 _ => Worker::new(launch),
             };
-            // Nobody listens any more where the run has failed.
+            // The receiver is gone if the run has failed.
             let tick = || ticks.send(place).unwrap_or_default();
             share.push((place, (self.work)(&mut worker, job, &tick)?));
             kept = Some(worker);
@@ -101,7 +99,7 @@ impl<Job, Done> Task<'_, Job, Done> {
 /// Why the processes of a run cannot be started.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// The system starts no process.
+    /// The system cannot start a process.
     #[error("not checked: this program cannot start a process of its own to run shaders in: {0}")]
     Start(io::Error),
     /// Temporary files cannot be written.
@@ -115,7 +113,7 @@ pub enum Error {
         /// The system's reason.
         why: String,
     },
-    /// The folder of tools that the user names cannot be used.
+    /// The user's folder of tools cannot be used.
     #[error(
         "--tools {}: {why}; name a folder that holds compilers",
         crate::physics::foreign::path(folder)
@@ -129,7 +127,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the machine lacks something; otherwise the user's words are at fault.
+    /// Whether the machine lacks something. Otherwise the user's flags are at fault.
     pub fn is_lacking(&self) -> bool {
         !matches!(self, Error::Tools { .. })
     }

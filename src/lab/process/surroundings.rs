@@ -1,9 +1,7 @@
-//! What the processes of a run share: a folder for their temporary files, and the folder of tools that the user names.
+//! What the processes of a run share: a folder for their temporary files, and the user's folder of tools.
 //!
-//! The run holds a lock in its folder, and removes the folder at its end, and where a signal ends it too. A run that is killed leaves
+//! The run holds a lock in its folder, and removes the folder at its end, also when a signal ends it. A run that is killed leaves
 //! its folder behind. The next run removes every such folder whose lock is free.
-//!
-//! Where tools and temporary files lie.
 
 use std::collections::BTreeSet;
 use std::env::{current_exe, join_paths, split_paths, temp_dir, var_os};
@@ -18,13 +16,13 @@ use tempfile::TempDir;
 
 use super::pool::Error;
 
-/// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
+/// The prefix of a run's folder. Only folders with this prefix and our lock are ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";
 /// The file that a run holds locked.
 const LOCK: &str = "lock";
-/// Its name until it is locked, so that no other run takes it for one that was left behind.
+/// Its name until it is locked, so that no other run takes the folder for one left behind.
 const UNLOCKED: &str = "lock.new";
-/// What it says to people. On a disk that is full these bytes cannot be written, and the run says so before it begins.
+/// Its text, for people. On a full disk these bytes cannot be written, and the run reports that before it begins.
 const ABOUT: &str = "A run of fresnel-gen locks this file and removes this folder when it ends. After a run that was killed \
 the next run removes it.\n";
 
@@ -32,7 +30,7 @@ the next run removes it.\n";
 pub struct Surroundings {
     /// The folder that is searched for tools before all others.
     pub tools: Option<PathBuf>,
-    /// It is closed before the folder is removed.
+    /// The lock, which is closed before the folder is removed.
     _lock: Option<File>,
     folder: TempDir,
 }
@@ -41,7 +39,7 @@ impl Surroundings {
     /// Makes the folder, and removes those of runs that were killed.
     ///
     /// # Errors
-    /// Temporary files cannot be written, or the folder of tools is none.
+    /// Temporary files cannot be written, or the folder of tools cannot be used.
     pub fn new(tools: Option<&Path>) -> Result<Surroundings, Error> {
         let tools = tools.map(named).transpose()?;
         let place = temp_dir();
@@ -59,21 +57,21 @@ impl Surroundings {
         })
     }
 
-    /// What each process has in its environment beside our own: temporary files go into the folder, and tools that the user
-    /// names come first.
+    /// Variables of each process in addition to our environment: temporary files go into the folder, and the user's tools come
+    /// first.
     pub fn environment(&self) -> Vec<(String, OsString)> {
         let folder = || self.folder.path().as_os_str().to_owned();
         let mut all: Vec<(String, OsString)> = ["TMPDIR", "TMP", "TEMP"]
             .map(|name| (name.to_owned(), folder()))
             .into();
         if var_os("XDG_RUNTIME_DIR").is_none() {
-            // Mesa complains where it is not set.
+            // Mesa complains if it is not set.
             all.push(("XDG_RUNTIME_DIR".to_owned(), folder()));
         }
         if let Some(tools) = &self.tools {
             let path = var_os("PATH").unwrap_or_default();
             let all_places = [tools.clone()].into_iter().chain(split_paths(&path));
-            // What cannot be joined was refused when it was named.
+            // A folder that cannot be joined was refused when it was named.
             let joined = join_paths(all_places).unwrap_or(path.clone());
             all.push(("PATH".to_owned(), joined));
         }
@@ -113,7 +111,7 @@ fn no_place(place: &Path, why: &io::Error) -> Error {
     }
 }
 
-/// The lock of a new folder; nothing where the file system has no locks, and then no other run removes the folder.
+/// The lock of a new folder. None where the file system has no locks, and then no other run removes the folder.
 fn locked(folder: &Path) -> io::Result<Option<File>> {
     let file = folder.join(UNLOCKED);
     let mut lock = File::create(&file)?;
@@ -125,29 +123,29 @@ fn locked(folder: &Path) -> io::Result<Option<File>> {
     Ok(Some(lock))
 }
 
-/// Removes what runs that were killed have left in a folder.
+/// Removes the folders that killed runs have left in a folder.
 fn sweep(place: &Path) {
     for entry in fs::read_dir(place).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let is_named = name.to_str().is_some_and(|name| name.starts_with(PREFIX));
-        // Who cannot remove one leaves it to its owner.
+        // A folder that cannot be removed is left to its owner.
         if is_named && is_left(&entry.path()) {
             let _ = fs::remove_dir_all(entry.path());
         } else if is_named && entry.metadata().is_ok_and(|found| is_old(&found)) {
-            // A run that was killed before it took its lock. Only an empty folder can be removed so.
+            // The run was killed before it took its lock. This removes only an empty folder.
             let _ = fs::remove_dir(entry.path());
         }
     }
 }
 
-/// Whether a folder of this user's is so old that no run is about to put its lock there.
+/// Whether a folder of this user's is too old for a run that is about to put its lock there.
 fn is_old(found: &Metadata) -> bool {
     const HOUR: Duration = Duration::from_secs(3600);
     let age = found.modified().ok().and_then(|made| made.elapsed().ok());
     found.is_dir() && is_own(found) && age.is_some_and(|age| age > HOUR)
 }
 
-/// Whether a folder was made by a run of this user's that is no more.
+/// Whether a folder was made by a run of this user's that has ended.
 fn is_left(folder: &Path) -> bool {
     let lock = folder.join(LOCK);
     let own = |path: &Path, is: fn(&Metadata) -> bool| {
@@ -191,7 +189,7 @@ mod signals {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    /// Has folders removed when a signal ends this process. Workers end by themselves when this process is gone.
+    /// Removes folders when a signal ends this process. Workers end by themselves when this process is gone.
     pub fn listen() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
@@ -201,15 +199,15 @@ mod signals {
             spawn(move || {
                 for signal in signals.forever() {
                     remove();
-                    // Whoever sent the signal sees that this process ended by it.
+                    // The sender of the signal sees that this process ended by it.
                     let _ = emulate_default_handler(signal);
                 }
             });
         });
     }
 
-    /// The signals that end this process. One that it was told to ignore, as `nohup` does, stays ignored. Where nobody knows which
-    /// these are, only those are heard that people send.
+    /// The signals that end this process. Signals that it was told to ignore, for example by `nohup`, stay ignored. Where those
+    /// are not known, only signals that people send are handled.
     fn ending() -> Vec<i32> {
         const ALL: [i32; 10] = [
             SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM,
@@ -224,7 +222,7 @@ mod signals {
         }
     }
 
-    /// The signals that this process ignores, as Linux says it: bit n - 1 stands for signal n.
+    /// The signals that this process ignores, as Linux reports them: bit n - 1 stands for signal n.
     fn ignored() -> Option<u64> {
         let status = fs::read_to_string("/proc/self/status").ok()?;
         let mask = status
@@ -249,7 +247,7 @@ mod signals {
 
 #[cfg(not(unix))]
 mod signals {
-    /// Other systems end a process without a word to it; the next run removes its folder.
+    /// Other systems end a process without notice. The next run removes its folder.
     pub fn listen() {}
 }
 

@@ -1,9 +1,8 @@
-//! Processes of this program that answer line by line: what a driver does to them, it does to nobody else.
+//! Worker processes of this program, which answer requests line by line, and both ends of their pipe. A driver that crashes or
+//! hangs harms only its worker.
 //!
-//! The worker's end of the pipe: it answers requests, line by line.
-//!
-//! Each line begins with the milliseconds that its answer may take. A worker ends with all processes that it has started when
-//! the supervisor is gone, which closes the pipe, and when an answer takes longer, in case the supervisor is stuck.
+//! Each line begins with the milliseconds that its answer may take. A worker ends, with all processes that it has started, when the
+//! supervisor is gone, which closes the pipe. It also ends when an answer takes too long, in case the supervisor is stuck.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -18,16 +17,16 @@ use serde::de::DeserializeOwned;
 use super::pool::Error;
 use super::surroundings::Surroundings;
 
-/// How a process of this program is started.
+/// The command line and the environment of a worker process.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Launch {
     words: Vec<OsString>,
-    /// Beside the environment of this process.
+    /// Variables in addition to the environment of this process.
     environment: Vec<(String, OsString)>,
 }
 
-/// A process that answers requests: started by the first, and anew by the one after a silence. It ends when this is dropped,
-/// with all that it has started, and when this process ends.
+/// A process that answers requests. The first request starts it, and so does the request after a silence. It ends, with all that
+/// it has started, when this is dropped and when this process ends.
 pub struct Worker {
     launch: Launch,
     process: Option<Process>,
@@ -36,14 +35,14 @@ pub struct Worker {
 /// Why a worker gave no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Silence {
-    /// It was given time enough.
+    /// It timed out.
     TooLong,
-    /// Its process is gone, or answered what is no answer: the reason.
+    /// Its process is gone or gave an invalid answer, for this reason.
     Ended(String),
 }
 
 impl Launch {
-    /// This program with these words, in the surroundings of a run.
+    /// This program with these arguments, in the surroundings of a run.
     pub fn new(words: &[&str], surroundings: &Surroundings) -> Launch {
         Launch {
             words: words.iter().map(OsString::from).collect(),
@@ -51,7 +50,7 @@ impl Launch {
         }
     }
 
-    /// This program with the words that it was given itself, and `--worker`: so the worker comes to the same plan.
+    /// This program with its own arguments and `--worker`, so that the worker makes the same plan.
     pub fn with_own_words(surroundings: &Surroundings) -> Launch {
         let own = std::env::args_os().skip(1);
         Launch {
@@ -60,7 +59,7 @@ impl Launch {
         }
     }
 
-    /// The same with these variables too.
+    /// This launch with these variables in addition.
     pub fn with_environment(mut self, variables: Vec<(String, OsString)>) -> Launch {
         self.environment.extend(variables);
         self
@@ -76,7 +75,7 @@ impl Worker {
         }
     }
 
-    /// Sends a request and waits for the response: none came where the inner result says so, and then the process is ended.
+    /// Sends a request and waits for the response. If the inner result is a [`Silence`], none came, and the process is ended.
     ///
     /// # Errors
     /// No process can be started.
@@ -100,13 +99,13 @@ impl Worker {
         self.process = None;
     }
 
-    /// Whether this is how it is started.
+    /// Whether its process is started by this launch.
     pub fn is_of(&self, launch: &Launch) -> bool {
         self.launch == *launch
     }
 }
 
-/// A process at work.
+/// A running process.
 struct Process {
     child: Child,
     input: ChildStdin,
@@ -146,7 +145,7 @@ impl Drop for Process {
     }
 }
 
-/// Ends a worker with the compilers that it has started: they are all in its group.
+/// Ends a worker with the compilers that it has started, which are all in its group.
 #[cfg(unix)]
 fn end_group(child: &Child) {
     use rustix::process::{Pid, Signal, kill_process_group};
@@ -155,7 +154,7 @@ fn end_group(child: &Child) {
     let _ = group.map(|group| kill_process_group(group, Signal::KILL));
 }
 
-/// Starts a process. What drivers print is not for users.
+/// Starts a process. Output of drivers is not shown to users.
 fn start(launch: &Launch) -> io::Result<Process> {
     let mut command = Command::new(std::env::current_exe()?);
     command.args(&launch.words);
@@ -173,7 +172,7 @@ fn start(launch: &Launch) -> io::Result<Process> {
     let output = BufReader::new(child.stdout.take().ok_or_else(gone)?);
     let (send, responses) = channel();
     thread::spawn(move || {
-        // Ends with the process's output, or when nobody listens.
+        // Ends with the process's output, or when the receiver is gone.
         for line in output.lines().map_while(Result::ok) {
             if send.send(line).is_err() {
                 break;
@@ -187,7 +186,7 @@ fn start(launch: &Launch) -> io::Result<Process> {
     })
 }
 
-/// How much longer than it is allowed a worker may work on an answer: a supervisor that is well ends it before.
+/// How long a worker may exceed the limit of an answer before it ends itself. A working supervisor ends it earlier.
 const MARGIN: Duration = Duration::from_secs(5);
 
 /// The requests to a worker.
@@ -196,9 +195,9 @@ pub struct Inbox {
     work: Sender<LineEvent>,
 }
 
-/// What happens to a line.
+/// An event of a request line.
 enum LineEvent {
-    /// It is here, and its answer may take so long.
+    /// It has arrived, and its answer may take this long.
     Arrived(Duration),
     /// It is answered.
     Answered,
@@ -209,7 +208,7 @@ pub fn framed(line: &str, limit: Duration) -> String {
     format!("{} {line}", limit.as_millis())
 }
 
-/// What is asked, and the time for it; nothing of a line that no supervisor wrote.
+/// The time limit and the request of a line. None for a line that no supervisor wrote.
 fn read(line: &str) -> Option<(Duration, String)> {
     let (limit, line) = line.split_once(' ')?;
     let limit = Duration::from_millis(limit.parse().ok()?);
@@ -237,7 +236,7 @@ impl Inbox {
     /// Answers each request until the supervisor is gone.
     ///
     /// # Errors
-    /// The pipe is gone, or a line is no request.
+    /// The pipe is gone, or a line is not a request.
     pub fn serve<Request: DeserializeOwned, Response: Serialize>(
         self,
         mut answer: impl FnMut(Request) -> Response,
@@ -255,7 +254,7 @@ impl Inbox {
 
 /// Ends this process when an answer is overdue.
 fn watch(work: &Receiver<LineEvent>) {
-    // The next line may arrive before the answer to the last one is entered here.
+    // The next line may arrive before the answer to the last one is noted here.
     let (mut waiting, mut limit) = (0usize, Duration::MAX);
     loop {
         let wait = if waiting > 0 { limit } else { Duration::MAX };
@@ -281,7 +280,7 @@ fn end() -> ! {
     std::process::abort()
 }
 
-/// Ends this process. What it has started ends by its own time limit.
+/// Ends this process. Processes that it has started end by their own time limits.
 #[cfg(not(unix))]
 fn end() -> ! {
     std::process::exit(1)

@@ -17,7 +17,7 @@ use super::draw::{Mesh, Vertex};
 const EXTENT: f64 = 1.0;
 /// Cells along an edge of each of the six faces that cover a round body: 196 608 triangles.
 const CELLS: u32 = 128;
-/// The height of the relief's bumps, and how many radians of the gyroid a radius is.
+/// The height `a` of the relief's bumps, and the frequency `q` of the gyroid in radians per radius.
 const HEIGHT: f64 = 0.1;
 const FREQUENCY: f64 = 7.0;
 
@@ -26,7 +26,7 @@ const FREQUENCY: f64 = 7.0;
 pub struct Body {
     /// Its name.
     pub name: &'static str,
-    /// What it is.
+    /// A short description.
     pub summary: &'static str,
     build: fn() -> Mesh,
 }
@@ -51,7 +51,7 @@ pub static SPHERE: Body = Body {
 };
 
 impl Body {
-    /// All of them.
+    /// All bodies.
     pub const ALL: [&'static Body; 3] = [&CUBE, &RELIEF, &SPHERE];
 
     /// Its triangles.
@@ -114,9 +114,9 @@ fn bumped(d: DVec3) -> Vertex {
     }
 }
 
-/// The unit direction of a place on a face, with steps of equal angle along its middles.
+/// The unit direction of a point of a face. Steps along the face's middle lines have equal angles.
 fn direction([out, along, across]: [DVec3; 3], u: f64, v: f64) -> DVec3 {
-    // tan(π/4) is rounded below 1: faces would not meet where pixels' centres lie on their seams.
+    // tan(π/4) is rounded below 1, so faces would not meet at pixel centres on their seams.
     let warped = |w: f64| {
         if w.abs() == 1.0 {
             w
@@ -127,7 +127,7 @@ fn direction([out, along, across]: [DVec3; 3], u: f64, v: f64) -> DVec3 {
     (out + warped(u) * along + warped(v) * across).normalize()
 }
 
-/// A grid of cells on each face, two triangles a cell; `at` takes the face's axes and two numbers from -1 to 1.
+/// A grid of cells on each face, two triangles per cell. `at` takes the face's axes and two numbers from -1 to 1.
 fn on_faces(cells: u32, at: &dyn Fn([DVec3; 3], f64, f64) -> Vertex) -> Mesh {
     let mut mesh = Mesh::default();
     let place = |i: u32| 2.0 * f64::from(i) / f64::from(cells) - 1.0;
@@ -166,7 +166,7 @@ mod tests {
         assert!(sum / exact.vertices.len() as f64 > 0.9995);
     }
 
-    /// Corners of two faces at one place are the same to the last bit, so that no pixel falls between them.
+    /// Coinciding corners of two faces are equal to the last bit, so that no pixel falls between them.
     #[test]
     fn faces_of_round_bodies_meet() {
         for body in [&SPHERE, &RELIEF] {

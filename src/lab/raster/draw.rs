@@ -1,4 +1,5 @@
-//! A frame: the nearest triangle of every pixel's centre, and the cosine between its normal and the direction to the camera.
+//! Meshes, cameras, and the frames that they give: the nearest triangle at every pixel's centre, and the cosine between its
+//! normal and the direction to the camera.
 //!
 //! ```text
 //! r = (x, y, 1) through the centre of a pixel;  e₀ = r·(v₁ × v₂), e₁ = r·(v₂ × v₀), e₂ = r·(v₀ × v₁)
@@ -10,16 +11,15 @@
 //! may reach behind the camera, and both triangles of an edge compute the same number with opposite signs: no pixel falls between
 //! them.
 //!
-//! A surface has two sides: a normal that points away from the side that is seen is turned round. An interpolated normal may still
-//! point away from the camera at the silhouette; its cosine is 0 there, as shaders clamp it.
+//! A surface has two sides: a normal that points away from the visible side is flipped. An interpolated normal may still point
+//! away from the camera at the silhouette. Its cosine is 0 there, as shaders clamp it.
 //!
-//! Triangles with a normal at each corner.
-//!
-//! A pinhole camera, a distant one that stands for an orthographic camera, and a camera that turns about an object.
+//! Meshes are triangles with a normal at each corner. Cameras are a pinhole camera, a distant one that stands for an orthographic
+//! camera, and a camera that turns about an object.
 
 use glam::DVec3;
 
-/// Pixels by which the box of a triangle is widened, for the rounding of its corners.
+/// Pixels by which the bounding box of a triangle is widened, for the rounding of its corners.
 const ROUNDING: f64 = 1e-6;
 /// No triangle covers this pixel.
 const NONE: u32 = u32::MAX;
@@ -29,29 +29,29 @@ const NONE: u32 = u32::MAX;
 pub struct Frame {
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// The covered pixels in scan order: the place, row by row, and cos θ.
+    /// The covered pixels in scan order: the index, row by row, and cos θ.
     pub covered: Vec<(u32, f64)>,
 }
 
 /// What a pixel shows of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// The pixel's place, row by row from the top left.
+    /// The pixel's index, row by row from the top left.
     pub place: u32,
-    /// The triangle that is seen, in the mesh's order.
+    /// The index of the visible triangle in the mesh.
     pub triangle: u32,
     /// The cosine between the normal and the direction to the camera, clamped to [0, 1].
     pub cos_theta: f64,
-    /// The unit normal on the side that is seen, along the axes of the world.
+    /// The unit normal on the visible side, in world axes.
     pub normal: DVec3,
-    /// The unit direction to the camera, along the axes of the world.
+    /// The unit direction to the camera, in world axes.
     pub to_camera: DVec3,
-    /// The shares of the triangle's corners.
+    /// The barycentric coordinates in the triangle.
     pub weights: [f64; 3],
 }
 
 impl SurfacePoint {
-    /// The unit direction that a mirror there shows: 2 (n·v) n - v.
+    /// The unit direction of mirror reflection: 2 (n·v) n - v.
     pub fn mirrored(&self) -> DVec3 {
         2.0 * self.normal.dot(self.to_camera) * self.normal - self.to_camera
     }
@@ -66,12 +66,12 @@ pub fn draw(mesh: &Mesh, camera: &Camera) -> Frame {
     }
 }
 
-/// What each covered pixel shows, in scan order. Both sides of every triangle are seen.
+/// What each covered pixel shows, in scan order. Both sides of every triangle are visible.
 pub fn surface_points(mesh: &Mesh, camera: &Camera) -> Vec<SurfacePoint> {
     surface_points_of(mesh, camera, &|_| false)
 }
 
-/// The same, where some triangles are seen from the side alone from which their corners go round counter-clockwise.
+/// As [`surface_points`], where some triangles are visible only from the side from which their corners run counter-clockwise.
 pub fn surface_points_of(
     mesh: &Mesh,
     camera: &Camera,
@@ -114,11 +114,11 @@ pub fn surface_points_of(
 struct Screen {
     size: [u32; 2],
     pixels_a_slope: f64,
-    /// The least and the greatest 1/z that is seen.
+    /// The smallest and the largest visible 1/z.
     inverse_depths: [f64; 2],
 }
 
-/// A corner relative to the camera, and where it is on the screen.
+/// A corner relative to the camera, and its position on the screen.
 #[derive(Clone, Copy)]
 struct Corner {
     position: DVec3,
@@ -145,7 +145,7 @@ impl Screen {
         }
     }
 
-    /// The slope of a column's or a row's centre.
+    /// The slope of the ray through a column's or a row's centre.
     fn slope(&self, axis: usize, place: usize) -> f64 {
         (place as f64 + 0.5 - f64::from(self.size[axis]) / 2.0) / self.pixels_a_slope
     }
@@ -156,16 +156,16 @@ impl Screen {
         DVec3::new(x, y, 1.0)
     }
 
-    /// The columns or rows whose centres lie between these places.
+    /// The columns or rows whose centres lie between these positions.
     fn centres(&self, axis: usize, places: [f64; 3]) -> std::ops::Range<usize> {
         let [a, b, c] = places;
         let first = (a.min(b).min(c) - 0.5 - ROUNDING).ceil();
         let last = (a.max(b).max(c) - 0.5 + ROUNDING).floor();
-        // A conversion of a float ends at 0 and at the largest integer.
+        // A conversion from float saturates at 0 and at the largest integer.
         first as usize..((last + 1.0) as usize).min(self.size[axis] as usize)
     }
 
-    /// The columns and rows of a triangle's box; all of them where it reaches behind the camera.
+    /// The columns and rows of a triangle's bounding box. All of them where it reaches behind the camera.
     fn range(&self, triangle: &[Corner; 3]) -> [std::ops::Range<usize>; 2] {
         if triangle.iter().any(|corner| corner.position.z <= 0.0) {
             return self.size.map(|pixels| 0..pixels as usize);
@@ -177,7 +177,7 @@ impl Screen {
     }
 }
 
-/// Of every pixel the nearest triangle so far, and 1/z there.
+/// The nearest triangle so far at every pixel, and 1/z there.
 struct DepthBuffer {
     nearest: Vec<f64>,
     names: Vec<u32>,
@@ -228,12 +228,12 @@ impl DepthBuffer {
     }
 }
 
-/// The planes through the camera and each edge, opposite to each corner.
+/// The planes through the camera and the edge opposite to each corner.
 fn edges([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     [b.cross(c), c.cross(a), a.cross(b)]
 }
 
-/// The least and the greatest 1/z of a triangle: one that is seen along its plane has a rounded determinant.
+/// The smallest and the largest 1/z of a triangle, to clamp to: seen edge-on, a triangle has an inexact determinant.
 fn depths(positions: [DVec3; 3]) -> (f64, f64) {
     let depths = positions.map(|position| position.z.recip());
     if depths.iter().any(|depth| *depth <= 0.0) {
@@ -243,14 +243,14 @@ fn depths(positions: [DVec3; 3]) -> (f64, f64) {
     (a.min(b).min(c), a.max(b).max(c))
 }
 
-/// The shares of a triangle's corners where a ray meets it.
+/// The barycentric coordinates of the point where a ray meets a triangle.
 fn weights(ray: DVec3, positions: [DVec3; 3]) -> [f64; 3] {
     let weights = edges(positions).map(|edge| edge.dot(ray));
     let whole = weights[0] + weights[1] + weights[2];
     weights.map(|weight| weight / whole)
 }
 
-/// The normal on the side that is seen, along the camera's axes, and the cosine between it and the direction to the camera.
+/// The normal on the visible side, in camera axes, and the cosine between it and the direction to the camera.
 fn seen_normal(
     ray: DVec3,
     positions: [DVec3; 3],
@@ -282,9 +282,9 @@ fn seen_normal(
 /// A corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// Where it is, in metres.
+    /// Its position, in metres.
     pub position: DVec3,
-    /// The normal of the surface there; its length does not matter.
+    /// The normal of the surface there. Its length does not matter.
     pub normal: DVec3,
 }
 
@@ -293,12 +293,12 @@ pub struct Vertex {
 pub struct Mesh {
     /// The corners.
     pub vertices: Vec<Vertex>,
-    /// Three corners each.
+    /// Three indices of corners each.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl Mesh {
-    /// The same body with the centre of its box in the origin and the longest side of its box as long as this.
+    /// The mesh moved and scaled so that its bounding box is centred at the origin and has a longest side of this length.
     #[must_use]
     pub fn with_extent(mut self, extent: f64) -> Mesh {
         let all = || self.vertices.iter().map(|vertex| vertex.position);
@@ -313,13 +313,13 @@ impl Mesh {
         self
     }
 
-    /// How far the farthest corner is from the origin.
+    /// The distance of the farthest corner from the origin.
     pub fn radius(&self) -> f64 {
         let lengths = self.vertices.iter().map(|vertex| vertex.position.length());
         lengths.fold(0.0, f64::max)
     }
 
-    /// Normals of a smooth surface: at each corner the sum of its triangles' normals, weighted by area.
+    /// Sets the normals of a smooth surface: at each corner the sum of its triangles' normals, weighted by area.
     pub fn smooth(&mut self) {
         for vertex in &mut self.vertices {
             vertex.normal = DVec3::ZERO;
@@ -334,10 +334,11 @@ impl Mesh {
     }
 }
 
-/// The distance of an orthographic camera, in heights of its picture: rays at the upper and the lower edge are turned by 5e-7.
+/// The distance of an orthographic camera, in heights of its picture. Rays at the upper and the lower edge are turned by 5e-7
+/// radians.
 const DISTANT: f64 = 1e6;
 
-/// What a camera takes in.
+/// The resolution and the field of view of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Pixels across and down.
@@ -346,23 +347,23 @@ pub struct Lens {
     pub vertical_degrees: f64,
 }
 
-/// A camera in perspective; axes are unit vectors: to the right, down and forwards.
+/// A perspective camera. Its axes are unit vectors: to the right, down and forwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where it is.
+    /// Its position.
     pub eye: DVec3,
     /// Its axes: to the right, down, forwards.
     pub axes: [DVec3; 3],
-    /// What it takes in.
+    /// Its resolution and field of view.
     pub lens: Lens,
-    /// Nothing is seen that is nearer along its axis, in metres.
+    /// The near clip distance along its axis, in metres.
     pub near: f64,
-    /// Nothing is seen that is farther away along its axis, in metres.
+    /// The far clip distance along its axis, in metres.
     pub far: f64,
 }
 
 impl Camera {
-    /// A camera of this position and these axes that sees everything before it.
+    /// A camera of this position and these axes that sees everything in front of it.
     pub fn new(eye: DVec3, axes: [DVec3; 3], lens: Lens) -> Camera {
         Camera {
             eye,
@@ -373,7 +374,7 @@ impl Camera {
         }
     }
 
-    /// A camera that looks from one place at another one. Up is y, or z where it looks along y.
+    /// A camera that looks from one point at another. Up is y, or z where it looks along y.
     pub fn looking(eye: DVec3, at: DVec3, lens: Lens) -> Camera {
         let forwards = (at - eye).normalize();
         let up = if forwards.y.abs() < 0.999 {
@@ -385,8 +386,8 @@ impl Camera {
         Camera::new(eye, [right, forwards.cross(right), forwards], lens)
     }
 
-    /// A camera of this position and these axes that sees parallel rays: `height` metres fill its picture of `size` pixels. It
-    /// stands for an orthographic camera as a pinhole a million heights behind `eye`, which sees what is behind `eye` too.
+    /// A camera of this position and these axes with parallel rays: `height` metres fill its picture of `size` pixels. It
+    /// approximates an orthographic camera by a pinhole a million heights behind `eye`, and sees what is behind `eye` too.
     pub fn orthographic(eye: DVec3, axes: [DVec3; 3], height: f64, size: [u32; 2]) -> Camera {
         let half = libm::atan(0.5 / DISTANT);
         let lens = Lens {
@@ -396,7 +397,8 @@ impl Camera {
         Camera::new(eye - DISTANT * height * axes[2], axes, lens)
     }
 
-    /// The same with clip planes, in metres before `eye` of [`Camera::orthographic`], where `height` is its height.
+    /// This camera with clip planes, in metres. For [`Camera::orthographic`], `height` is its height, and they count from its
+    /// `eye`.
     #[must_use]
     pub fn clipped(self, [near, far]: [f64; 2], height: Option<f64>) -> Camera {
         let behind = height.map_or(0.0, |height| DISTANT * height);
@@ -412,36 +414,36 @@ impl Camera {
         self.turned(point - self.eye)
     }
 
-    /// A direction along the camera's axes.
+    /// A world direction in camera axes.
     pub fn turned(&self, direction: DVec3) -> DVec3 {
         DVec3::from_array(self.axes.map(|axis| axis.dot(direction)))
     }
 
-    /// A direction of the world from one along the camera's axes.
+    /// A direction in camera axes as a world direction.
     pub fn in_world(&self, direction: DVec3) -> DVec3 {
         let [right, down, forwards] = self.axes;
         direction.x * right + direction.y * down + direction.z * forwards
     }
 
-    /// How many pixels a slope of 1 is.
+    /// The number of pixels that a slope of 1 spans.
     pub fn pixels_a_slope(&self) -> f64 {
         let half = (self.lens.vertical_degrees / 2.0).to_radians();
         f64::from(self.lens.size[1]) / 2.0 / libm::tan(half)
     }
 }
 
-/// A camera that turns about the origin, which it looks at: a turn of the same angle from frame to frame.
+/// A camera that looks at the origin and turns about it by the same angle from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turntable {
-    /// Where it starts.
+    /// Its position in the first frame.
     pub start: DVec3,
-    /// What it turns about.
+    /// The axis of rotation.
     pub axis: DVec3,
     /// The angle from frame to frame, in degrees.
     pub step_degrees: f64,
-    /// How many frames.
+    /// The number of frames.
     pub frames: usize,
-    /// What it takes in.
+    /// Its resolution and field of view.
     pub lens: Lens,
 }
 
@@ -472,7 +474,7 @@ impl Turntable {
     }
 }
 
-/// A vector turned about a unit axis, by the formula of Rodrigues.
+/// A vector rotated about a unit axis, by Rodrigues' formula.
 pub fn rotated(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
     let (sin, cos) = libm::sincos(angle);
     cos * vector + sin * axis.cross(vector) + (1.0 - cos) * axis.dot(vector) * axis

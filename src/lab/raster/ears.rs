@@ -1,21 +1,22 @@
-//! A polygon cut into triangles: a convex one as a fan from its first corner, any other by its ears.
+//! Triangulation of polygons: a convex one as a fan from its first corner, any other by ear clipping.
 //!
-//! An ear is a corner whose triangle with its neighbours lies inside and holds no other corner; every polygon that does not cross itself
-//! has two. Source: G. H. Meisters, *Polygons have Ears*, The American Mathematical Monthly 82(6), 1975,
-//! <https://doi.org/10.2307/2319703>. What crosses itself has no inside: it is cut in some way, the same every time. A polygon that is not level is cut
-//! as its shadow along its mean normal.
+//! An ear is a corner whose triangle with its neighbours lies inside and holds no other corner. Every polygon that does not cross
+//! itself has two. Source: G. H. Meisters, *Polygons have Ears*, The American Mathematical Monthly 82(6), 1975,
+//! <https://doi.org/10.2307/2319703>. A polygon that crosses itself has no inside. It is cut in some way, the same every time. A
+//! polygon that is not planar is cut as its projection along its mean normal.
 
 use glam::{DVec2, DVec3};
 
-/// A face with a corner that points inwards has at most so many: the effort of cutting it grows with their square, or worse.
+/// The most corners of a concave face. The effort of cutting it grows with their square, or worse.
 pub const MOST_CONCAVE: usize = 1024;
-/// Turns to the wrong side by less than this share of the whole area are rounding.
+/// Turns to the wrong side by less than this share of the whole area count as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The triangles of faces: `corners` of all of them one after the other, `sizes` of each, or none where all are triangles.
+/// The triangles of faces. `corners` are those of all faces one after the other. `sizes` are their numbers of corners, empty
+/// where all are triangles.
 ///
 /// # Errors
-/// A concave face has too many corners: so many.
+/// A concave face has too many corners; the error is their number.
 pub fn triangles_of_faces(
     corners: &[u32],
     sizes: &[u32],
@@ -44,7 +45,7 @@ fn is_convex(corners: &[DVec3]) -> bool {
     corners.len() < 4 || shadow(corners).is_none_or(|flat| flat.turns_one_way())
 }
 
-/// The triangles of a polygon, by the places of their corners.
+/// The triangles of a polygon, by the indices of their corners.
 fn triangles_of(corners: &[DVec3]) -> Vec<[usize; 3]> {
     match shadow(corners) {
         Some(flat) if corners.len() > 3 && !flat.turns_one_way() => flat.cut(),
@@ -58,11 +59,11 @@ struct Flat {
     twice_area: f64,
 }
 
-/// The polygon along the axis that its mean normal is nearest to; none where it has no area.
+/// The projection of a polygon along the axis nearest to its mean normal. None where it has no area.
 fn shadow(corners: &[DVec3]) -> Option<Flat> {
     let first = *corners.first()?;
     let next = corners.iter().cycle().skip(1);
-    // Newell's normal, about a corner, so that polygons far from the origin keep their digits.
+    // Newell's normal, relative to a corner, so that polygons far from the origin keep their precision.
     let normal: DVec3 = corners
         .iter()
         .zip(next)
@@ -84,7 +85,7 @@ fn shadow(corners: &[DVec3]) -> Option<Flat> {
 }
 
 impl Flat {
-    /// Twice the area of a triangle, above 0 where it turns to the left.
+    /// Twice the signed area of a triangle, positive where it turns left.
     fn turn(&self, [a, b, c]: [usize; 3]) -> f64 {
         let [a, b, c] = [a, b, c].map(|at| self.corners[at]);
         (b - a).perp_dot(c - a)
@@ -147,7 +148,7 @@ mod tests {
         triangles.iter().map(one).sum()
     }
 
-    /// A comb, whose teeth no fan from any corner covers alone, in every plane and wound either way.
+    /// A comb, which no fan from one corner covers, in every plane and in both windings.
     #[test]
     fn triangles_cover_a_polygon_once() {
         let outline: Vec<(f64, f64)> = (0..9)
@@ -195,7 +196,7 @@ mod tests {
         ] {
             let _ = triangles_of(&corners);
         }
-        // Crossing itself: a bow tie.
+        // A bow tie, which crosses itself.
         let bow = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + 2.0 * DVec3::Y];
         assert_eq!(triangles_of(&bow).len(), 2);
     }

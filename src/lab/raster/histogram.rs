@@ -1,21 +1,19 @@
-//! How often each cosine is seen.
+//! Histograms of cosines: how often each cosine is seen in all frames of a view.
 //!
 //! A bin holds its weight and the mean of its cosines, so that the mean of a smooth function over it is right to the second order
 //! of the bin's width.
-//!
-//! All frames of a view: how often each cosine is seen.
 
 use super::draw::{Camera, Mesh, draw};
 use crate::physics::num::in_parallel;
 
-/// The bins between 0 and 1.
+/// The number of bins between 0 and 1.
 pub const BINS: usize = 4096;
 
 /// A weighted histogram of cosines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CosineHistogram {
     weights: Vec<f64>,
-    /// Weight times cosine, summed.
+    /// Per bin, the sum of weight times cosine.
     moments: Vec<f64>,
 }
 
@@ -29,7 +27,7 @@ impl Default for CosineHistogram {
 }
 
 impl CosineHistogram {
-    /// Of these cosines, each with a weight of 1.
+    /// The histogram of these cosines, each with a weight of 1.
     pub fn of(cosines: impl IntoIterator<Item = f64>) -> CosineHistogram {
         let mut histogram = CosineHistogram::default();
         for cosine in cosines {
@@ -38,8 +36,8 @@ impl CosineHistogram {
         histogram
     }
 
-    /// What a distant camera sees of any convex body, in the mean over all directions: density 2c. The area that shows a cosine
-    /// is as large as the area of the surface times the cosine, and all directions of a normal are seen equally often.
+    /// What a distant camera sees of any convex body, in the mean over all directions: density 2c. An area of the surface is seen
+    /// with its size times the cosine, and all directions relative to its normal are equally frequent.
     pub fn of_convex_bodies() -> CosineHistogram {
         let mut histogram = CosineHistogram::default();
         let edge = |bin: usize| bin as f64 / BINS as f64;
@@ -51,14 +49,14 @@ impl CosineHistogram {
         histogram
     }
 
-    /// Enters a cosine from 0 to 1.
+    /// Adds a cosine from 0 to 1.
     pub fn add(&mut self, cosine: f64, weight: f64) {
         let bin = ((cosine * BINS as f64) as usize).min(BINS - 1);
         self.weights[bin] += weight;
         self.moments[bin] += weight * cosine;
     }
 
-    /// Enters another histogram, so many times.
+    /// Adds another histogram, with its weights multiplied by `times`.
     pub fn merge(&mut self, other: &CosineHistogram, times: f64) {
         for bin in 0..BINS {
             self.weights[bin] += times * other.weights[bin];
@@ -76,7 +74,7 @@ impl CosineHistogram {
         &self.weights
     }
 
-    /// The cosines and weights of the bins that hold anything.
+    /// The cosines and weights of the bins that are not empty.
     pub fn seen(&self) -> (Vec<f64>, Vec<f64>) {
         let bins = self.weights.iter().zip(&self.moments);
         bins.filter(|(weight, _)| **weight > 0.0)
@@ -88,15 +86,15 @@ impl CosineHistogram {
 /// The angles that frames show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
-    /// Every frame has the same weight, which its pixels share; the sum is 1, or 0 where nothing is seen.
+    /// The cosines. Every frame has the same weight, which its pixels share. The sum is 1, or 0 where nothing is seen.
     pub histogram: CosineHistogram,
-    /// Frames that show anything.
+    /// The number of frames in which the object is visible.
     pub frames: usize,
-    /// The pixels that they cover.
+    /// The number of covered pixels in them.
     pub pixels: u64,
 }
 
-/// Draws all frames, on all cores. `progress` hears how many are done, of how many.
+/// Draws all frames, on all cores. `progress` is told how many are done, of how many.
 pub fn shown(mesh: &Mesh, cameras: &[Camera], progress: &mut dyn FnMut(u64, u64)) -> Shown {
     let histogram = |i: usize| {
         let covered = draw(mesh, &cameras[i]).covered;

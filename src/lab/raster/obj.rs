@@ -1,7 +1,7 @@
-//! Meshes of others: OBJ, by the crate `tobj`.
+//! Meshes from OBJ files, read by the crate `tobj`.
 //!
-//! The crate takes NaN for a place, says of an index only that it is out of range, and holds whatever a file announces. So every
-//! line is looked at first: numbers are finite, indices have a place, and there are not too many triangles.
+//! The crate accepts NaN in a position, says of an index only that it is out of range, and allocates whatever a file announces. So
+//! every line is checked first: numbers are finite, indices exist, and there are not too many triangles.
 //!
 //! Source of the format: Wavefront Technologies, *Advanced Visualizer Manual*, appendix B1, 1993,
 //! <https://paulbourke.net/dataformats/obj/>.
@@ -15,14 +15,14 @@ use thiserror::Error;
 use super::draw::{Mesh, Vertex};
 use super::ears::{MOST_CONCAVE, triangles_of_faces};
 
-/// A mesh has at most so many triangles, and as many corners.
+/// The most triangles of a mesh, and the most corners.
 pub const MOST_TRIANGLES: usize = 4_000_000;
-/// Statements of surfaces that are no polygons, of which some would silently be missing.
+/// Statements of surfaces other than polygons, which would silently be missing.
 const OTHER_SURFACES: [&str; 3] = ["surf", "bsp", "bzp"];
-/// No place is farther away: its square is a number.
+/// The largest coordinate, whose square is still finite.
 const FARTHEST: f64 = 1e100;
 
-/// What is wrong with an OBJ file, and where.
+/// A fault in an OBJ file, and its line.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("line {line}: {}", crate::physics::foreign::one_line(what))]
 pub struct ObjFault {
@@ -32,16 +32,16 @@ pub struct ObjFault {
     pub what: String,
 }
 
-/// The mesh of an OBJ text: all objects and groups together. Corners without a normal get that of a smooth surface, or, after `s off`,
-/// that of their face; smoothing groups do not smooth each other.
+/// The mesh of an OBJ text: all objects and groups together. Corners without a normal get that of a smooth surface, or that of
+/// their face after `s off`. Smoothing groups are smoothed separately.
 ///
 /// # Errors
-/// The text is no such mesh: which line, and what is wrong there.
+/// The text is not such a mesh. The error says which line is at fault, and why.
 pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     let text = &prepared(text);
     Counts::of(text)?;
     let options = tobj::LoadOptions {
-        // The crate would cut every face as a fan, which covers more than a concave one.
+        // The crate would cut every face as a fan, which covers too much of a concave one.
         triangulate: false,
         ignore_points: true,
         ignore_lines: true,
@@ -57,10 +57,10 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
         line: lines.line.max(1),
         what: fault.to_string(),
     })?;
-    // Of each smoothing group the triangles of all objects, in the order in which groups begin.
+    // The triangles of all objects by smoothing group, in the order in which groups begin.
     let mut groups: Vec<(String, Mesh)> = Vec::new();
     for model in models {
-        // Faces above all groups have a name of the crate's.
+        // Faces before all groups have a name given by the crate.
         let is_ours = model.name == FLAT || model.name.starts_with(SMOOTH);
         let name = if is_ours { model.name.as_str() } else { SMOOTH };
         let known = groups.iter().position(|(known, _)| known == name);
@@ -95,12 +95,12 @@ fn too_many(text: &str, corners: usize) -> ObjFault {
     }
 }
 
-/// What the crate is told a smoothing group is called: one of flat faces, one of others.
+/// The group names that stand for smoothing groups to the crate: of flat faces, and of others.
 const FLAT: &str = "flat";
 const SMOOTH: &str = "smooth";
 
-/// The same lines as the crate reads them: what a `\` at the end of a line continues stands in that line, and in place of each object
-/// and group stands the smoothing group, which the crate does not know. Every line keeps its number.
+/// The lines prepared for the crate: lines continued with `\` are joined, and each object and group is replaced by the smoothing
+/// group, which the crate does not know. Every line keeps its number.
 fn prepared(text: &str) -> String {
     let mut prepared = String::with_capacity(text.len());
     let mut group = SMOOTH.to_owned();
@@ -123,13 +123,14 @@ fn prepared(text: &str) -> String {
                 prepared += &format!("g {group}");
             }
             Some("o" | "g") => prepared += &format!("g {group}"),
-            // An old name of faces.
+            // `fo` is an old name of faces.
             Some("f" | "fo") => {
                 let corners: Vec<&str> = uncommented(&whole).split_whitespace().skip(1).collect();
                 prepared += &format!("f {}", corners.join(" "));
             }
             Some("v" | "vn" | "vt") => prepared += uncommented(&whole),
-            // The crate takes a polyline for a face, and refuses a material without a name, as Blender writes it where there is none.
+            // The crate takes a polyline for a face, and refuses a material without a name, which Blender writes where there is
+            // none.
             Some("l" | "usemtl") => {}
             _ => prepared += &whole,
         }
@@ -138,19 +139,19 @@ fn prepared(text: &str) -> String {
     prepared
 }
 
-/// A line of numbers that goes on in the next one, without the `\` at its end. A comment may end with a folder's name.
+/// A line that continues in the next one, without the `\` at its end. A comment does not continue: it may end with a folder's name.
 fn continued(line: &str) -> Option<&str> {
     let first = line.split_whitespace().next()?;
     let has_numbers = ["v", "vn", "vt", "f", "fo"].contains(&first);
     line.trim_end().strip_suffix('\\').filter(|_| has_numbers)
 }
 
-/// A line without the comment that ends it.
+/// A line without its comment.
 fn uncommented(line: &str) -> &str {
     line.split('#').next().unwrap_or(line)
 }
 
-/// A smoothing group whose corners have normals: the file's, or those of flat faces, or of a smooth surface.
+/// A smoothing group with normals: the file's, those of flat faces, or those of a smooth surface.
 fn with_normals(group: Mesh, is_flat: bool) -> Mesh {
     let has_normal = |vertex: &Vertex| vertex.normal != DVec3::ZERO;
     if group.vertices.iter().all(has_normal) {
@@ -164,7 +165,7 @@ fn with_normals(group: Mesh, is_flat: bool) -> Mesh {
     group
 }
 
-/// The same triangles, each with corners of its own that have its normal.
+/// The same triangles, each with its own corners and the normal of its face.
 fn flat(mesh: &Mesh) -> Mesh {
     let mut flat = Mesh::default();
     for corners in &mesh.triangles {
@@ -186,17 +187,17 @@ fn append(mesh: &mut Mesh, other: Mesh) {
         .extend(other.triangles.into_iter().map(moved));
 }
 
-/// Enters the triangles of one object. Corners without a normal have 0 in its place.
+/// Adds the triangles of one object. Corners without a normal get 0 in its place.
 ///
 /// # Errors
-/// A concave face has too many corners: so many.
+/// A concave face has too many corners; the error is their number.
 fn enter(mesh: &mut Mesh, object: &tobj::Mesh) -> Result<(), usize> {
     let three = |all: &[f64], at: usize| {
         let part = all.get(3 * at..3 * at + 3);
         part.map_or(DVec3::ZERO, DVec3::from_slice)
     };
     let first = mesh.vertices.len() as u32;
-    // Where only some corners have a normal, nothing says which.
+    // Where only some corners have a normal, it is unknown which.
     let normals: &[f64] = if object.normals.len() == object.positions.len() {
         &object.normals
     } else {
@@ -215,7 +216,7 @@ fn enter(mesh: &mut Mesh, object: &tobj::Mesh) -> Result<(), usize> {
     Ok(())
 }
 
-/// The same mesh with one corner a place, so that its normals are of all triangles that meet there.
+/// The same mesh with one corner per position, so that normals are those of all triangles that meet there.
 fn welded(mesh: &Mesh) -> Mesh {
     let mut known = HashMap::new();
     let mut vertices: Vec<Vertex> = Vec::new();
@@ -235,7 +236,7 @@ fn welded(mesh: &Mesh) -> Mesh {
     }
 }
 
-/// What a text holds so far.
+/// Counts of what a text holds so far.
 #[derive(Default)]
 struct Counts {
     places: usize,
@@ -245,10 +246,10 @@ struct Counts {
 }
 
 impl Counts {
-    /// Looks at every line.
+    /// Checks every line.
     fn of(text: &str) -> Result<(), ObjFault> {
         let mut counts = Counts::default();
-        // An index may lead to a line below its own: it is compared once all are counted.
+        // An index may refer to a later line, so it is compared once all are counted.
         let mut last_use = [(0, 0); 3];
         for (at, line) in text.lines().enumerate() {
             let fault = |what| ObjFault { line: at + 1, what };
@@ -265,7 +266,7 @@ impl Counts {
         Ok(())
     }
 
-    /// Looks at a line; `last_use` holds the largest index so far of each kind, and its line.
+    /// Checks a line. `last_use` holds the largest index so far of each kind, and its line.
     fn enter(
         &mut self,
         line: &str,
@@ -334,7 +335,7 @@ impl Counts {
     }
 }
 
-/// An index from 1; a negative one counts back from the last that stands above it.
+/// An index from 1. A negative one counts back from the last item above it.
 fn index(word: &str, so_far: usize) -> Result<usize, String> {
     let number: i64 = word
         .parse()
@@ -362,9 +363,9 @@ fn check_numbers<'a>(
                 format!("`{word}` is not a number")
             }
         })?;
-        // NaN is within no limits.
+        // NaN is within no range.
         if !(-FARTHEST..=FARTHEST).contains(&number) {
-            // Behind a place a weight may stand, or a colour.
+            // A weight or a colour may follow a position.
             let meant =
                 ["no place", "neither a weight nor a part of a colour"][usize::from(at > 2)];
             return Err(format!("`{word}` is {meant}: numbers lie within ±1e100"));
@@ -378,7 +379,7 @@ fn check_numbers<'a>(
     }
 }
 
-/// A text that is read line by line and knows which line was read last.
+/// A reader of a text by lines that knows which line was read last.
 struct Lines<'a> {
     rest: &'a [u8],
     line: usize,

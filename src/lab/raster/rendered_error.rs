@@ -1,8 +1,5 @@
-//! The rendered error of a method: over the angles that pictures show.
-//!
-//! A row of the report: the error of a method on a material, over the angles that an object shows.
-//!
-//! A frame painted with reflectance: by a method, by the reference, and their difference.
+//! The rendered error of a method: its error on a material over the angles that pictures show, its row in the report, and frames
+//! painted with reflectance, by a method, by the reference, and with their difference.
 
 use serde::Serialize;
 
@@ -13,7 +10,7 @@ use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Checked, evaluate};
 use crate::physics::num::each_channel;
 
-/// Mean relative errors of the channels, as shares; none where the reference is 0 and the method says otherwise.
+/// Mean relative errors of the channels, as fractions. None where the reference is 0 and the method is not.
 pub type RelativeErrors = Option<[f64; 3]>;
 
 /// The rendered error of a method on a material.
@@ -21,13 +18,13 @@ pub type RelativeErrors = Option<[f64; 3]>;
 pub struct RenderedError {
     /// Mean relative errors of the channels.
     pub mean_rel: RelativeErrors,
-    /// The largest absolute difference at an angle that is seen, of any channel.
+    /// The largest absolute difference of any channel at a visible angle.
     pub max_abs: f64,
-    /// The cosine at which it stands.
+    /// Its cosine.
     pub worst_cos: f64,
 }
 
-/// The error of a function of `cos_theta` alone, or with the table that it reads, over a histogram.
+/// The error over a histogram of a function of `cos_theta` alone, or with the table that it reads.
 pub fn rendered_error(
     histogram: &CosineHistogram,
     function: &Checked,
@@ -51,7 +48,7 @@ pub fn rendered_error(
     error
 }
 
-/// The same by direct rendering: reflectances are computed at every pixel of every frame. The mean over pixels, then over frames.
+/// The errors by direct rendering: reflectances are computed at every pixel of every frame. The mean over pixels, then over frames.
 pub fn drawn_errors(
     frames: &[Frame],
     function: &Checked,
@@ -71,7 +68,7 @@ pub fn drawn_errors(
     (count > 0.0).then(|| sum.map(|sum| sum / count))
 }
 
-/// The values of a function at these cosines; a table that it reads is of the reference.
+/// The values of a function at these cosines. A table that it reads is made from the reference.
 pub(super) fn values(
     function: &Checked,
     reference: &ReferenceCurve,
@@ -82,7 +79,7 @@ pub(super) fn values(
     (0..cosines.len()).map(|point| got.at(point)).collect()
 }
 
-/// The weighted mean of |got − want| / want in each channel. Where both are the same the error is 0.
+/// The weighted mean of |got − want| / want in each channel. Where both are equal the error is 0.
 pub fn mean_relative(got: &[[f64; 3]], want: &[[f64; 3]], weights: &[f64]) -> RelativeErrors {
     let total: f64 = weights.iter().sum();
     let mut sum = [0.0; 3];
@@ -105,9 +102,9 @@ pub struct SceneErrorRow {
     pub object: String,
     /// `turntable` or `fixed`.
     pub view: &'static str,
-    /// Frames that show anything of it.
+    /// The number of frames in which it is visible.
     pub frames: usize,
-    /// The pixels that it covers in all of them.
+    /// The number of pixels that it covers in all of them.
     pub pixels: u64,
     /// The material, with its medium.
     pub material: String,
@@ -115,9 +112,9 @@ pub struct SceneErrorRow {
     pub method: String,
     /// Mean relative errors in per cent.
     pub mean_rel: Option<ChannelErrors>,
-    /// The largest absolute difference of a channel at an angle that is seen.
+    /// The largest absolute difference of any channel at a visible angle.
     pub max_abs: f64,
-    /// The cosine at which it stands.
+    /// Its cosine.
     pub worst_cos: f64,
     /// Why the mean is missing.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -127,15 +124,15 @@ pub struct SceneErrorRow {
 /// Errors of three channels in per cent.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ChannelErrors {
-    /// Of each channel.
+    /// The error of red.
     pub red: f64,
-    /// Of each channel.
+    /// The error of green.
     pub green: f64,
-    /// Of each channel.
+    /// The error of blue.
     pub blue: f64,
     /// Their mean.
     pub mean: f64,
-    /// Their mean by what each adds to luminance in the working space: no error of luminance, in which channels make up for each other.
+    /// Their mean weighted by luminance in the working space. It is not the error of luminance, in which errors of channels cancel.
     pub by_luminance: f64,
 }
 
@@ -179,7 +176,7 @@ impl SceneErrorRow {
 /// How many times a difference is magnified, as in the thesis's figure 21.
 pub const MAGNIFIED: f64 = 8.0;
 
-/// A picture of three channels, row by row; what the object does not cover is 0.
+/// A picture of three channels, row by row. Pixels that the object does not cover are 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Painted {
     /// Pixels across and down.

@@ -1,6 +1,5 @@
-//! One figure of the thesis beside ours, and what follows from the comparison.
-//!
-//! The figures that the thesis prints, as `data/thesis-tables.json` records them.
+//! The comparison of a figure of the thesis with ours, its verdict, and the thesis's printed figures from
+//! `data/thesis-tables.json`.
 //!
 //! Source: Štetić-Kozić, "Poređenje metoda za računanje koeficijenata Frenelove refleksije u programima za senčenje",
 //! diploma thesis, School of Electrical Engineering, University of Belgrade, 2014.
@@ -17,16 +16,16 @@ pub struct ComparisonRow {
     pub table: &'static str,
     /// The material, device or claim.
     pub row: String,
-    /// What of it.
+    /// The quantity that is compared.
     pub column: String,
-    /// What the thesis prints.
+    /// The thesis's figure.
     pub thesis: Figure,
-    /// What we get.
+    /// Our figure.
     pub ours: Figure,
     unit: Option<&'static str>,
-    /// What follows.
+    /// The verdict.
     pub verdict: ComparisonVerdict,
-    /// How it was measured, and why it differs where it does.
+    /// How it was measured, and why it differs if it does.
     pub remark: String,
     /// Why a figure is missing, where one is.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -49,13 +48,13 @@ pub enum Figure {
     Missing(&'static str),
 }
 
-/// What follows from the comparison.
+/// The verdict of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ComparisonVerdict {
     /// Equal to the last printed digit.
     #[serde(rename = "agrees")]
     Agrees,
-    /// Different, and the remark tells the reason.
+    /// Different, for the reason in the remark.
     #[serde(rename = "differs, explained")]
     Explained,
     /// Different where it must agree: a finding.
@@ -112,19 +111,19 @@ impl ComparisonRow {
         self
     }
 
-    /// With what follows.
+    /// With the verdict.
     pub fn verdict(mut self, verdict: ComparisonVerdict) -> ComparisonRow {
         self.verdict = verdict;
         self
     }
 
-    /// With how, and why.
+    /// With a remark: how it was measured, and why it differs.
     pub fn remark(mut self, remark: impl Into<String>) -> ComparisonRow {
         self.remark = remark.into();
         self
     }
 
-    /// Whether the row states a claim in words, which no column can hold.
+    /// Whether the row states a claim in words, which is too long for a column.
     pub fn is_statement(&self) -> bool {
         matches!(self.thesis, Figure::Words(_))
     }
@@ -136,7 +135,7 @@ impl Figure {
         Figure::Number(value, 2, " %")
     }
 
-    /// As people read it.
+    /// The figure in words, for people.
     pub fn in_words(&self) -> String {
         match self {
             Figure::Number(value, decimals, unit) => format!("{value:.decimals$}{unit}"),
@@ -163,7 +162,7 @@ impl Figure {
 }
 
 impl Serialize for Figure {
-    /// Numbers in full, whatever the text rounds them to.
+    /// Serialises numbers with all digits, whatever the text rounds them to.
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self {
             Figure::Number(value, ..) => value.serialize(to),
@@ -188,7 +187,7 @@ impl ComparisonVerdict {
         }
     }
 
-    /// Agreement to the printed digit, or a finding.
+    /// [`ComparisonVerdict::Agrees`] if both are equal to the printed digit, otherwise a finding.
     pub fn of_digits(thesis: f64, ours: f64, decimals: usize) -> ComparisonVerdict {
         if format!("{thesis:.decimals$}") == format!("{ours:.decimals$}") {
             ComparisonVerdict::Agrees
@@ -197,7 +196,7 @@ impl ComparisonVerdict {
         }
     }
 
-    /// A claim that holds or does not.
+    /// The verdict on a claim that holds or does not.
     pub fn of_claim(holds: bool) -> ComparisonVerdict {
         if holds {
             ComparisonVerdict::Holds
@@ -212,26 +211,26 @@ static RECORD: LazyLock<Value> = LazyLock::new(|| {
         .expect("the record is part of the program, and a test reads it")
 });
 
-/// How many angles the function errors are taken at (section 5.2).
+/// The number of angles at which function errors are taken (section 5.2).
 pub const ANGLES: usize = 1_000_000;
 
-/// cos θ at which the text says that λ is matched: 84.26 degrees (section 3.2.4).
+/// cos θ at which λ is matched according to the text: 84.26 degrees (section 3.2.4).
 pub const TEXT_MATCHING_COS: f64 = 0.10;
 
-/// One figure, by the keys that lead to it.
+/// The figure at a path of keys.
 pub fn number(keys: &[&str]) -> f64 {
     let found = at(keys).as_f64();
     found.expect("the keys are constants, and a test reads them all")
 }
 
-/// A row of figures.
+/// The row of figures at a path of keys.
 pub fn numbers(keys: &[&str]) -> Vec<f64> {
     let row = at(keys).as_array().into_iter().flatten();
     row.map(|value| value.as_f64().expect("a row of figures holds figures"))
         .collect()
 }
 
-/// A row of names.
+/// The row of names at a path of keys.
 pub fn names(keys: &[&str]) -> Vec<&'static str> {
     let row = at(keys).as_array().into_iter().flatten();
     row.filter_map(Value::as_str).collect()

@@ -1,8 +1,7 @@
-//! Table 6: relative times on five devices, beside what the compilers of those GPUs count in the same formulas.
+//! Table 6: relative times on five devices, beside the instruction counts of those GPUs' compilers for the same formulas.
 //!
-//! A count is no time. A time holds what a draw costs whatever its formula (rasterising, blending, writing), which the
-//! thesis did not subtract; so beside each share stands what it becomes on the line `time = fixed + rate * count` that fits
-//! the device best.
+//! A count is not a time. A time includes the fixed cost of a draw (rasterising, blending, writing), which the thesis did not
+//! subtract. So beside each share stands the one predicted by the line `time = fixed + rate * count` that fits the device best.
 
 use serde::Deserialize;
 
@@ -38,10 +37,10 @@ const METHODS: [&str; 7] = [
     "empirical",
 ];
 
-/// The place of the table: counts do not include its texture fetch, and it is left out of all statistics.
+/// The index of the lookup table. Counts do not include its texture fetch, so it is left out of all statistics.
 const TABLE: usize = 5;
 
-/// Percentage points within which a count stands for a time.
+/// Percentage points within which a count is near a time.
 const NEAR: f64 = 15.0;
 
 /// Table 6 and the counts.
@@ -63,7 +62,7 @@ pub fn section() -> ThesisSection {
 struct Pairs {
     times: Vec<f64>,
     counts: Vec<f64>,
-    /// Of formulas that ours write in another way: the count of what the thesis prints.
+    /// The counts of the formulas as the thesis prints them, where ours are written differently.
     printed: Vec<Option<f64>>,
 }
 
@@ -105,7 +104,7 @@ impl Pairs {
         })
     }
 
-    /// Without the table.
+    /// Times and counts without the lookup table.
     fn arithmetic(&self) -> (Vec<f64>, Vec<f64>) {
         let pairs = self.counts.iter().zip(&self.times).enumerate();
         pairs
@@ -139,8 +138,8 @@ fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
     rows
 }
 
-/// A row whose count is far from its time. The line explains it where it begins at a price that a draw can have, and comes
-/// near; the formula as printed explains it where its own count comes near.
+/// A row whose count is far from its time. The line explains it if its fixed cost is plausible and its prediction is near. The
+/// formula as printed explains it if its own count is near.
 fn apart(
     row: ComparisonRow,
     pairs: &Pairs,
@@ -183,7 +182,7 @@ fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Compari
     names.iter().zip(&times).map(row).collect()
 }
 
-/// What the counts of a device are worth.
+/// How well the counts of a device predict its times.
 fn statistics(device: &str, pairs: &Pairs) -> Vec<ComparisonRow> {
     let (counts, times) = pairs.arithmetic();
     let (fixed, rate) = least_squares(&counts, &times);
@@ -217,8 +216,8 @@ fn statistics(device: &str, pairs: &Pairs) -> Vec<ComparisonRow> {
     ]
 }
 
-/// The devices that were timed by `fresnel-gen time`: the rank correlation of those times and of operations counted in the
-/// same functions. No GPU was both timed here and counted by its own compiler.
+/// Rows of the devices that were timed by `fresnel-gen time`: the rank correlation of times with operations of the same
+/// functions. No GPU was both timed here and counted by its own compiler.
 fn timed_here() -> Vec<ComparisonRow> {
     let times = times();
     let mut devices: Vec<&str> = times.iter().map(|time| time.device.as_str()).collect();

@@ -1,6 +1,5 @@
-//! The reflectance curves of figures 6 and 9 to 16: the exact law and what approximates it.
-//!
-//! Angles in degrees, as the thesis draws and names them, and what curves do over them.
+//! The reflectance curves of figures 6 and 9 to 16: the exact law and its approximations, with the extrema of curves. Angles are in
+//! degrees, as in the thesis.
 
 use super::comparison::{ComparisonRow, Figure};
 use super::{ThesisSection, specialised};
@@ -11,17 +10,17 @@ use crate::physics::optics::{self, Reflectance};
 
 pub use crate::physics::optics::cosine;
 
-/// Angles drawn: a point each quarter of a degree.
+/// The number of drawn angles, one each quarter of a degree.
 pub const POINTS: u32 = 361;
 
 /// A figure of the thesis.
 struct FigurePlan {
     number: u32,
     file: &'static str,
-    /// What the thesis's caption names.
+    /// The subject in the thesis's caption.
     subject: &'static str,
     index: [f64; 2],
-    /// Methods, and what the legend calls them.
+    /// Methods, and their names in the legend.
     methods: &'static [(&'static str, &'static str)],
     /// Lowest reflectance on the axis, in per cent.
     low: f64,
@@ -39,17 +38,17 @@ pub struct ThesisFigure {
     pub number: u32,
     /// The name of its file.
     pub file: &'static str,
-    /// What the thesis's caption names.
+    /// The subject in the thesis's caption.
     pub subject: &'static str,
     /// The exact law.
     pub exact: DrawnCurve,
-    /// What approximates it.
+    /// Its approximations.
     pub curves: Vec<DrawnCurve>,
     /// Lowest reflectance on the axis, in per cent.
     pub low: f64,
     /// Marked angles, in degrees, and their labels.
     pub marks: Vec<(f64, String)>,
-    /// What was derived from n and k, for methods that need more than these, in words.
+    /// The values derived from n and k, for methods that need more than these, in words.
     pub derived: String,
     /// What a reader should know besides.
     pub note: &'static str,
@@ -59,7 +58,7 @@ const SCHLICK: (&str, &str) = ("schlick_ior", "Schlick (eq. 7)");
 const RESCALED: (&str, &str) = ("schlick_rescaled", "rescaled Schlick (eq. 14)");
 const EXACT_ALONE: &str = "The thesis draws the exact law alone.";
 
-/// The nine. n and k are those of the captions and of Table 1; platinum's are those of 685 nm.
+/// The nine figures. n and k are those of the captions and of Table 1. Platinum's are those of 685 nm.
 const PLANS: [FigurePlan; 9] = [
     FigurePlan {
         number: 6,
@@ -171,13 +170,13 @@ const PLANS: [FigurePlan; 9] = [
 /// One curve of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnCurve {
-    /// What the legend calls it.
+    /// Its name in the legend.
     pub name: &'static str,
-    /// Reflectance in per cent, angle by angle.
+    /// Points of angle in degrees and reflectance in per cent.
     pub points: Vec<(f64, f64)>,
 }
 
-/// What is drawn, in numbers.
+/// The rows of the figures: what is drawn, in numbers.
 pub fn section() -> ThesisSection {
     ThesisSection {
         title: format!("Figures: reflectance at {POINTS} angles, exact and approximate"),
@@ -254,7 +253,7 @@ impl FigurePlan {
         }
     }
 
-    /// What was derived from n and k, for methods that need more than these.
+    /// The values derived from n and k, for methods that need more than these.
     fn derived(&self) -> String {
         let channels = specialised::grey(self.index);
         let has = |name: &str| self.methods.iter().any(|(method, _)| *method == name);
@@ -294,7 +293,7 @@ fn degrees() -> impl Iterator<Item = f64> {
 }
 
 impl DrawnCurve {
-    /// Where it is furthest from the exact law, and by how many percentage points.
+    /// The angle at which it is furthest from the exact law, and the difference in percentage points.
     pub fn largest_difference(&self, exact: &DrawnCurve) -> (f64, f64) {
         let pairs = self.points.iter().zip(&exact.points);
         let differences = pairs.map(|((at, value), (_, exact))| (*at, (value - exact).abs()));
@@ -305,7 +304,7 @@ impl DrawnCurve {
     }
 }
 
-/// Steps of a degree in which minima and largest differences are looked for: the thesis names angles to 0.01 degrees.
+/// Steps per degree in the search for minima and largest differences. The thesis states angles to 0.01 degrees.
 const STEPS: u32 = 100;
 
 /// The exact law at an angle.
@@ -313,7 +312,7 @@ pub fn exact([n, k]: [f64; 2], degrees: f64) -> Reflectance<f64> {
     optics::conductor(n, k, cosine(degrees))
 }
 
-/// Where a curve over 0 to 90 degrees is lowest, and how low.
+/// The minimum of a curve over 0 to 90 degrees: angle and value.
 pub fn lowest(curve: impl Fn(f64) -> f64) -> (f64, f64) {
     let points = (0..=90 * STEPS).map(|i| f64::from(i) / f64::from(STEPS));
     points
@@ -323,7 +322,7 @@ pub fn lowest(curve: impl Fn(f64) -> f64) -> (f64, f64) {
         })
 }
 
-/// Where a curve over 0 to 90 degrees is highest, and how high.
+/// The maximum of a curve over 0 to 90 degrees: angle and value.
 pub fn highest(curve: impl Fn(f64) -> f64) -> (f64, f64) {
     let (degrees, value) = lowest(|degrees| -curve(degrees));
     (degrees, -value)

@@ -26,8 +26,8 @@ const UNROUNDED: &str = "with the indices that Table 1 rounds, refractiveindex.i
     Rakić 1998 (platinum)";
 /// Half a unit in the last printed digit, in per cent.
 const HALF_A_DIGIT: f64 = 0.005;
-/// How far past that a figure may be rounded to the other side: a fiftieth of a digit, less than the rounding of
-/// Table 1's indices does.
+/// How far beyond that a figure may be and still count as rounded the other way: a fiftieth of a digit, less than the effect of the
+/// rounding of Table 1's indices.
 const BORDERLINE: f64 = 0.0002;
 
 const AT_81: Derivation = Derivation {
@@ -94,7 +94,7 @@ fn metal(name: &str, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
     rows
 }
 
-/// The same in 32-bit floats, as the thesis's program computes.
+/// The errors in 32-bit floats, in which the thesis's program computes.
 fn in_floats(
     table: &'static str,
     name: &str,
@@ -125,7 +125,7 @@ fn in_floats(
     }
 }
 
-/// The rescaled Schlick must agree to the digit. Platinum's 5.3049 is excused for the 0.0001 that it lacks.
+/// The row of the rescaled Schlick, which must agree to the digit. Platinum's 5.3049 is excused for the 0.0001 that it lacks.
 fn rescaled_row(name: &str, thesis: f64, ours: f64) -> ComparisonRow {
     let row = must_agree("table2", name, "rescaled", thesis, ours);
     let is_borderline = row.verdict == ComparisonVerdict::Differs
@@ -142,7 +142,7 @@ fn rescaled_row(name: &str, thesis: f64, ours: f64) -> ComparisonRow {
     }
 }
 
-/// The same with the indices that Table 1 was rounded from.
+/// Rows with the indices that Table 1 was rounded from.
 fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> [ComparisonRow; 2] {
     let page = if name == "gold" {
         "gold_hagemann_2"
@@ -173,7 +173,7 @@ fn dielectric(name: &str, angles: usize, meter: &mut Meter) -> [ComparisonRow; 3
     ]
 }
 
-/// The same by luminance.
+/// A row of the errors weighted by luminance.
 fn weighted(table: &'static str, name: &str, column: &str, errors: [f64; 3]) -> ComparisonRow {
     ComparisonRow::new(table, name, &format!("{column}, by luminance"))
         .thesis(Figure::Missing("the thesis leaves it open"))
@@ -181,7 +181,7 @@ fn weighted(table: &'static str, name: &str, column: &str, errors: [f64; 3]) -> 
         .remark(BY_LUMINANCE)
 }
 
-/// Errors of methods for one material, each channel, in per cent.
+/// Errors of methods for one material, by channel, in per cent.
 fn percent(
     name: &str,
     channels: &Channels,

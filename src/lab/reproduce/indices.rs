@@ -1,18 +1,18 @@
-//! Table 1: the indices of refraction, as our material files hold them.
+//! Table 1: the indices of refraction, compared with those of our material files.
 
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, specialised};
 
 /// The materials in the order of the thesis.
 const MATERIALS: [&str; 4] = ["gold", "platinum", "water", "diamond"];
-/// The pages that Table 1 was taken from, found by comparing all of the database.
+/// The pages that Table 1 was taken from, found by comparison with all pages of the database.
 const PAGES: [(&str, &str); 4] = [
     ("gold", "gold_hagemann_2"),
     ("platinum", "platinum"),
     ("water", "water"),
     ("diamond", "diamond"),
 ];
-/// How far rounding or cutting to the thesis's two digits moves an index.
+/// How far rounding or truncation to the thesis's two digits moves an index.
 const ROUNDED: f64 = 0.0065;
 /// The channels in the order of the thesis.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -30,7 +30,7 @@ pub fn section() -> ThesisSection {
     }
 }
 
-/// The index as measured, beside what the thesis prints of it.
+/// The index as measured, beside the thesis's.
 fn unrounded(
     (material, page): (&'static str, &'static str),
 ) -> impl Iterator<Item = ComparisonRow> {

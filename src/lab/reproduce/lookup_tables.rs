@@ -1,8 +1,8 @@
-//! Tables 4 and 5: the rendered rows, and below them the column of the lookup table once more: mean relative error of the
-//! filtered lookup, by the thesis's measure of functions (section 5.2).
+//! Tables 4 and 5: the rendered rows, followed by the mean relative error of the filtered lookup by the thesis's measure of
+//! functions (section 5.2).
 //!
-//! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
-//! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
+//! The thesis measured its tables only in rendered pictures of a cube and of a sculpture. The smaller of the two figures stands
+//! beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::rendered::{self, Meter};
@@ -19,17 +19,17 @@ const DIELECTRICS: &str = "table5_rendered_error_dielectrics_percent";
 
 /// The texels of the tables that stand beside the thesis's.
 const TEXELS: usize = 256;
-/// The formats, by what holds their numbers.
+/// The formats of texels, with their names.
 const DEPTHS: [(Depth, &str); 3] = [
     (Depth::Float, "float"),
     (Depth::Half, "half"),
     (Depth::Unorm16, "png16"),
 ];
-/// Axes and sizes are searched at so many times fewer angles, where errors hold to a hundredth of themselves.
+/// Axes and sizes are searched at this many times fewer angles, where errors are accurate to a hundredth of themselves.
 const COARSER: usize = 100;
-/// How many sizes below the first that is good enough are tried as well: the error falls but for ripples.
+/// How many sizes below the first sufficient one are tried as well, since the error falls with ripples.
 const BELOW: usize = 8;
-/// No size above this one is tried.
+/// The largest size that is tried.
 const MOST_TEXELS: usize = 4096;
 
 const MEASURE: &str = "the thesis's figure is of rendered pictures (the smaller of cube and sculpture), ours of the function: \
@@ -79,7 +79,7 @@ fn section(
     }
 }
 
-/// A material of the thesis, and what its table says.
+/// A material of the thesis, and the error of its table.
 struct ThesisMaterial<'a> {
     table: &'static str,
     name: &'a str,
@@ -142,7 +142,7 @@ impl ThesisMaterial<'_> {
             })
     }
 
-    /// What the thesis has no figures for: the best axis, and the smallest tables.
+    /// Rows without figures in the thesis: the best axis, and the smallest tables.
     fn searched(&self, best: TableAxis, coarse: &ThesisMeasure) -> [ComparisonRow; 4] {
         let size = |axis: TableAxis| self.smallest(axis, coarse);
         let fewest = least(TableAxis::ALL, |axis| {
@@ -167,7 +167,7 @@ impl ThesisMaterial<'_> {
         ]
     }
 
-    /// The fewest texels with which a table errs less than the thesis's.
+    /// The fewest texels of a table with a smaller error than the thesis's.
     fn smallest(&self, axis: TableAxis, coarse: &ThesisMeasure) -> Option<usize> {
         let beats =
             |texels: &usize| coarse.error(&self.stored(axis, *texels, Depth::Float)) < self.printed;
@@ -194,7 +194,7 @@ impl ThesisMaterial<'_> {
     }
 }
 
-/// The first of these with the least figure.
+/// The first of these axes with the smallest figure.
 fn least(axes: [TableAxis; 6], figure: impl Fn(&TableAxis) -> f64) -> TableAxis {
     let [first, ..] = axes;
     let figures = axes.map(|axis| (figure(&axis), axis));

@@ -1,9 +1,9 @@
-//! The thesis that this program began with, computed anew: its figures beside ours, its curves, its claims.
+//! The thesis that this program began with, reproduced: its figures beside ours, its curves, its claims.
 //!
 //! Source: Štetić-Kozić, "Poređenje metoda za računanje koeficijenata Frenelove refleksije u programima za senčenje",
 //! diploma thesis, University of Belgrade, 2014.
 //!
-//! Pure: no disk, no terminal. A part is a file: to add one, write it and give it an entry in [`Part`].
+//! Pure: no disk, no terminal. Each part is a file. To add one, write it and give it an entry in [`Part`].
 
 mod claims;
 pub mod comparison;
@@ -22,7 +22,7 @@ use rendered::Meter;
 pub use comparison::{ComparisonRow, ComparisonVerdict, Figure};
 pub use figures::{DrawnCurve, POINTS as FIGURE_POINTS, ThesisFigure};
 
-/// What can be reproduced.
+/// A part of the thesis that can be reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The indices of refraction.
@@ -35,19 +35,19 @@ pub enum Part {
     Table4,
     /// Rendered errors and lookup tables, dielectrics.
     Table5,
-    /// Relative times, beside what compilers count.
+    /// Relative times, beside compilers' instruction counts.
     Table6,
-    /// Absolute times: the check of the table's head.
+    /// Absolute times: the check of the table's column heads.
     Table7,
     /// Three wavelengths in place of the spectrum.
     Table8,
-    /// What the text asserts.
+    /// The claims of the text.
     Claims,
     /// The reflectance curves.
     Figures,
 }
 
-/// What of the thesis has no rows here, and why.
+/// The parts of the thesis that have no rows here, and why.
 pub const NOT_MEASURED: [(&str, &str); 1] = [(
     "the sculpture of tables 4 and 5",
     "its mesh is not part of this program: a relief of ours stands in its place, and scene-error --mesh takes any mesh",
@@ -84,7 +84,7 @@ impl Part {
         }
     }
 
-    /// How many angles it goes through, for progress.
+    /// The number of angles that it evaluates, for progress.
     fn work(self, angles: usize) -> usize {
         match self {
             Part::Table2 => 4 * angles,
@@ -113,7 +113,7 @@ impl Part {
 /// A part reproduced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThesisSection {
-    /// What it is and how it is measured.
+    /// A title that says how it is measured.
     pub title: String,
     /// The comparisons.
     pub rows: Vec<ComparisonRow>,
@@ -122,14 +122,14 @@ pub struct ThesisSection {
 /// Parts reproduced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reproduction {
-    /// In the order asked for.
+    /// The parts, in the requested order.
     pub sections: Vec<ThesisSection>,
-    /// The curves, where they were asked for.
+    /// The curves, where they were requested.
     pub figures: Vec<ThesisFigure>,
 }
 
-/// Reproduces parts; function errors are taken at `angles` angles ([`comparison::ANGLES`] in the thesis).
-/// `say` hears how far the work is: done, of how much, what.
+/// Reproduces parts. Function errors are taken at `angles` angles ([`comparison::ANGLES`] in the thesis). `say` is told the
+/// progress: how much is done, of how much, and of what.
 pub fn reproduce(
     parts: &[Part],
     angles: usize,
@@ -155,7 +155,7 @@ impl Reproduction {
         self.sections.iter().flat_map(|section| &section.rows)
     }
 
-    /// Whether a figure that must agree does not.
+    /// Whether a figure that must agree differs.
     pub fn has_findings(&self) -> bool {
         self.comparisons()
             .any(|row| row.verdict == ComparisonVerdict::Differs)

@@ -1,10 +1,9 @@
-//! Tables 4 and 5: mean relative error in pictures (section 5.2), by histograms of the cosines that pictures show.
+//! Tables 4 and 5: mean relative error in pictures (section 5.2), by histograms of the cosines that pictures show. Also the
+//! progress meter, in angles.
 //!
-//! The thesis drew a cube and a sculpture. Its cube is ours but for what it does not state: resolution, field of view, where the
-//! camera starts. Its sculpture was a download of 2014; a relief in closed form stands in its place, and beside both the closed form of
-//! any convex body, seen from everywhere.
-//!
-//! How far the work is, in angles.
+//! The thesis drew a cube and a sculpture. Its cube is ours except for what it does not state: resolution, field of view, and the
+//! start of the camera. Its sculpture was a download of 2014, and a relief in closed form stands in its place. Beside both stands
+//! the closed form of any convex body, seen from all directions.
 
 use std::sync::LazyLock;
 
@@ -20,7 +19,7 @@ use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::{Half, Num};
 
-/// The texels of the thesis's tables, as far as it draws one.
+/// The texels of the thesis's tables, by the one that it draws.
 const TEXELS: usize = 256;
 
 const SCENE: &str = "180 frames, one degree each about (1, 1, 1) from 2 m, an object of 1 m; ours: 640 x 480 pixels, vertical field of view \
@@ -39,10 +38,10 @@ const TABLE: &str = "a table of 256 texels of 8 bits on the cosine, read with we
 const TABLE_PICTURES: &str = "the same, both pictures rounded to 8 bits. Errors below half a step vanish: the thesis's small \
     figures for tables are of this kind";
 
-/// What is looked at.
+/// An object and the camera's view of it.
 struct View {
     name: &'static str,
-    /// The thesis's word for it, where it has one.
+    /// The thesis's name of it, if any.
     printed: Option<&'static str>,
     remark: &'static str,
     cosines: Vec<f64>,
@@ -84,7 +83,7 @@ impl View {
     }
 }
 
-/// Rows of a material of Table 4 or 5 (`record`), whose other rows stand in the files beside this one.
+/// Rows of a material of Table 4 or 5 (`record`). The other rows of these tables are made in other files of this room.
 pub fn rows(
     table: &'static str,
     record: &'static str,
@@ -99,7 +98,7 @@ pub fn rows(
             "table4" => rows.extend(rendered.metal()),
             _ => rows.extend(rendered.dielectric()),
         }
-        // The closed form draws no picture.
+        // The closed form of convex bodies has no picture.
         if view.printed.is_some() {
             rows.extend(rendered.tables());
         }
@@ -183,7 +182,7 @@ impl Rendered<'_> {
         rows
     }
 
-    /// Rows of a lookup table of 8 bits.
+    /// Rows of an 8-bit lookup table.
     fn tables(&self) -> [ComparisonRow; 2] {
         let table = Table::new(self.name, &self.reference, TableAxis::Cos, TEXELS);
         let table = table.expect("this size is the size of a texture");
@@ -254,13 +253,13 @@ impl Rendered<'_> {
     }
 }
 
-/// Rounded as a picture of 8 bits holds them.
+/// Values rounded to those of an 8-bit picture.
 fn in_bytes(values: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let byte = |value: f64| f64::from(Depth::Unorm8.nearest(value));
     values.iter().map(|values| values.map(byte)).collect()
 }
 
-/// Counts angles and tells whoever asked.
+/// Counts evaluated angles and reports the progress.
 pub struct Meter<'a> {
     done: usize,
     whole: usize,
@@ -268,7 +267,7 @@ pub struct Meter<'a> {
 }
 
 impl<'a> Meter<'a> {
-    /// Nothing is done yet.
+    /// A meter of `whole` angles, none of which is done.
     pub fn new(whole: usize, say: &'a mut dyn FnMut(u64, u64, &str)) -> Meter<'a> {
         Meter {
             done: 0,
@@ -277,7 +276,7 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// So many more angles are done.
+    /// Counts so many more angles as done.
     pub fn add(&mut self, angles: usize, what: &str) {
         self.done += angles;
         (self.say)(self.done as u64, self.whole as u64, what);

@@ -11,13 +11,13 @@ pub fn method(name: &str) -> &'static Method {
     methods::find(name).expect("the names are constants, and a test reproduces every part")
 }
 
-/// A material of the catalogue.
+/// A material of the catalogue, by name.
 pub fn material(name: &str) -> Material {
     let found = materials::find(name).and_then(Result::ok);
     found.expect("the names are constants, and a test reproduces every part")
 }
 
-/// The channels of a material as the thesis rounds them.
+/// The channels of a material with the thesis's rounded indices.
 pub fn channels(name: &str) -> Channels {
     unrounded(&format!("{name}_thesis"))
 }
@@ -36,7 +36,7 @@ pub fn grey([n, k]: [f64; 2]) -> Channels {
     }
 }
 
-/// A method with a material's constants folded in, a function of `cos_theta` alone.
+/// A method specialised to a material: a function of `cos_theta` alone.
 pub fn function(name: &str, channels: &Channels, derivation: &Derivation) -> Checked {
     let method = method(name);
     let specialised = method.specialise(&fit::values(method, channels, derivation));

@@ -1,10 +1,10 @@
-//! Table 8: what it costs to take three wavelengths for a spectrum; and the third error, of three channels of colour.
+//! Table 8: the error of three wavelengths in place of a spectrum, and the third error, of colours in three channels.
 //!
-//! Errors of three channels as one: their mean, as the thesis takes it, and weighted by what each adds to luminance, which its
-//! last section leaves open.
+//! Errors of three channels are combined in two ways: their mean, as in the thesis, and weighted by luminance, which its last
+//! section leaves open.
 //!
 //! Source of the weights: ITU-R BT.709-6, 2015, <https://www.itu.int/rec/R-REC-BT.709>, from the chromaticities of sRGB. The
-//! thesis's three wavelengths are no primaries; its programs show them as if they were.
+//! thesis's three wavelengths are not primaries, but its programs show them as if they were.
 
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, specialised};
@@ -14,18 +14,18 @@ use crate::physics::num::each_channel;
 use crate::physics::spectra::{Gamut, Illuminant, Integration, Space, Step};
 
 const TABLE: &str = "table8_three_wavelength_colour_error_percent";
-/// The thesis's metals, and the pages that it most probably took: gold and platinum are those of Table 1, aluminium
-/// and silver the model beside platinum's.
+/// The thesis's metals, and the pages that it most probably used: for gold and platinum those of Table 1, for aluminium and
+/// silver the same model as platinum's.
 const METALS: [(&str, &str); 4] = [
     ("aluminium", "aluminium_rakic"),
     ("silver", "silver_rakic"),
     ("platinum", "platinum"),
     ("gold", "gold_hagemann_2"),
 ];
-/// More metals for the colour error: brass is warm, chromium grey.
+/// More metals for the colour error, such as warm brass and grey chromium.
 const ALSO: [&str; 4] = ["copper", "brass", "silver", "chromium"];
 
-/// How far the inferred definition and pages may be off before it is a finding, in percentage points.
+/// The largest difference that is not a finding, in percentage points, since the definition and the pages are inferred.
 const INFERRED: f64 = 0.15;
 
 const DEFINITION: &str = "The thesis calls it the relative colour error at 0 degrees and defines it no further. Of all \
@@ -35,7 +35,7 @@ const DEFINITION: &str = "The thesis calls it the relative colour error at 0 deg
 const COLOUR: &str = "Not an error of Table 8 and not to be added to it: three channels integrated under D65, lit by another \
     light, against the whole spectrum under that light, in Delta E 2000. It is what no function of three channels can show";
 
-/// Table 8, and the colour error below it.
+/// Table 8, followed by the colour error.
 pub fn section() -> ThesisSection {
     let colour = METALS.iter().map(|(_, page)| *page).chain(ALSO);
     ThesisSection {
@@ -72,7 +72,7 @@ fn three_against_all(material: &Material) -> f64 {
     (three - unadapted).abs().max_element()
 }
 
-/// As the program sees by default, in the finer steps: a digit of Table 8 hangs on them.
+/// The default integration with finer steps, on which a digit of Table 8 depends.
 fn integration() -> Integration {
     Integration {
         step: Step::Nm1,
@@ -91,7 +91,7 @@ fn seen(material: &Material, wavelengths_nm: Option<[f64; 3]>) -> Surface {
         .expect("the metals are known over the whole spectrum; a test sees them")
 }
 
-/// A row a light, after one bounce, and after three under the first.
+/// A row for each light after one bounce, and one for the first light after three bounces.
 fn colour_errors(page: &'static str) -> Vec<ComparisonRow> {
     let surface = seen(&specialised::material(page), None);
     let errors = fit::colour_errors(&surface, &integration()).unwrap_or_default();
@@ -110,7 +110,7 @@ fn colour_errors(page: &'static str) -> Vec<ComparisonRow> {
     once.chain(thrice).collect()
 }
 
-/// Why the weighted figures stand there.
+/// The remark on the weighted figures.
 pub const BY_LUMINANCE: &str = "the channels weighted by what they add to luminance in sRGB (.2126, .7152, .0722) and not by a third \
     each: the question with which the thesis ends";
 
@@ -119,7 +119,7 @@ pub fn mean(errors: [f64; 3]) -> f64 {
     errors.iter().sum::<f64>() / 3.0
 }
 
-/// The mean of three channels by luminance.
+/// The mean of three channels, weighted by luminance.
 pub fn by_luminance(errors: [f64; 3]) -> f64 {
     let weights = Space::Srgb.rgb_to_xyz().row(1).to_array();
     each_channel(|i| weights[i] * errors[i]).iter().sum()

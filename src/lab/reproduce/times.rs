@@ -1,7 +1,7 @@
-//! Table 7: absolute times. Its head is misprinted; Table 6, the same runs in per cent, tells the right one.
+//! Table 7: absolute times. Its column heads are misprinted. Table 6, which gives the same runs in per cent, shows the right ones.
 //!
-//! Each of Table 7's seven columns, over the first, must be one of Table 6's. Which one is not taken from anywhere:
-//! it is the column with the least largest deviation over the five devices.
+//! Each of Table 7's seven columns, divided by the first, must be one of Table 6's. It is identified as the column whose largest
+//! deviation over the five devices is smallest.
 
 use super::ThesisSection;
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
@@ -9,7 +9,7 @@ use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 const RELATIVE: &str = "table6_relative_time_percent";
 const ABSOLUTE: &str = "table7_absolute_ms";
 
-/// Table 7 over its first column, beside Table 6.
+/// Table 7 divided by its first column, beside Table 6.
 pub fn section() -> ThesisSection {
     let order = order();
     let devices = comparison::devices(ABSOLUTE);
@@ -33,7 +33,7 @@ pub fn section() -> ThesisSection {
     }
 }
 
-/// For each column of Table 7 as it stands, the column of Table 6 that it is.
+/// For each column of Table 7 as printed, the matching column of Table 6.
 pub fn order() -> Vec<usize> {
     let columns = comparison::names(&[RELATIVE, "columns"]).len();
     let nearest = |column| {
@@ -42,7 +42,7 @@ pub fn order() -> Vec<usize> {
     (0..columns).filter_map(nearest).collect()
 }
 
-/// Largest difference over the devices, in percentage points.
+/// The largest difference of two columns over the devices, in percentage points.
 fn deviation(column: usize, place: usize) -> f64 {
     let devices = comparison::devices(ABSOLUTE).into_iter();
     let differences = devices.map(|device| {
@@ -51,7 +51,7 @@ fn deviation(column: usize, place: usize) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// A time over the device's first one, in per cent.
+/// A time divided by the device's first one, in per cent.
 fn share(device: &str, column: usize) -> f64 {
     let times = comparison::numbers(&[ABSOLUTE, device]);
     100.0 * times[column] / times[0]

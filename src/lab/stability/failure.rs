@@ -1,4 +1,4 @@
-//! What can be wrong with a result, and by how much it is.
+//! The ways in which a result can fail, and the amount of each failure.
 
 use crate::physics::num::ulp_of;
 
@@ -11,15 +11,15 @@ pub enum Failure {
     Infinite,
     /// Below 0.
     Negative,
-    /// Above 1, or above F0 where that is more.
+    /// Above 1, or above F0 where that is larger.
     AboveOne,
     /// A step between neighbouring cosines that is larger than the slope allows.
     Jump,
-    /// So many units of the last place from what the same formula gives in f64 at this cosine or within two last places of it.
+    /// More than so many ulp from the same formula in f64 at this cosine or within two ulp of it, in single precision.
     Digits(f64),
-    /// So far from what the same formula gives in f64: what counts where numbers have no digits to lose.
+    /// More than this absolute difference from the same formula in f64, in half precision, which has no digits to lose.
     Off(f64),
-    /// So far from the law.
+    /// More than this absolute difference between formula and law.
     Error(f64),
     /// Rises where the law falls, or falls where it rises.
     Monotony,
@@ -28,7 +28,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// All, the gravest first; of each kind the highest level first.
+    /// All failures, the gravest first, and the highest level of each kind first.
     pub const ALL: [Failure; 14] = [
         Failure::NotANumber,
         Failure::Infinite,
@@ -62,7 +62,7 @@ impl Failure {
         }
     }
 
-    /// As the end of a sentence about a result: only for what a result is by itself, without others to compare it with.
+    /// The end of a sentence about a result. Only for failures of a result by itself, without others to compare it with.
     pub fn predicate(self) -> Option<&'static str> {
         match self {
             Failure::NotANumber => Some("is NaN"),
@@ -73,8 +73,8 @@ impl Failure {
         }
     }
 
-    /// What three channels are by themselves, where they are no reflectance: the gravest of their failures. `most` is what
-    /// each channel may reach, and `rounding` how far beyond its range it may lie.
+    /// The gravest failure of three channels by themselves. None if they are a reflectance. `most` is the largest allowed value
+    /// of each channel, and `rounding` the tolerance beyond its range.
     pub fn of_result(rgb: [f32; 3], most: [f32; 3], rounding: f32) -> Option<Failure> {
         let holds = |failure: &&Failure| {
             let mut channels = rgb.into_iter().zip(most);
@@ -89,8 +89,8 @@ impl Failure {
         Failure::ALL.iter().find(holds).copied()
     }
 
-    /// Whether it is the formula's fault, not that of its rounding. It is then told of whole curves: where a formula is off, its
-    /// medium says most.
+    /// Whether it is the formula's fault, not that of its rounding. Such failures are reported for whole curves, since they
+    /// depend mainly on the medium.
     pub fn is_of_the_model(self) -> bool {
         matches!(
             self,
@@ -99,39 +99,39 @@ impl Failure {
     }
 }
 
-/// A result at a cosine and at the next one, and what it should be.
+/// A result at a cosine and at the next one, and the expected values.
 #[derive(Clone, Copy, Debug)]
 pub struct ResultPoint {
     /// The cosine.
     pub cos_theta: f64,
-    /// What came.
+    /// The result.
     pub got: f64,
-    /// What came at the next cosine.
+    /// The result at the next cosine.
     pub next: f64,
-    /// What the formula means.
+    /// The value of the formula in f64.
     pub want: f64,
-    /// The least and the most that it means at this cosine and at those [`NEAR`] last places from it.
+    /// The smallest and the largest value of the formula at this cosine and within [`NEAR`] ulp of it.
     pub around: (f64, f64),
-    /// What the law says, where there is a law.
+    /// The value of the law, where there is a law.
     pub law: Option<f64>,
-    /// What a result may not exceed.
+    /// The largest allowed result.
     pub limit: f64,
-    /// The spacing of numbers of this kind, in that of f32.
+    /// The spacing of numbers of this precision, in units of that of f32.
     pub spacing: f64,
 }
 
-/// So many last places of the cosine a result may be off besides its own: at a square root's singularity (the critical
-/// angle) and at a zero (Brewster's) no rounding could do better.
+/// The tolerance in ulp of the cosine. At a square root's singularity (the critical angle) and at a zero (Brewster's angle) no
+/// rounding could do better.
 pub const NEAR: i32 = 2;
-/// A step that no slope explains.
+/// A step that no slope explains, in single precision.
 const STEP: f64 = 1e-3;
-/// The same in half precision, where a last place near 1 is 5e-4.
+/// Such a step in half precision, where one ulp near 1 is 5e-4.
 const HALF_STEP: f64 = 1e-2;
-/// Below this a reflectance is nothing, and has no digits to lose.
+/// Below this a reflectance counts as 0 and has no digits to lose.
 const LEAST: f64 = 1e-20;
 
 impl ResultPoint {
-    /// By how much it fails in this way; 0 where it does not.
+    /// By how much it fails in this way. 0 where it does not.
     pub fn amount(&self, failure: Failure) -> f64 {
         let above = |x: f64, level: f64| if x > level { x } else { 0.0 };
         match failure {
@@ -153,7 +153,7 @@ impl ResultPoint {
         }
     }
 
-    /// How far the formula is from the law.
+    /// The absolute difference between formula and law.
     pub fn error(&self) -> f64 {
         self.law.map_or(0.0, |law| (self.want - law).abs())
     }
@@ -166,13 +166,13 @@ impl ResultPoint {
         self.got.is_finite() && self.around.0.is_finite() && self.around.1.is_finite()
     }
 
-    /// How far the result is from what it may be.
+    /// How far the result lies outside the range of `around`.
     fn off(&self) -> f64 {
         let (least, most) = self.around;
         f64::max(least - self.got, self.got - most).max(0.0)
     }
 
-    /// How many last places the result is off.
+    /// How far the result lies outside the range of `around`, in ulp.
     pub fn digits(&self) -> f64 {
         if is_flushed(self.cos_theta) || self.want.abs() < LEAST || !self.is_finite() {
             return 0.0;
@@ -181,7 +181,7 @@ impl ResultPoint {
     }
 }
 
-/// Whether a number is so small that a GPU may take it for 0.
+/// Whether a number is so small that a GPU may flush it to 0.
 pub fn is_flushed(x: f64) -> bool {
     x != 0.0 && x.abs() < f64::from(f32::MIN_POSITIVE)
 }

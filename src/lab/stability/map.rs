@@ -1,4 +1,4 @@
-//! Maps: how wrong a method is over the angle and an index.
+//! Maps: the error of a method over the angle and an index.
 
 use super::failure::{Failure, ResultPoint};
 use super::scan::{Scan, ScannedFunction};
@@ -9,35 +9,35 @@ use crate::physics::num::Precision;
 /// Errors over angle and index.
 #[derive(Clone, Debug)]
 pub struct Map {
-    /// What varies besides the angle, and its values in order.
+    /// The quantity that varies besides the angle, and its values in order.
     pub axis: ScanAxis,
-    /// What functions compute in.
+    /// The precision that functions compute in.
     pub precision: Precision,
-    /// What is held.
+    /// The quantity that is held constant, in words.
     pub held: &'static str,
     /// The angles, in degrees.
     pub degrees: Vec<f64>,
-    /// For each value of the axis a cell for each angle.
+    /// A cell for each angle, for each value of the axis.
     pub cells: Vec<Cell>,
 }
 
-/// What comes at an angle and an index.
+/// The result at an angle and an index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// How far the formula is from the law.
+    /// The absolute difference between formula and law.
     pub error: f64,
-    /// How many last places the result is from what the formula means.
+    /// The distance in ulp between result and formula.
     pub digits: f64,
-    /// Whether it is no reflectance at all: not a number, infinite, below 0 or above 1.
+    /// Whether the result is not a reflectance: NaN, infinite, below 0 or above 1.
     pub is_broken: bool,
 }
 
-/// Values of an axis.
+/// The number of values of an axis.
 const ROWS: u32 = 96;
-/// Where maps over k stand: from glass, with k, to metal.
+/// The n of maps over k, which run from glass to metal.
 const N: f64 = 1.5;
 
-/// The maps of a method: over eta where it describes dielectrics, and over k where it describes what absorbs.
+/// The maps of a method: over eta where it describes dielectrics, and over k where it describes absorbing media.
 pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
     let eta = ScanAxis {
         name: "eta",
@@ -91,7 +91,7 @@ fn map(
         point: &|index| space.point(method, index, precision),
         law: &|given, c| Some(law(method, given.medium?, c)),
     };
-    // Cosines stand as angles do, from 0 degrees on.
+    // Cosines are in the order of angles, from 0 degrees on.
     let row = |index| scan.curve(index).into_iter().map(|point| cell(&point));
     Map {
         cells: (0..space.count()).flat_map(row).collect(),

@@ -1,8 +1,8 @@
-//! Stability: where a method fails, found by a scan of its domain and past it, and told as inequalities.
+//! Stability: where a method fails, found by a scan of its domain and beyond, and reported as inequalities.
 //!
-//! Two things go wrong, and they are not added: rounding (a result against the same formula in f64) and the formula
-//! itself (against the law). Points are media where the method has a law to be held against, and its arguments
-//! themselves, beyond what any medium gives them.
+//! Two errors are distinguished and never added: rounding (a result against the same formula in f64) and the formula itself
+//! (against the law). Points are media, where the method can be compared with a law, and its arguments themselves, beyond the
+//! values of any medium.
 
 mod failure;
 mod map;

@@ -1,38 +1,38 @@
-//! Regions: where on a grid something happens, as boxes of inequalities that a person can read.
+//! Regions: the parts of a grid at which something fails, as boxes of inequalities that a person can read.
 
 use std::ops::Range;
 
 use super::space::ScanAxis;
 
-/// A grid of up to four axes, and at each point by how much it fails; 0 where it does not.
+/// A grid of up to four axes, with the amount of failure at each point.
 #[derive(Clone, Debug)]
 pub struct FailureGrid<'a> {
-    /// The axes; the last one varies fastest.
+    /// The axes. The last one varies fastest.
     pub axes: &'a [ScanAxis],
-    /// The amounts.
+    /// The amounts. 0 where a point does not fail.
     pub amounts: Vec<f32>,
 }
 
 /// A box of the grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// For each axis the places from the first that fails to behind the last.
+    /// The range of indices on each axis.
     pub extent: Vec<Range<usize>>,
-    /// How many of its points fail.
+    /// The number of its points that fail.
     pub failing: usize,
-    /// How many points it has.
+    /// The number of its points.
     pub points: usize,
-    /// The point that fails most: a place on each axis.
+    /// The point that fails most: an index on each axis.
     pub worst: Vec<usize>,
-    /// By how much.
+    /// The amount at that point.
     pub amount: f32,
 }
 
-/// More boxes than this are no help to a reader.
+/// The most boxes. More would not help a reader.
 const MOST: usize = 4;
-/// A cut must make the boxes this much tighter.
+/// The least factor by which a cut must make the boxes tighter.
 const GAIN: f64 = 1.5;
-/// What is this full needs no cut.
+/// A box with at least this share of failing points needs no cut.
 const FULL: f64 = 0.9;
 
 impl FailureGrid<'_> {
@@ -45,7 +45,7 @@ impl FailureGrid<'_> {
         places
     }
 
-    /// The boxes that hold all points that fail: one, or a few where that says more.
+    /// The boxes that hold all failing points: one, or a few where that is tighter.
     pub fn regions(&self) -> Vec<Region> {
         let failing = self
             .amounts
@@ -75,7 +75,7 @@ impl FailureGrid<'_> {
         regions
     }
 
-    /// Points in parts whose boxes are as tight as a few cuts make them.
+    /// The points divided into parts by the few cuts that make their boxes tightest.
     fn cut(&self, points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
         let mut parts = vec![points];
         while parts.len() < MOST {
@@ -96,7 +96,7 @@ impl FailureGrid<'_> {
         parts
     }
 
-    /// The cut of a set of points that makes their boxes tightest, where one is worth it.
+    /// The cut of a set of points that makes their boxes tightest: axis, index and gain. None where no cut is worthwhile.
     fn best_cut(&self, points: &[FailingPoint]) -> Option<(usize, usize, f64)> {
         let whole = bounds(points.iter());
         let volume = size(&whole);
@@ -116,7 +116,7 @@ impl FailureGrid<'_> {
     }
 }
 
-/// The points of one axis in runs, divided at the widest gaps.
+/// The points of a single axis in runs, divided at the widest gaps.
 fn runs(points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
     let place = |point: &FailingPoint| point.places[0];
     let mut gaps: Vec<usize> = (1..points.len())
@@ -213,7 +213,7 @@ fn region(points: &[FailingPoint]) -> Region {
 }
 
 impl Region {
-    /// The inequalities, separated by commas; `everywhere` if the region spans the whole grid.
+    /// The inequalities, separated by commas. `everywhere` if the region spans the whole grid.
     pub fn inequalities(&self, axes: &[ScanAxis]) -> String {
         let ranges = self.extent.iter().zip(axes);
         let inequalities: Vec<String> = ranges
@@ -232,7 +232,7 @@ impl Region {
     }
 }
 
-/// The inequality of a range on its axis; none if the range is the whole axis.
+/// The inequality of a range on its axis. None if the range is the whole axis.
 fn inequality(axis: &ScanAxis, range: &Range<usize>) -> Option<String> {
     let (name, values) = (axis.name, &axis.values);
     if range.len() == 1 {
@@ -332,7 +332,7 @@ fn round_bounds(x: f64, digits: i32) -> [f64; 2] {
     [exact((x / unit).floor()), exact((x / unit).ceil())]
 }
 
-/// A number in few digits: plain where that is short, with an exponent else.
+/// A number in few digits: plain where that is short, otherwise with an exponent.
 pub fn short(x: f64) -> String {
     let single = x as f32 + 0.0;
     let plain = format!("{single}");

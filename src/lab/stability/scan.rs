@@ -1,4 +1,4 @@
-//! The scan: a method at all points of its spaces, in a kind of number, against what it means in f64 and against the law.
+//! The scan: a method at all points of its spaces, in one precision, compared with its value in f64 and with the law.
 
 use super::failure::{Failure, NEAR, ResultPoint, is_flushed};
 use super::region::{FailureGrid, Region};
@@ -11,34 +11,34 @@ use crate::physics::num::{Half, Num, Precision, in_parallel};
 /// A failure of a method, and where it happens.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// What goes wrong.
+    /// The kind of failure.
     pub failure: Failure,
-    /// Whether it was found for media; else it is of arguments that no medium has.
+    /// Whether it was found for media. Otherwise it is for arguments that no medium has.
     pub is_media: bool,
-    /// Where, in inequalities.
+    /// The region, in inequalities.
     pub region: String,
-    /// The share of the points there at which it goes wrong.
+    /// The share of the region's points that fail.
     pub share: f64,
-    /// Where it is worst: names and values.
+    /// The worst point: names and values.
     pub worst: Vec<(&'static str, f64)>,
-    /// What comes there, what the formula means, and what the law says.
+    /// The result, the formula and the law at that point.
     pub point: Option<WorstPoint>,
-    /// How bad it is there.
+    /// The amount of the failure at that point.
     pub amount: f64,
 }
 
-/// A result as it is shown.
+/// The values that are shown of the worst point.
 #[derive(Clone, Copy, Debug)]
 pub struct WorstPoint {
-    /// What came.
+    /// The result.
     pub got: f64,
-    /// What the formula means.
+    /// The value of the formula in f64.
     pub want: f64,
-    /// What the law says.
+    /// The value of the law.
     pub law: Option<f64>,
 }
 
-/// What a function of scalars gives at these cosines, in a kind of number.
+/// The results of a function of scalars at these cosines, in a kind of number.
 fn in_numbers<N: Num>(
     function: &Checked,
     channel: usize,
@@ -54,7 +54,7 @@ fn in_numbers<N: Num>(
     (0..count).map(|i| column.at(i).to_f64()).collect()
 }
 
-/// How far apart the numbers of a precision are, in the spacing of f32.
+/// The spacing of numbers of a precision, in units of that of f32.
 fn spacing(precision: Precision) -> f64 {
     match precision {
         Precision::F32 => 1.0,
@@ -62,7 +62,7 @@ fn spacing(precision: Precision) -> f64 {
     }
 }
 
-/// Hears how many points are done, of how many.
+/// Called with how many points are done, of how many.
 pub type ScanProgress<'a> = &'a mut dyn FnMut(usize, usize);
 
 /// Scans a method.
@@ -95,11 +95,11 @@ pub fn scan(method: &'static Method, precision: Precision, progress: ScanProgres
 /// A function, and what it means.
 #[derive(Clone, Debug)]
 pub struct ScannedFunction {
-    /// What its text says.
+    /// The function as its text computes it.
     pub function: Checked,
-    /// What it means: in half precision some formulas are written otherwise.
+    /// What it means. In half precision some formulas are written differently.
     pub meaning: Checked,
-    /// What it is computed in.
+    /// The precision that it computes in.
     pub precision: Precision,
 }
 
@@ -118,7 +118,7 @@ impl ScannedFunction {
     }
 }
 
-/// Scans one channel of a function of the cosine alone, against what the law says of it.
+/// Scans one channel of a function of the cosine alone, compared with the law.
 pub fn scan_specialised(
     code: &ScannedFunction,
     channel: usize,
@@ -152,14 +152,14 @@ pub(super) struct Scan<'a> {
     pub law: &'a (dyn Fn(&ScanPoint, f64) -> Option<f64> + Sync),
 }
 
-/// By how much a point of a space fails in each way: at each cosine, and as a whole curve with its worst cosine.
+/// The amounts of failure of a point of a space: at each cosine, and as a whole curve with its worst cosine.
 struct CurveAmounts {
     at: Vec<Amounts>,
     of_curve: Amounts,
     worst: f64,
 }
 
-/// By how much in each way.
+/// The amount of each failure, in the order of [`Failure::ALL`].
 type Amounts = [f32; Failure::ALL.len()];
 
 impl Scan<'_> {
@@ -232,7 +232,7 @@ impl Scan<'_> {
         }
     }
 
-    /// All points of the space, shared among the processor's cores.
+    /// The amounts of all points of the space, computed on all cores.
     fn amounts_of_curves(&self, done: &mut dyn FnMut(usize)) -> Vec<CurveAmounts> {
         let row = |index| self.amounts_of_curve(index);
         in_parallel(self.space.count(), &row, &mut |count, _| {
@@ -240,7 +240,7 @@ impl Scan<'_> {
         })
     }
 
-    /// A point of the space, at all cosines.
+    /// The results of a point of the space at all cosines.
     pub fn curve(&self, index: usize) -> Vec<ResultPoint> {
         self.points(&(self.point)(index), &self.space.cosines.values)
     }
@@ -262,8 +262,8 @@ impl Scan<'_> {
         }
     }
 
-    /// Points at the critical angle, at Brewster's angle and next to them. Far from an index of 1 the curve changes only
-    /// there, and the axis of cosines has no value there.
+    /// Results at the critical angle, at Brewster's angle and next to them. Far from an index of 1 the curve changes only there,
+    /// and the axis of cosines has no value there.
     fn at_limits(&self, place: &ScanPoint) -> Vec<ResultPoint> {
         let Some((n, _)) = place.medium else {
             return Vec::new();
@@ -310,13 +310,13 @@ impl Scan<'_> {
     }
 }
 
-/// The number that is so many last places, or half of those, further from 0 than this one.
+/// The number about so many ulp further from 0 than this one: the relative step is fixed, so it may be half as many.
 fn stepped(precision: Precision, x: f64, steps: i32) -> f64 {
     let place = f64::from(f32::EPSILON) * spacing(precision);
     precision.rounded(x * (1.0 + f64::from(steps) * place))
 }
 
-/// Without what a graver level of the same failure says already.
+/// The findings without those that a graver level of the same failure reports for the same region.
 fn told_once(findings: Vec<Finding>) -> Vec<Finding> {
     let mut kept: Vec<Finding> = Vec::new();
     for finding in findings {
@@ -331,12 +331,12 @@ fn told_once(findings: Vec<Finding>) -> Vec<Finding> {
     kept
 }
 
-/// How far a method must rise or fall to be seen.
+/// The smallest rise or fall of method and law that counts as wrong monotony.
 const SEEN: f64 = 0.002;
-/// How deep the law's minimum must be.
+/// The least depth of the law's minimum that counts.
 const DEPTH: f64 = 0.005;
 
-/// By how much a whole curve fails in each way.
+/// The amount of each failure of a whole curve.
 fn curve_amounts(cosines: &[f64], points: &[ResultPoint], worst: &ResultPoint) -> Amounts {
     let inside = (0..cosines.len()).filter(|i| (0.0..=1.0).contains(&cosines[*i]));
     let curve: Vec<(f64, f64)> = inside
@@ -351,7 +351,7 @@ fn curve_amounts(cosines: &[f64], points: &[ResultPoint], worst: &ResultPoint) -
     Failure::ALL.map(|failure| amount(failure) as f32)
 }
 
-/// How far a curve goes against the law, from a turn of one of them to the next.
+/// How far a curve runs against the law, between two turning points of either.
 fn against(curve: &[(f64, f64)]) -> f64 {
     let mut worst = 0.0f64;
     let (mut mine, mut laws) = (0.0f64, 0.0f64);
@@ -369,7 +369,7 @@ fn against(curve: &[(f64, f64)]) -> f64 {
     worst
 }
 
-/// The depth of the law's minimum below its value at 0 degrees, where the curve has not a tenth of it.
+/// The depth of the law's minimum below its value at 0 degrees, if the curve's own depth is less than a tenth of it. 0 otherwise.
 fn missed(curve: &[(f64, f64)]) -> f64 {
     let Some(last) = curve.last() else { return 0.0 };
     let least = |of: fn(&(f64, f64)) -> f64| curve.iter().map(of).fold(f64::INFINITY, f64::min);

@@ -1,6 +1,4 @@
-//! The spaces that a method is scanned over.
-//!
-//! What a scan varies: cosines, indices and other arguments, over their domains and past them.
+//! The spaces that a method is scanned over, and their axes: cosines, indices and other arguments, over their domains and beyond.
 
 use super::failure::is_flushed;
 use crate::generator::fit::values;
@@ -10,18 +8,18 @@ use crate::physics::materials::Channels;
 use crate::physics::num::Precision;
 use crate::physics::optics;
 
-/// A space: its axes, and what a point of it means to a method.
+/// A space: its axes, and the meaning of its points.
 #[derive(Clone, Debug)]
 pub struct ScanSpace {
-    /// Whether its points are media, which have a law; else they are the method's arguments themselves.
+    /// Whether its points are media, which have a law. Otherwise they are the method's arguments themselves.
     pub is_media: bool,
-    /// The axes of what a method is given; the cosines are apart.
+    /// The axes, without the cosines.
     pub axes: Vec<ScanAxis>,
     /// The cosines.
     pub cosines: ScanAxis,
 }
 
-/// The spaces of a method, with numbers of a precision.
+/// The spaces of a method, with values rounded to a precision.
 pub fn spaces(method: &Method, precision: Precision) -> Vec<ScanSpace> {
     let mut all = Vec::new();
     if method.class != Class::Metal {
@@ -52,12 +50,12 @@ pub struct ScanPoint {
     pub arguments: Vec<f64>,
     /// The medium, where there is one.
     pub medium: Option<(f64, f64)>,
-    /// What a result may not exceed.
+    /// The largest allowed result.
     pub limit: f64,
 }
 
 impl ScanSpace {
-    /// How many points it has, without the cosines.
+    /// The number of its points, without the cosines.
     pub fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
@@ -110,7 +108,7 @@ fn arguments(method: &Method, (n, k): (f64, f64)) -> Vec<f64> {
         .collect()
 }
 
-/// The function contract: results lie between 0 and 1, or an F0 above it.
+/// The largest result by the function contract: 1, or an F0 above 1.
 fn limit(inputs: &[Input], at: &[f64]) -> f64 {
     let raised = inputs
         .iter()
@@ -119,16 +117,16 @@ fn limit(inputs: &[Input], at: &[f64]) -> f64 {
     raised.fold(1.0, |most, (_, value)| most.max(*value))
 }
 
-/// Below this k a medium reflects as if it absorbed nothing, and an approximation has been held against the law already.
+/// Below this k a medium reflects as if it absorbed nothing, and an approximation has been compared with the law at k = 0 already.
 const ABSORBS: f64 = 0.1;
 
-/// Whether a method is held against the law for this medium; an exact one always is.
+/// Whether a method is compared with the law for this medium. An exact one always is, unless k may be flushed to 0.
 pub fn is_lawful(method: &Method, (_, k): (f64, f64)) -> bool {
     let is_exact = method.claims.model.iter().all(|claim| claim.max_abs == 0.0);
     !is_flushed(k) && (is_exact || k == 0.0 || k >= ABSORBS)
 }
 
-/// What the law says of a medium in a method's light.
+/// The reflectance of a medium by the law, in the polarisation of a method.
 pub fn law(method: &Method, (n, k): (f64, f64), cos_theta: f64) -> f64 {
     use crate::language::methods::Light;
     let reflectance = optics::conductor(n, k, cos_theta);
@@ -139,12 +137,12 @@ pub fn law(method: &Method, (n, k): (f64, f64), cos_theta: f64) -> f64 {
     }
 }
 
-/// A quantity and the values at which it is tried, in order.
+/// A quantity and its scanned values, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanAxis {
-    /// Its name, as functions have it.
+    /// Its name as an argument of functions.
     pub name: &'static str,
-    /// The values, each once; numbers first, in order.
+    /// The values, each once. Numbers come first, in order.
     pub values: Vec<f64>,
 }
 
@@ -155,13 +153,13 @@ impl ScanAxis {
         ScanAxis { name, values }
     }
 
-    /// The values as a precision has them, without those that it has not.
+    /// The values rounded to a precision, each once, without those beyond its range.
     pub fn rounded(&self, precision: Precision) -> ScanAxis {
         let all = self.values.iter().map(|x| precision.rounded(*x));
         ScanAxis::new(self.name, all.filter(|x| x.is_finite()).collect())
     }
 
-    /// The same values, as many, each as a precision has it.
+    /// The same number of values, each rounded to a precision.
     pub fn each_rounded(mut self, precision: Precision) -> ScanAxis {
         self.values
             .iter_mut()
@@ -170,7 +168,7 @@ impl ScanAxis {
     }
 }
 
-/// From -1 to 8 ulp above 1: the edges with their neighbours, even in angle, logarithmic towards 0 and 1.
+/// Cosines from -1 to 8 ulp above 1: the edges with their neighbours, even in angle, logarithmic towards 0 and 1.
 pub fn cosines() -> ScanAxis {
     let mut values: Vec<f64> = vec![-1.0, -0.5, -0.1, -1e-3, -1e-6, 0.5, 1.0 / 7.0];
     let ulp = f64::from(f32::EPSILON);
@@ -186,7 +184,7 @@ pub fn cosines() -> ScanAxis {
     ScanAxis::new("cos_theta", values)
 }
 
-/// The same with thousands between them, for a function of the cosine alone.
+/// As [`cosines`] with thousands between them, for a function of the cosine alone.
 pub fn dense() -> ScanAxis {
     let mut values = cosines().values;
     values.extend(
@@ -197,16 +195,16 @@ pub fn dense() -> ScanAxis {
     ScanAxis::new("cos_theta", values)
 }
 
-/// How many those are.
+/// The number of cosines that [`dense`] adds.
 const DENSE: usize = 5000;
 
-/// Numbers from `low` to `high` at equal ratios.
+/// Numbers from `low` to `high` in geometric progression.
 pub(super) fn logarithmic(low: f64, high: f64, steps: u32) -> impl Iterator<Item = f64> {
     let ratio = high / low;
     (0..=steps).map(move |i| low * libm::pow(ratio, f64::from(i) / f64::from(steps)))
 }
 
-/// An index from 1e-3 to 1e3: around 1 its neighbours and distances from 1e-7 to 0.3.
+/// An index from 1e-3 to 1e3. Around 1 there are its neighbours and distances from 1e-7 to 0.3.
 pub fn index(name: &'static str, decade: u32) -> ScanAxis {
     let ulp = f64::from(f32::EPSILON);
     let mut values = vec![1.0];
@@ -237,7 +235,7 @@ pub fn extinction() -> ScanAxis {
     ScanAxis::new("k", values)
 }
 
-/// What a method's argument may be given, within its domain and past it.
+/// The values of a method's argument, within its domain and beyond.
 pub fn argument(input: &Input) -> ScanAxis {
     ScanAxis::new(input.name, input.scanned.to_vec())
 }

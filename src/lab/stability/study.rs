@@ -1,6 +1,5 @@
-//! A study: the rows of several methods, in their library form or specialised to materials.
-//!
-//! The rows of a scan: a failure of a method each, or that it has none.
+//! A study: the rows of scans of several methods, in their library form or specialised to materials. Each row is a failure of a
+//! method, or states that it has none.
 
 use serde::Serialize;
 
@@ -12,15 +11,15 @@ use crate::lab::verify::as_object;
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
 
-/// Hears how much is done, of how much, of what.
+/// Called with how much is done, of how much, and for what.
 pub type StudyProgress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
-/// What is scanned.
+/// The methods and the precision of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
     /// The methods.
     pub methods: Vec<&'static Method>,
-    /// What they compute in.
+    /// The precision that they compute in.
     pub precision: Precision,
 }
 
@@ -42,7 +41,7 @@ impl Study {
         rows
     }
 
-    /// The rows of functions specialised to materials, a channel each.
+    /// The rows of functions specialised to materials, for each channel.
     ///
     /// # Errors
     /// A method cannot be specialised to a material.
@@ -109,7 +108,7 @@ impl Study {
     }
 }
 
-/// A failure of a method, with what it is about.
+/// A failure of a method, with its function's material and precision.
 #[derive(Clone, Debug, Serialize)]
 #[serde(into = "FlatRow")]
 pub struct StabilityRow {
@@ -117,13 +116,13 @@ pub struct StabilityRow {
     pub method: &'static str,
     /// The material that it is specialised to, and the channel.
     pub material: Option<(String, &'static str)>,
-    /// What the function computes in.
+    /// The precision that the function computes in.
     pub precision: &'static str,
-    /// What goes wrong; none where nothing does.
+    /// The failure. None where there is none.
     pub finding: Option<Finding>,
 }
 
-/// A row as scripts read it.
+/// A row in the form of JSON reports.
 #[derive(Serialize)]
 struct FlatRow {
     method: &'static str,
@@ -140,7 +139,7 @@ struct FlatRow {
     reason: Option<&'static str>,
 }
 
-/// Where it is worst, and what comes there.
+/// The worst point, and the values there.
 #[derive(Serialize)]
 struct Worst {
     #[serde(serialize_with = "as_object")]
@@ -181,7 +180,7 @@ fn worst(finding: &Finding) -> Worst {
     }
 }
 
-/// Whose fault it is.
+/// The cause of a failure, in a word: the formula or its rounding.
 fn fault_of(failure: Failure) -> &'static str {
     if failure.is_of_the_model() {
         "formula"

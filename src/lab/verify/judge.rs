@@ -228,7 +228,7 @@ impl RanFunction<'_> {
         self.file.run_page()
     }
 
-    /// What is wrong in half precision.
+    /// The fault of a result in half precision.
     fn fault_in_half(&self, half: &HalfRun) -> Option<String> {
         // A device that gives NaN has an error that is infinite or NaN.
         let is_right = half.error.max_abs <= half.allowed;
@@ -245,7 +245,7 @@ impl RanFunction<'_> {
         })
     }
 
-    /// What is wrong with an effect's function.
+    /// The fault of an effect's function.
     fn fault_of_effect(&self, path: ExecutionPath, effect: &EffectRun) -> Option<String> {
         let EffectRun { outcome, allowed } = effect;
         let is_right = outcome.max_abs <= *allowed;

@@ -10,7 +10,7 @@ use crate::generator::emit::shader_words::{block_comment, is_name_part};
 /// What a file declares, and what its comments say.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outline {
-    /// Declarations outside all bodies, directives, and signs that our text never holds.
+    /// Declarations outside all bodies, directives, and characters that our text never holds.
     pub declared: Vec<Item>,
     /// Comments, a line each.
     pub comments: Vec<Item>,

@@ -18,7 +18,7 @@ const FRACTIONS: [u32; 4] = [0, 1, 0x2A_AAAA, 0x7F_FFFF];
 /// The bits of 1 and of infinity.
 const ONE: u32 = 0x3F80_0000;
 const INFINITY: u32 = 0x7F80_0000;
-/// The bit of the sign.
+/// The sign bit.
 const SIGN: u32 = 1 << 31;
 /// Bit patterns of NaN: the quiet one of most devices, signalling ones, all bits set.
 const NANS: [u32; 5] = [

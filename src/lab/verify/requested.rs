@@ -191,7 +191,7 @@ fn planned(made: Made, page: ShippedPage) -> Result<PlannedFile, Error> {
     })
 }
 
-/// What is to be run.
+/// The plan of a verification.
 #[derive(Debug)]
 pub struct VerifyPlan {
     /// The files in order.

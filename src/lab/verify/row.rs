@@ -31,7 +31,7 @@ pub struct VerifyRow {
     pub method: String,
     /// The material, as a user types it. None where the run timed out or crashed, and for an effect's function.
     pub material: Option<String>,
-    /// What it takes and gives.
+    /// Its form.
     pub form: FunctionForm,
     /// The precision that the function computes in.
     pub precision: Precision,
@@ -203,22 +203,22 @@ pub struct SecondOpinion {
     /// At how many cosines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<usize>,
-    /// What share of all numbers from 0 to 1 they are.
+    /// Their share of all numbers from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// What it may differ by.
+    /// The allowed difference.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<AllowedError>,
-    /// What it differs by.
+    /// The measured difference.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub code_error: Option<CodeErrorFigures>,
     /// In half precision, how far it is from f16 rounded after every operation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub emulation: Option<Emulation>,
-    /// The method's error as it ran, where there is a law.
+    /// The method's error as it ran, where there is a law to compare with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_error: Option<ModelErrorFigures>,
-    /// What to think of it.
+    /// The status.
     pub status: Status,
     /// Why it is not a pass.
     pub reason: Option<String>,

@@ -12,7 +12,7 @@ mod ticks;
 
 pub(super) use axes::{Area, Axes, Layout, PanelFrame, Scale, Tick};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
-pub(crate) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
+pub use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
 pub use palette::{Look, Style};
 pub(crate) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
 pub use ticks::ticks;

@@ -18,8 +18,7 @@ impl Offscreen {
         self.image([width, height, 1], self.format, usage)
     }
 
-    /// An image with these texels, the rows one after the other, each rounded to binary16. Six squares are a cube: +x, -x,
-    /// +y, -y, +z, -z.
+    /// An image with these texels, row by row, each rounded to binary16. Six squares are a cube map: +x, -x, +y, -y, +z, -z.
     ///
     /// # Errors
     /// It is larger than the device allows, or the texels do not fill it.
@@ -87,7 +86,7 @@ impl Offscreen {
         Ok(Image { texture, dimension })
     }
 
-    /// The texels of a target, row after row.
+    /// The texels of a target, row by row.
     ///
     /// # Errors
     /// The device is lost.

@@ -1,7 +1,7 @@
-//! Pictures drawn to textures of floats and read back: meshes with a depth, or triangles that cover the target.
+//! Pictures drawn to textures of floats and read back: meshes with a depth test, or triangles that cover the target.
 //!
-//! Every draw sees its uniforms at binding 0, a sampler that clamps at 1, one that repeats along u at 2, and images from 3 on.
-//! There is no state beside that: a draw names all that it reads and writes.
+//! Every draw has its uniforms at binding 0, a sampler that clamps at 1, one that repeats along u at 2, and images from 3 on.
+//! There is no other state: a draw names all that it reads and writes.
 
 mod image;
 mod pass;
@@ -14,16 +14,16 @@ use super::adapter::DeviceFault;
 use super::kernel::Compute;
 use pass::{DEPTH_FORMAT, kinds, pass};
 
-/// Numbers of a vertex: position, normal, tangent with the bitangent's sign, texture coordinates.
+/// The numbers of a vertex: position, normal, tangent with the bitangent's sign, texture coordinates.
 pub const VERTEX_FLOATS: usize = 12;
 
-/// What the first image is bound to.
+/// The binding of the first image.
 const FIRST_IMAGE: u32 = 3;
 
 /// A device that draws to images.
 pub struct Offscreen {
     compute: Rc<Compute>,
-    /// binary32 where the device filters and blends it, else binary16.
+    /// binary32 where the device filters and blends it, otherwise binary16.
     format: TextureFormat,
     samplers: [wgpu::Sampler; 2],
 }
@@ -40,7 +40,7 @@ pub struct Mesh {
     vertices: u32,
 }
 
-/// Which of several surfaces a pixel shows.
+/// The depth test: which of several surfaces a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// The one that is drawn last.
@@ -55,23 +55,23 @@ pub enum Depth {
 pub struct Draw<'a> {
     /// The module in WGSL.
     pub text: &'a str,
-    /// The entry point for vertices.
+    /// The vertex entry point.
     pub vertex: &'a str,
-    /// The entry point for pixels.
+    /// The fragment entry point.
     pub fragment: &'a str,
-    /// The bytes of the block at binding 0.
+    /// The bytes of the uniform block at binding 0.
     pub uniforms: &'a [u8],
-    /// What it reads.
+    /// The images that it reads.
     pub images: &'a [&'a Image],
-    /// What it draws; without a mesh so many vertices that the entry point makes itself.
+    /// The mesh, or a number of vertices that the entry point generates itself.
     pub mesh: Result<&'a Mesh, u32>,
-    /// What it writes, all of one size.
+    /// The images that it writes, all of one size.
     pub targets: &'a [&'a Image],
-    /// Whether the targets are set to zero before.
+    /// Whether the targets are cleared to zero before.
     pub clears: bool,
-    /// Which surface is seen.
+    /// The depth test.
     pub depth: Depth,
-    /// Whether it is added to what is there.
+    /// Whether it is blended additively.
     pub adds: bool,
 }
 
@@ -103,7 +103,7 @@ impl Offscreen {
     /// Triangles of vertices of [`VERTEX_FLOATS`] numbers.
     ///
     /// # Errors
-    /// The device does not take them.
+    /// The device does not accept them.
     pub fn mesh(&self, vertices: &[[f32; VERTEX_FLOATS]]) -> Result<Mesh, DeviceFault> {
         let bytes: &[u8] = bytemuck::cast_slice(vertices);
         let buffer = self.buffer(bytes, BufferUsages::VERTEX)?;
@@ -128,7 +128,7 @@ impl Offscreen {
     /// Draws, and waits for it.
     ///
     /// # Errors
-    /// The text does not compile or does not fit what it reads, or the device is lost.
+    /// The text does not compile or does not fit its inputs, or the device is lost.
     pub fn draw(&self, draw: &Draw) -> Result<(), DeviceFault> {
         let (compute, device) = (&self.compute, &self.compute.device);
         let block = self.buffer(draw.uniforms, BufferUsages::UNIFORM)?;

@@ -1,4 +1,4 @@
-//! A draw as the device takes it: the kinds of what it reads, its pipeline, its pass.
+//! A draw in wgpu's terms: its layout, its pipeline, its render pass.
 
 use wgpu::TextureFormat;
 
@@ -92,7 +92,7 @@ impl Depth {
         })
     }
 
-    /// What is farther, or nearer, than all.
+    /// The clear value of the depth buffer: farther, or nearer, than all surfaces.
     fn cleared(self) -> f32 {
         match self {
             Depth::Farthest => 0.0,
@@ -153,7 +153,7 @@ pub(super) fn pass(
 
 pub(super) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 
-/// What is drawn is added to what is there.
+/// Additive blending.
 const SUM: wgpu::BlendState = {
     let sum = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
@@ -172,7 +172,7 @@ const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2],
 };
 
-/// The kinds of what a draw reads.
+/// The layout of a draw's bindings.
 pub(super) fn kinds(draw: &Draw) -> Vec<wgpu::BindGroupLayoutEntry> {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,

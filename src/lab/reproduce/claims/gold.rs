@@ -1,13 +1,13 @@
-//! Gold at 685 and 475 nm (section 2.2, beside figures 9 and 10).
+//! The claims about gold at 685 and 475 nm (section 2.2, beside figures 9 and 10).
 
 use super::measured;
 use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use crate::lab::reproduce::figures::{exact, lowest};
 use crate::lab::reproduce::specialised;
 
-/// "About 77°" and "a little over 20 %" are taken to this.
+/// The tolerance of "about 77°" in degrees, and of "a little over 20 %" in percentage points.
 const ABOUT: f64 = 1.0;
-/// How far above a bound "a little" reaches, in percentage points.
+/// How far "a little" reaches above a bound, in percentage points.
 const A_LITTLE: f64 = 5.0;
 
 /// The claims about gold.

@@ -1,4 +1,4 @@
-//! Where metals reflect least (sections 3.2.3 and 3.2.4).
+//! The claims about the angle at which metals reflect least (sections 3.2.3 and 3.2.4).
 
 use super::{measured, statement};
 use crate::generator::reference::Derivation;
@@ -10,8 +10,8 @@ use crate::physics::num::each_channel;
 
 /// Where the thesis puts the minimum: cos θ = 0.15 and 0.10.
 const CLAIMED: std::ops::RangeInclusive<f64> = 81.37..=84.26;
-/// The error of the rescaled Schlick from which it is worth a correction: a hundredth, two or three steps of an
-/// eight-bit display.
+/// The error of the rescaled Schlick from which on a correction is worthwhile: a hundredth, two or three steps of an eight-bit
+/// display.
 const WORTH_CORRECTING: f64 = 0.01;
 
 /// More metals, to test what the thesis says of metals in general.
@@ -109,7 +109,7 @@ fn of_difference(curves: &[&MetalAtWavelength], all: usize) -> ComparisonRow {
         .verdict(ComparisonVerdict::of_claim(2 * inside > curves.len()))
 }
 
-/// How many lie in the claimed range, and from where to where all lie.
+/// How many lie in the claimed range, and the range of all.
 fn within(
     curves: &[&MetalAtWavelength],
     angle: fn(&MetalAtWavelength) -> f64,

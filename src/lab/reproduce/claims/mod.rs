@@ -1,4 +1,4 @@
-//! What the thesis asserts in its text, each tested by numbers.
+//! The claims in the thesis's text, each tested by numbers.
 
 mod gold;
 mod minimum;
@@ -9,7 +9,7 @@ use super::ThesisSection;
 use super::comparison::{ComparisonRow, Figure};
 use super::rendered::Meter;
 
-/// How many angles the claims go through, for progress.
+/// The number of angles that the claims evaluate, for progress.
 pub fn work(angles: usize) -> usize {
     schlick::work(angles)
 }
@@ -29,7 +29,7 @@ pub fn section(angles: usize, meter: &mut Meter) -> ThesisSection {
     }
 }
 
-/// A claim in words, beside what was found.
+/// A claim in words, beside our finding.
 fn statement(name: &str, section: &str, thesis: &str, ours: String) -> ComparisonRow {
     ComparisonRow::new("claims", name, section)
         .thesis(Figure::Words(thesis.to_owned()))

@@ -1,4 +1,4 @@
-//! Schlick's approximation (section 3.1.3, 3.2.2 and 5.3.1): its range of n, its two forms, its error for water.
+//! The claims about Schlick's approximation (sections 3.1.3, 3.2.2 and 5.3.1): its range of n, its two forms, its error for water.
 
 use super::{measured, statement};
 use crate::generator::fit::thesis_errors;
@@ -9,7 +9,7 @@ use crate::lab::reproduce::rendered::Meter;
 use crate::lab::reproduce::specialised;
 use crate::physics::materials::Channels;
 
-/// Indices from hydrogen to germanium: dense in and about the claimed range, three at a time for three channels.
+/// Indices from hydrogen to germanium, dense in and around the claimed range, three at a time for three channels.
 const INDICES: [[f64; 3]; 7] = [
     [1.001, 1.1, 1.2],
     [1.3, 1.4, 1.5],
@@ -22,7 +22,7 @@ const INDICES: [[f64; 3]; 7] = [
 /// The claimed range.
 const GOOD: std::ops::RangeInclusive<f64> = 1.4..=2.2;
 
-/// How wrong Schlick is for an index.
+/// The error of Schlick's approximation for an index.
 struct Error {
     n: f64,
     mean_percent: f64,
@@ -30,7 +30,7 @@ struct Error {
     at: f64,
 }
 
-/// How many angles are gone through.
+/// The number of angles that are evaluated.
 pub fn work(angles: usize) -> usize {
     INDICES.len() * angles
 }
@@ -65,7 +65,7 @@ fn errors(n: [f64; 3], angles: usize, meter: &mut Meter) -> Vec<Error> {
     n.into_iter().zip(means).map(error).collect()
 }
 
-/// Where Schlick is furthest from the exact law, and by how much.
+/// The point at which Schlick is furthest from the exact law, and the difference.
 fn largest(n: f64) -> (f64, f64) {
     highest(difference(n))
 }
@@ -108,7 +108,7 @@ fn range(errors: &[Error]) -> ComparisonRow {
     statement("Schlick by n", "section 3.1.3", claim, ours).verdict(verdict)
 }
 
-/// Whether more stands outside the range than the worst inside, and if not, where.
+/// Whether all errors outside the range are larger than the worst inside, in words, and if not, for which indices.
 fn outside(errors: &[Error], figure: fn(&Error) -> f64, worst_inside: f64) -> String {
     let no_more = |error: &&Error| !GOOD.contains(&error.n) && figure(error) <= worst_inside;
     let exceptions: Vec<String> = errors
@@ -165,7 +165,7 @@ fn equal_forms() -> ComparisonRow {
         .verdict(ComparisonVerdict::of_claim(apart < 1e-14))
 }
 
-/// Middles of equal steps from 0 to 90 degrees, for a share of the interval to 0.01 %.
+/// Number of equal steps from 0 to 90 degrees, whose middles give a share of the interval to 0.01 %.
 const STEPS: u32 = 9000;
 
 fn water() -> ComparisonRow {
@@ -181,7 +181,7 @@ fn water() -> ComparisonRow {
         largest(1.33).1,
         largest(1.33).0
     );
-    // The claim has one digit: 75 to 85 is 80.
+    // The claim has one digit: 75 to 85 counts as 80.
     statement("Schlick for water", "section 5.3.1", claim, ours)
         .verdict(ComparisonVerdict::of_claim((75.0..85.0).contains(&share)))
 }

@@ -1,6 +1,5 @@
-//! What section 5.3.2 says of Table 6, tested by Table 6 itself. Our own times are another matter.
-//!
-//! How much more the exact law for conductors computes than that for dielectrics (section 5.3.2).
+//! The claims of section 5.3.2: about speed, tested by Table 6 itself and not by our own times, and how much more the exact law for
+//! conductors computes than that for dielectrics.
 
 use super::{measured, statement};
 use crate::lab::reproduce::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
@@ -14,7 +13,7 @@ pub fn speed_claims() -> Vec<ComparisonRow> {
     vec![schlick(), table(), conductor()]
 }
 
-/// One method's times on all devices, over another's.
+/// One method's times on all devices, divided by another's.
 fn ratios(method: &str, other: &str) -> Vec<f64> {
     let columns = comparison::names(&[TIMES, "columns"]);
     let place = |name: &str| columns.iter().position(|column| *column == name);
@@ -60,7 +59,7 @@ fn conductor() -> ComparisonRow {
         100.0 * (most(&others) - 1.0),
         100.0 * (most(&costs) - 1.0)
     );
-    // "50 %" to the tens and one ten about it.
+    // "50 %", rounded to tens, and one ten on both sides.
     let near = others
         .iter()
         .filter(|cost| (1.4..=1.6).contains(*cost))
@@ -82,8 +81,8 @@ fn most(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
-/// The thesis's count of 90 % is by the compiler of one GPU; ours is by the operations of the formula. Between half
-/// and twice as far from equal is the same statement.
+/// The thesis's count of 90 % more is by the compiler of one GPU, ours is by the operations of the formula. An excess from half
+/// to twice as large is the same statement.
 const COMPARABLE: std::ops::RangeInclusive<f64> = 45.0..=180.0;
 
 const HOW: &str = "section 5.3.2: about 90 % on Adreno, by its compiler. Ours: scalar operations of eqs. 8 to 12 against \

@@ -14,7 +14,7 @@ pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
         return Ok(vec![bytes.to_vec()]);
     }
     let text = std::str::from_utf8(bytes)?;
-        // Only WGSL has this word, and nested comments.
+    // Only WGSL has this word, and nested comments.
     let nests = frame.ending.contains("fn ");
     let ending = frame.ending.replace("CALLS\n", &calls(text, nests));
     let program = |beginning: &&str| format!("{beginning}{text}{ending}").into_bytes();
@@ -90,7 +90,7 @@ fn argument(parameter: &str) -> String {
     // Without a precision before it.
     let ty = ty.split_whitespace().last().unwrap_or(ty);
     let lower = ty.to_lowercase();
-        // GLSL combines texture and sampler.
+    // GLSL combines texture and sampler.
     let known = if lower.contains("cube") {
         "a_cube"
     } else if lower.contains("sampler2d") || lower.contains("texture") {
