@@ -197,10 +197,10 @@ pub struct SecondOpinion {
     /// The execution path.
     #[serde(rename = "way")]
     pub execution_path: String,
-    /// On what it ran.
+    /// The device that it ran on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<String>,
-    /// At how many cosines.
+    /// The number of cosines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<usize>,
     /// Their share of all numbers from 0 to 1.

@@ -318,6 +318,7 @@ fn not_run(target: &Target) -> RunFault {
     ))
 }
 
+/// Checks that a device has 16-bit arithmetic where a function needs it.
 fn check_able(device: &Device, emitted: &Emitted) -> Result<(), RunFault> {
     if !emitted.precision.is_half() || device.has_half() {
         return Ok(());
