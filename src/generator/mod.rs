@@ -5,7 +5,7 @@
 //! there. A build script uses only this much, so nothing here needs a graphics stack or a command line. It imports physics and
 //! language. Start with [`generate()`] and follow a request through it.
 
-// Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours, fault < error < output < request < generate
+// Rooms: envelope, command_line, reference < fit < emit < exchange, lut < bake, flavours < error < output < request < generate
 
 pub mod bake;
 pub mod command_line;

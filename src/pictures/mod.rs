@@ -6,7 +6,7 @@
 //! It imports all wings but the command line, and is left out without the feature `pictures`.
 //! Start with [`plot`], which every curve goes through, or with [`plan`].
 
-// Rooms: plot, table, html, pixels, png < cost_page, figure_chart, frontier, headline, material_sheet, stability_map, scene < gallery, plan
+// Rooms: plot, table, html, png < cost_page, figure_chart, frontier, headline, material_sheet, stability_map, scene < gallery, plan
 
 pub mod cost_page;
 pub mod figure_chart;

@@ -204,6 +204,12 @@ fn imports_run_one_way() {
                 .position(|group| group.iter().any(|other| other == room))
         };
         let folder = root().join("src").join(wing);
+        for room in rooms.iter().flatten() {
+            assert!(
+                folder.join(room).is_dir() || folder.join(format!("{room}.rs")).is_file(),
+                "src/{wing}/mod.rs names a room `{room}`, which is not there"
+            );
+        }
         for (path, text) in sources(&format!("src/{wing}")) {
             let inside = path.strip_prefix(&folder).expect("it lies there");
             let first = inside.components().next().expect("a path has parts");

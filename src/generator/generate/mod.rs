@@ -78,7 +78,8 @@ pub fn generate(request: &Request) -> Result<Generated, Error> {
 impl Generated {
     /// Writes the files into a folder that is this request's alone, such as `OUT_DIR`, and gives their paths, sorted. It also removes
     /// what an earlier request wrote there and this one does not. A file that is right already keeps its time, and a file that this
-    /// program did not write is neither replaced nor removed. `manifest.json` beside them says which files are ours.
+    /// program did not write is neither replaced nor removed. `manifest.json` beside them says which files are ours. Two requests take two
+    /// folders, since each removes the files of the other.
     ///
     /// # Errors
     /// A file of others lies where one is to be written, or the disk refuses: then all stays as it was.
