@@ -10,7 +10,7 @@ use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::generator::error::unknown;
 use crate::generator::request::source::{self, load};
 use crate::generator::request::{Materials, Request};
-use crate::language::methods::{self, Method};
+use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{self, FileFault};
 use crate::physics::num::Precision;
@@ -83,9 +83,7 @@ fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<
 
 /// The method of a row, which must be one that plans choose, in a form that they choose.
 fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
-    let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
-    let method = methods::find(&row.method);
-    let method = method.ok_or_else(|| unknown("method", &row.method, &names))?;
+    let method: &Method = row.method.parse()?;
     let forms = [
         FunctionForm::Specialised,
         FunctionForm::Library,

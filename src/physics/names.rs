@@ -42,6 +42,19 @@ impl UnknownName {
     }
 }
 
+/// What a name stands for in a list, or the error that names the nearest of all.
+///
+/// # Errors
+/// Nothing was found.
+pub fn named<T>(
+    kind: &'static str,
+    name: &str,
+    found: Option<T>,
+    all: impl Iterator<Item = &'static str>,
+) -> Result<T, UnknownName> {
+    found.ok_or_else(|| UnknownName::new(kind, name, &all.collect::<Vec<_>>()))
+}
+
 /// ` (did you mean …?)` with these names; nothing where there are none.
 pub fn offered(nearest: &[String]) -> String {
     if nearest.is_empty() {

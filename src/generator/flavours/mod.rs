@@ -8,7 +8,7 @@
 
 use std::str::FromStr;
 
-use crate::physics::names::UnknownName;
+use crate::physics::names::{UnknownName, named};
 
 mod flavour;
 mod view;
@@ -62,9 +62,6 @@ impl FromStr for &'static Flavour {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<&'static Flavour, UnknownName> {
-        find(name).ok_or_else(|| {
-            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
-            UnknownName::new("flavour", name, &names)
-        })
+        named("flavour", name, find(name), ALL.iter().map(|one| one.name))
     }
 }

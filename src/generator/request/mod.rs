@@ -7,13 +7,14 @@ use std::collections::BTreeMap;
 
 use crate::generator::emit::{HeaderForm, Naming};
 use crate::generator::error::{Error, RequestFault, unknown};
-use crate::generator::flavours::{self, Flavour};
+use crate::generator::flavours::Flavour;
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::generator::request::source::{Loaded, Subjects, load};
 use crate::language::effects::{self, Effect};
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
+use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
 
@@ -225,11 +226,8 @@ impl Request {
     /// A name is no flavour.
     #[doc(hidden)]
     pub fn resolved_flavours(&self) -> Result<Vec<&'static Flavour>, Error> {
-        let all: Vec<&str> = flavours::ALL.iter().map(|flavour| flavour.name).collect();
-        let mut chosen: Vec<&Flavour> = Vec::new();
-        for name in &self.flavours {
-            chosen.push(flavours::find(name).ok_or_else(|| unknown("flavour", name, &all))?);
-        }
+        let parsed = self.flavours.iter().map(|name| name.parse());
+        let mut chosen: Vec<&'static Flavour> = parsed.collect::<Result<_, UnknownName>>()?;
         chosen.sort_by_key(|flavour| flavour.name);
         chosen.dedup_by_key(|flavour| flavour.name);
         Ok(chosen)

@@ -8,7 +8,7 @@
 
 use std::str::FromStr;
 
-use crate::physics::names::UnknownName;
+use crate::physics::names::{UnknownName, named};
 
 mod effect;
 
@@ -73,10 +73,7 @@ impl FromStr for &'static Effect {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<&'static Effect, UnknownName> {
-        find(name).ok_or_else(|| {
-            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
-            UnknownName::new("effect", name, &names)
-        })
+        named("effect", name, find(name), ALL.iter().map(|one| one.name))
     }
 }
 

@@ -7,7 +7,7 @@
 
 use std::str::FromStr;
 
-use crate::physics::names::UnknownName;
+use crate::physics::names::{UnknownName, named};
 
 mod affine;
 mod formulas;
@@ -46,10 +46,7 @@ impl FromStr for &'static Method {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<&'static Method, UnknownName> {
-        find(name).ok_or_else(|| {
-            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
-            UnknownName::new("method", name, &names)
-        })
+        named("method", name, find(name), ALL.iter().map(|one| one.name))
     }
 }
 

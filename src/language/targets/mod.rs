@@ -7,7 +7,7 @@
 
 use std::str::FromStr;
 
-use crate::physics::names::UnknownName;
+use crate::physics::names::{UnknownName, named};
 
 mod spelling;
 mod target;
@@ -79,9 +79,6 @@ impl FromStr for &'static Target {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<&'static Target, UnknownName> {
-        find(name).ok_or_else(|| {
-            let names: Vec<&str> = ALL.iter().map(|one| one.name).collect();
-            UnknownName::new("target", name, &names)
-        })
+        named("target", name, find(name), ALL.iter().map(|one| one.name))
     }
 }
