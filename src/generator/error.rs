@@ -36,7 +36,7 @@ pub enum Error {
     },
     /// A material that is not known at the wavelengths needed.
     #[error(transparent)]
-    Unseen(#[from] materials::Unseen),
+    Unseen(#[from] materials::SurfaceError),
     /// A file that the user named cannot be read.
     #[error("cannot read {}: {source}", foreign::path(path))]
     Input {

@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use fresnel_gen::generator::emit::{Bounds, Emitted, Naming, specialised_function};
+use fresnel_gen::generator::emit::{Bounds, EmittedFunction, Naming, specialised_function};
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::reference::MaterialInMedium;
@@ -90,7 +90,7 @@ struct Row {
     fault: Option<String>,
 }
 
-fn measured(emitted: &Emitted, subject: &MaterialInMedium, cosines: &[f32]) -> Row {
+fn measured(emitted: &EmittedFunction, subject: &MaterialInMedium, cosines: &[f32]) -> Row {
     let meaning = emitted.meaning().expect("it is well formed");
     let trial = HalfTrial {
         function: &emitted.function,
@@ -155,7 +155,7 @@ fn promise_fault(method: &Method, rows: &[Row]) -> Option<String> {
 }
 
 /// What is wrong with results: they lie in [0, 1], and the exact law is exactly 1 at 90 degrees.
-fn range_fault(emitted: &Emitted, got: &Value<Half>, count: usize) -> Option<String> {
+fn range_fault(emitted: &EmittedFunction, got: &Value<Half>, count: usize) -> Option<String> {
     let number = |i: usize| got.at(i).map(Num::to_f64);
     let inside = |value: f64| (0.0..=1.0).contains(&value);
     let kept = emitted.method.contract == Contract::Kept;

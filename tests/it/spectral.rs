@@ -177,7 +177,7 @@ fn the_index_per_channel_stands_for_the_spectrum() {
         let known = fit::known(&effective.channels, &reference::Derivation::default());
         let seen = truth.at(1.0);
         for (by, (law, seen)) in effective.by.iter().zip(known.f0.iter().zip(seen)) {
-            let met = *by != reference::By::F0AndF82 || (law - seen).abs() < 1e-9;
+            let met = *by != reference::IndexSource::F0AndF82 || (law - seen).abs() < 1e-9;
             assert!(met, "{}: {known:?}", material.name);
         }
         let apart = (0..=90).flat_map(|degree| {

@@ -6,7 +6,7 @@ use crate::generator::emit::Naming;
 use crate::generator::lut::{Format, TableAxis};
 use crate::generator::reference::{ReferenceCurve, Typed};
 use crate::language::methods::{Light, TEXELS};
-use crate::physics::materials::{Material, Surface, Unseen, ViewingConditions};
+use crate::physics::materials::{Material, Surface, SurfaceError, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space};
 
 /// A material in its medium under viewing conditions.
@@ -33,7 +33,7 @@ impl TableMaterial {
         (argument, material): (&str, &Material),
         medium: Option<&Typed>,
         viewing: &ViewingConditions,
-    ) -> Result<TableMaterial, Unseen> {
+    ) -> Result<TableMaterial, SurfaceError> {
         let surface = Surface::new(material, medium.map(|(_, medium)| medium), viewing)?;
         let name = &material.name;
         let is_spectral = surface.channels().is_none();

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::file::Error;
-use super::function::{Emitted, FunctionForm, Naming, library_function};
+use super::function::{EmittedFunction, FunctionForm, Naming, library_function};
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{Basis, Method};
 use crate::physics::num::{Legendre, each_channel};
@@ -14,7 +14,7 @@ use crate::physics::num::{Legendre, each_channel};
 ///
 /// # Errors
 /// A graph breaks a rule of the representation: a bug.
-pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<EmittedFunction>, Error> {
     let forms = [
         (FunctionForm::Average, false),
         (FunctionForm::AverageScalar, true),
@@ -34,7 +34,7 @@ pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitte
 }
 
 /// What the head of a file says about coefficients; none for other functions.
-pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
+pub(super) fn coefficients_line(emitted: &EmittedFunction) -> Option<String> {
     emitted.form.coefficient()?;
     let method = emitted.method;
     let fitted = method.coefficients?.fitted;
@@ -46,7 +46,7 @@ pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
 }
 
 /// What the head of a file says about a mean; none for other functions.
-pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
+pub(super) fn mean_line(emitted: &EmittedFunction) -> Option<String> {
     let method = emitted.method;
     let what = match (method.basis(), method.average) {
         _ if !emitted.form.is_mean() => return None,
@@ -93,7 +93,7 @@ const POINTS: usize = 8;
 
 impl Average {
     /// The mean of a specialised function.
-    pub fn of(emitted: &Emitted) -> Option<Average> {
+    pub fn of(emitted: &EmittedFunction) -> Option<Average> {
         let shape = emitted.method.shape?;
         let own = |name: &str| emitted.constants.get(name);
         let names = emitted.method.inputs.iter().map(|input| input.name);

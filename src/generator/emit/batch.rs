@@ -2,7 +2,7 @@
 //! argument begins in a slot of its own, and a matrix takes four, column by column. Such a program is a module of an effect, and
 //! runs effects when they are verified.
 
-use super::function::Emitted;
+use super::function::EmittedFunction;
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Batch, Spelling, Target};
 
@@ -23,7 +23,11 @@ pub fn places(params: &[Param]) -> usize {
 
 /// The program around the text of a file, with one entry point per function; none for a language that nothing here runs. In GLSL
 /// the entry point is `main`, so there can be only one function.
-pub fn batch_program(target: &Target, file: &str, functions: &[&Emitted]) -> Option<String> {
+pub fn batch_program(
+    target: &Target,
+    file: &str,
+    functions: &[&EmittedFunction],
+) -> Option<String> {
     let harness = target.stack.harness()?;
     let batch = harness.batch;
     let params = || functions.iter().flat_map(|one| &one.function.params);
@@ -58,7 +62,7 @@ pub fn batch_entry(function: &str) -> String {
     format!("run_{function}")
 }
 
-fn value(batch: &Batch, spelling: &Spelling, texture: &str, emitted: &Emitted) -> String {
+fn value(batch: &Batch, spelling: &Spelling, texture: &str, emitted: &EmittedFunction) -> String {
     let params = &emitted.function.params;
     let stride = places(params).to_string();
     let place = |at: usize| {

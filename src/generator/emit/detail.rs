@@ -9,12 +9,12 @@ use super::average::Average;
 use super::effect_file::EffectPart;
 use super::figures::{CodeBound, MissedDetail};
 use super::file::{is_number, uniform_offsets};
-use super::function::{Emitted, FunctionForm};
+use super::function::{EmittedFunction, FunctionForm};
 use super::header::{Notes, OUTPUT_LICENCE};
 use super::page::entry_point;
 use super::print;
 use crate::generator::fit::{Measured, ModelError};
-use crate::generator::reference::{By, MaterialInMedium};
+use crate::generator::reference::{IndexSource, MaterialInMedium};
 use crate::language::ir::{Param, Ty};
 use crate::language::methods::Input;
 use crate::language::targets::{Finish, Target};
@@ -52,7 +52,7 @@ impl Detail {
     }
 
     /// The viewing conditions of the material of a file of functions.
-    pub fn seen(&self) -> Option<&SeenDetail> {
+    pub fn seen(&self) -> Option<&ViewingDetail> {
         match self {
             Detail::Functions(file) => file.seen.as_ref(),
             Detail::Catalogue(_) | Detail::Table(_) | Detail::Adapter(_) => None,
@@ -72,7 +72,7 @@ pub struct FunctionsDetail {
     pub precision: Option<&'static str>,
     /// The viewing conditions of the material.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub seen: Option<SeenDetail>,
+    pub seen: Option<ViewingDetail>,
     /// The source of the material's indices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<DataDetail>,
@@ -126,7 +126,7 @@ pub struct AdapterDetail {
 
 /// The viewing conditions of a material: SPIR-V modules have no head to state them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SeenDetail {
+pub struct ViewingDetail {
     /// What the reference reflectance is, in words.
     pub truth: String,
     /// In words, beyond which wavelengths its index was held constant; none if nowhere.
@@ -230,7 +230,7 @@ struct UniformDetail {
 /// The manifest's details of a file of these functions.
 pub(super) fn functions_detail(
     target: &Target,
-    functions: &[&Emitted],
+    functions: &[&EmittedFunction],
     command: &str,
 ) -> FunctionsDetail {
     let precision = functions[0].precision;
@@ -258,15 +258,15 @@ impl FunctionsDetail {
     }
 }
 
-fn seen_detail(subject: &MaterialInMedium) -> SeenDetail {
+fn seen_detail(subject: &MaterialInMedium) -> ViewingDetail {
     let surface = &subject.reference.surface;
     let effective = &subject.effective;
-    SeenDetail {
+    ViewingDetail {
         truth: surface.seen.clone(),
         extrapolated: surface.extrapolation(),
         n: effective.channels.n,
         k: effective.channels.k,
-        nk_by: effective.by.map(By::text),
+        nk_by: effective.by.map(IndexSource::text),
     }
 }
 
@@ -279,7 +279,7 @@ fn data_detail(material: &Material) -> DataDetail {
     }
 }
 
-fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> FunctionDetail {
+fn function_detail(target: &Target, index: usize, emitted: &EmittedFunction) -> FunctionDetail {
     let average = match emitted.effect {
         None => Average::of(emitted),
         Some(_) => None,
@@ -312,7 +312,7 @@ fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> Function
     }
 }
 
-fn code_error(emitted: &Emitted) -> CodeErrorDetail {
+fn code_error(emitted: &EmittedFunction) -> CodeErrorDetail {
     match &emitted.code {
         Measured::Yes(CodeBound::Ulp(ulp)) => CodeErrorDetail::Ulp { max_ulp: *ulp },
         Measured::Yes(CodeBound::Absolute(most)) => CodeErrorDetail::Absolute { max_abs: *most },
@@ -335,7 +335,7 @@ fn model_error(error: ModelError) -> ModelErrorDetail {
     }
 }
 
-fn parameters(emitted: &Emitted) -> Parameters {
+fn parameters(emitted: &EmittedFunction) -> Parameters {
     if let Some(part) = emitted.effect {
         return Parameters::Arguments(arguments_of_effect(part, emitted));
     }
@@ -356,7 +356,7 @@ fn parameters(emitted: &Emitted) -> Parameters {
 }
 
 /// The arguments of an effect's function that are left at run time.
-fn arguments_of_effect(part: EffectPart, emitted: &Emitted) -> Vec<ArgumentDetail> {
+fn arguments_of_effect(part: EffectPart, emitted: &EmittedFunction) -> Vec<ArgumentDetail> {
     let own = part.function.arguments.iter().map(|one| ArgumentDetail {
         name: one.name,
         meaning: one.meaning,
@@ -373,7 +373,7 @@ fn arguments_of_effect(part: EffectPart, emitted: &Emitted) -> Vec<ArgumentDetai
 }
 
 /// The uniform block of a module: name, type and offset in bytes of each run-time argument.
-fn uniforms(emitted: &Emitted) -> Vec<UniformDetail> {
+fn uniforms(emitted: &EmittedFunction) -> Vec<UniformDetail> {
     let params = &emitted.function.params;
     let numbers = params.iter().filter(|param| is_number(param));
     let row = |(param, offset): (&Param, usize)| UniformDetail {

@@ -7,7 +7,7 @@ use super::comment;
 use super::detail::{Detail, functions_detail};
 use super::figures::CodeBound;
 use super::file::{Error, File, check_names};
-use super::function::{Emitted, FunctionForm, Naming};
+use super::function::{EmittedFunction, FunctionForm, Naming};
 use super::header::{MARK, OUTPUT_LICENCE};
 use super::page::{self, PageRequest, comments, guard, render};
 use crate::generator::fit::{Measured, values_for_material};
@@ -67,7 +67,7 @@ impl EffectRequest<'_> {
     ///
     /// # Errors
     /// The method does not describe the material, or a graph breaks a rule of [`crate::language::ir::RULES`].
-    pub fn functions(&self, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+    pub fn functions(&self, naming: &Naming) -> Result<Vec<EmittedFunction>, Error> {
         let mut functions = Vec::new();
         for function in self.effect.functions {
             let part = EffectPart {
@@ -87,21 +87,25 @@ impl EffectRequest<'_> {
     ///
     /// # Errors
     /// As [`EffectRequest::functions`].
-    pub fn whole(&self, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+    pub fn whole(&self, naming: &Naming) -> Result<Vec<EmittedFunction>, Error> {
         let usual = EffectRequest {
             effect: self.effect,
             method: methods::find(USUAL_METHOD).expect("the usual method is registered"),
             subject: None,
         };
         let changed = self.functions(naming)?;
-        let part = |emitted: &Emitted| emitted.effect.map(|part| part.function.name);
+        let part = |emitted: &EmittedFunction| emitted.effect.map(|part| part.function.name);
         let mut all = usual.functions(naming)?;
         all.retain(|one| !changed.iter().any(|other| part(other) == part(one)));
         all.extend(changed);
         Ok(all)
     }
 
-    fn of_any_material(&self, part: EffectPart, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+    fn of_any_material(
+        &self,
+        part: EffectPart,
+        naming: &Naming,
+    ) -> Result<Vec<EmittedFunction>, Error> {
         let asks = part.function.reflectance.is_used();
         if self.unusual_method().is_some() && !asks {
             return Ok(Vec::new());
@@ -125,7 +129,7 @@ impl EffectRequest<'_> {
         part: EffectPart,
         subject: &MaterialInMedium,
         naming: &Naming,
-    ) -> Result<Option<Emitted>, Error> {
+    ) -> Result<Option<EmittedFunction>, Error> {
         let asks = part.function.reflectance.is_used();
         if asks && !subject.is_described_by(self.method) {
             return Err(self.refused(
@@ -167,8 +171,8 @@ impl EffectRequest<'_> {
         (naming, name): (&Naming, String),
         form: FunctionForm,
         function: Checked,
-    ) -> Emitted {
-        Emitted {
+    ) -> EmittedFunction {
+        EmittedFunction {
             name: format!("{}{name}", naming.prefix),
             method: self.method,
             effect: Some(part),
@@ -232,7 +236,7 @@ fn index_values(subject: &MaterialInMedium) -> BTreeMap<String, [f64; 3]> {
 pub fn effect_file(
     target: &'static Target,
     request: &EffectRequest,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     naming: &Naming,
     command: &str,
 ) -> Result<File, Error> {
@@ -244,7 +248,7 @@ pub fn effect_file(
     );
     let bytes = page(target, request, functions, &guard(target, &unique), command)?;
     let suffix = if is_module { ".comp" } else { "" };
-    let all: Vec<&Emitted> = functions.iter().collect();
+    let all: Vec<&EmittedFunction> = functions.iter().collect();
     let detail = functions_detail(target, &all, command);
     Ok(File {
         name: format!("{}{suffix}.{}", request.stem(), target.extension),
@@ -260,7 +264,7 @@ pub fn effect_file(
 pub fn effect_text(
     target: &'static Target,
     request: &EffectRequest,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     command: &str,
 ) -> Result<Vec<u8>, Error> {
     page(target, request, functions, "", command)
@@ -270,7 +274,10 @@ pub fn effect_text(
 ///
 /// # Errors
 /// naga refuses the text: a bug.
-pub fn effect_function_text(target: &'static Target, emitted: &Emitted) -> Result<String, Error> {
+pub fn effect_function_text(
+    target: &'static Target,
+    emitted: &EmittedFunction,
+) -> Result<String, Error> {
     let lines = comment::lines(documentation(emitted));
     let bytes = render(&PageRequest {
         target,
@@ -286,7 +293,7 @@ pub fn effect_function_text(target: &'static Target, emitted: &Emitted) -> Resul
 fn page(
     target: &'static Target,
     request: &EffectRequest,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     guard: &str,
     command: &str,
 ) -> Result<Vec<u8>, Error> {
@@ -297,7 +304,7 @@ fn page(
         target
     };
     let header = comment::lines(header(request, command));
-    let documented: Vec<(Vec<String>, Emitted)> = functions
+    let documented: Vec<(Vec<String>, EmittedFunction)> = functions
         .iter()
         .map(|emitted| {
             let lines = comment::lines(documentation(emitted));
@@ -316,7 +323,7 @@ fn page(
         return Ok(bytes);
     }
     let text = String::from_utf8_lossy(&bytes);
-    let all: Vec<&Emitted> = functions.iter().collect();
+    let all: Vec<&EmittedFunction> = functions.iter().collect();
     let program = batch_program(text_of, &text, &all).expect("WGSL is run in batches");
     page::spirv(&program).map_err(|what| Error::Generated {
         file: request.effect.name.to_owned(),
@@ -364,7 +371,7 @@ fn header(request: &EffectRequest, command: &str) -> Vec<String> {
 }
 
 /// What a function returns, what each argument means, and how accurate the function is.
-fn documentation(emitted: &Emitted) -> Vec<String> {
+fn documentation(emitted: &EmittedFunction) -> Vec<String> {
     let part = emitted.effect.expect("a function of an effect");
     let meaning = |param: &Param| -> &str {
         let own = part.function.arguments.iter();

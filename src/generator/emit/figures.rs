@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::function::{Emitted, specialised_graph};
+use super::function::{EmittedFunction, specialised_graph};
 use crate::generator::fit::{Measured, ModelError, model_error, rounded_up};
 use crate::generator::reference::{LEAST_FITTED_N, MaterialInMedium};
 use crate::language::ir::{Checked, Function, Op, print};
@@ -134,12 +134,12 @@ pub(super) fn model_line(error: &ModelError) -> String {
 }
 
 /// A line that says that a fit misses its class, and which method serves.
-pub(super) fn missed_line(emitted: &Emitted) -> Option<String> {
+pub(super) fn missed_line(emitted: &EmittedFunction) -> Option<String> {
     let missed = emitted.missed.as_ref()?;
     Some(format!("Misses its class: {}.", missed.words()))
 }
 
-pub(super) fn code_line(emitted: &Emitted) -> String {
+pub(super) fn code_line(emitted: &EmittedFunction) -> String {
     match &emitted.code {
         Measured::Yes(CodeBound::Ulp(ulp)) => format!("Code error: {}.", bound(*ulp)),
         Measured::Yes(CodeBound::Absolute(most)) if emitted.precision.is_half() => {
@@ -171,7 +171,7 @@ fn unfused(most: f64) -> String {
     format!("at most {most:e} absolute, unfused f32 against f64")
 }
 
-pub(super) fn operations(emitted: &Emitted) -> String {
+pub(super) fn operations(emitted: &EmittedFunction) -> String {
     let count = |ops: &[Op]| {
         ops.iter()
             .map(|op| emitted.function.count(*op))

@@ -3,7 +3,7 @@
 use super::comment;
 use super::detail::{Detail, FunctionsDetail, functions_detail};
 use super::figures::FILTERED;
-use super::function::{Emitted, FunctionForm, Naming};
+use super::function::{EmittedFunction, FunctionForm, Naming};
 use super::header::{Heading, OUTPUT_LICENCE};
 use super::page::{PageRequest, comments, guard, render};
 use crate::generator::fit::Measured;
@@ -32,12 +32,12 @@ pub struct File {
 pub fn library(
     target: &'static Target,
     method: &'static Method,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     heading: Heading,
 ) -> Result<Vec<File>, Error> {
     check_names(functions)?;
     let head = comments(target, &heading.library(target, method, functions));
-    let plain: Vec<(Vec<String>, Emitted)> = written_for(target, functions.to_vec())
+    let plain: Vec<(Vec<String>, EmittedFunction)> = written_for(target, functions.to_vec())
         .map(|f| (Vec::new(), f))
         .collect();
     let stem = functions[0].name.clone();
@@ -57,7 +57,10 @@ pub fn library(
 }
 
 /// The functions of a method that a target writes. A module returns a colour, so it has no scalar form.
-pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<Item = Emitted> {
+pub fn written_for(
+    target: &Target,
+    functions: Vec<EmittedFunction>,
+) -> impl Iterator<Item = EmittedFunction> {
     let modules = target.finish == Finish::Spirv;
     functions
         .into_iter()
@@ -71,13 +74,13 @@ pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<It
 pub fn material(
     target: &'static Target,
     subject: &MaterialInMedium,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     naming: &Naming,
     heading: Heading,
 ) -> Result<Vec<File>, Error> {
     check_names(functions)?;
     let head = comments(target, &heading.material(target, subject, naming.precision));
-    let documented: Vec<(Vec<String>, Emitted)> = functions
+    let documented: Vec<(Vec<String>, EmittedFunction)> = functions
         .iter()
         .map(|f| (comments(target, &heading.specialised(f)), f.clone()))
         .collect();
@@ -125,7 +128,7 @@ impl PlaceInFile {
 /// The function's name is a reserved word of a target, or naga refuses the text.
 pub fn single(
     target: &'static Target,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     subject: Option<&MaterialInMedium>,
     heading: Heading,
     place: PlaceInFile,
@@ -168,7 +171,7 @@ pub fn lookup(
     function: Checked,
     about: Vec<String>,
 ) -> Result<Vec<u8>, Error> {
-    let emitted = Emitted {
+    let emitted = EmittedFunction {
         name,
         method: methods::find("table").expect("the method of every table is registered"),
         effect: None,
@@ -204,7 +207,7 @@ fn rendered(
     stem: &str,
     unique: &str,
     head: &[String],
-    functions: &[(Vec<String>, Emitted)],
+    functions: &[(Vec<String>, EmittedFunction)],
 ) -> Result<(String, Vec<u8>), Error> {
     let name = format!("{stem}{}.{}", page.suffix, target.extension);
     let guard = guard(target, unique);
@@ -222,10 +225,10 @@ fn rendered(
 /// The manifest's details of these functions.
 fn listed(
     target: &Target,
-    functions: &[(Vec<String>, Emitted)],
+    functions: &[(Vec<String>, EmittedFunction)],
     heading: Heading,
 ) -> FunctionsDetail {
-    let functions: Vec<&Emitted> = functions.iter().map(|(_, emitted)| emitted).collect();
+    let functions: Vec<&EmittedFunction> = functions.iter().map(|(_, emitted)| emitted).collect();
     functions_detail(target, &functions, heading.command)
 }
 
@@ -254,7 +257,7 @@ pub(super) fn is_number(param: &Param) -> bool {
 
 /// Checks that names are free in every language, since a function has the same name in all. Here names are complete, with their
 /// prefix.
-pub(super) fn check_names(functions: &[Emitted]) -> Result<(), Error> {
+pub(super) fn check_names(functions: &[EmittedFunction]) -> Result<(), Error> {
     for emitted in functions {
         let fault = crate::physics::names::identifier_fault(&emitted.name)
             .map(|why| format!("`{}` is no name: {why}", emitted.name))

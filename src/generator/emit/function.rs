@@ -57,7 +57,7 @@ impl Naming {
 
 /// A function with everything that its page says about it.
 #[derive(Clone, Debug)]
-pub struct Emitted {
+pub struct EmittedFunction {
     /// Its name in the language.
     pub name: String,
     /// Its method. For an effect's function, the method that computes R.
@@ -84,7 +84,7 @@ pub struct Emitted {
     pub missed: Option<Missed>,
 }
 
-impl Emitted {
+impl EmittedFunction {
     /// The meaning of the function. In single precision it is its own graph. In half precision it is the graph of single
     /// precision, so that half precision's own guards and rounded constants count as code error.
     ///
@@ -122,7 +122,10 @@ impl Emitted {
 ///
 /// # Errors
 /// The method's graph breaks a rule of [`crate::language::ir::RULES`].
-pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+pub fn library_functions(
+    method: &'static Method,
+    naming: &Naming,
+) -> Result<Vec<EmittedFunction>, Error> {
     let forms = [(FunctionForm::Library, false), (FunctionForm::Scalar, true)];
     let wanted = forms
         .into_iter()
@@ -141,12 +144,12 @@ pub(super) fn library_function(
     naming: &Naming,
     form: FunctionForm,
     function: Result<Checked, BrokenRule>,
-) -> Result<Emitted, Error> {
+) -> Result<EmittedFunction, Error> {
     let function = function.map_err(|fault| Error::Generated {
         file: method.name.to_owned(),
         what: fault.to_string(),
     })?;
-    Ok(Emitted {
+    Ok(EmittedFunction {
         name: naming.name(method.name, &form.suffix()),
         method,
         effect: None,
@@ -248,7 +251,7 @@ pub fn specialised_function(
     subject: &MaterialInMedium,
     naming: &Naming,
     bounds: &Bounds,
-) -> Result<Emitted, Error> {
+) -> Result<EmittedFunction, Error> {
     let Specialised {
         function,
         constants,
@@ -259,7 +262,7 @@ pub fn specialised_function(
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
     let error = model_error(&meant, &subject.truth_for(method));
-    Ok(Emitted {
+    Ok(EmittedFunction {
         name: naming.specialised(method, subject),
         method,
         effect: None,

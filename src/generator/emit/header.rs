@@ -9,9 +9,9 @@ use serde::Serialize;
 use super::average::{self, Average};
 use super::effect_file::EffectPart;
 use super::figures::{code_line, missed_line, model_line, operations, promises_in};
-use super::function::{Emitted, FunctionForm};
+use super::function::{EmittedFunction, FunctionForm};
 use super::{comment, header, short};
-use crate::generator::reference::{By, MaterialInMedium};
+use crate::generator::reference::{IndexSource, MaterialInMedium};
 use crate::language::methods::{Contract, Method, TEXELS};
 use crate::language::targets::Target;
 use crate::physics::num::Precision;
@@ -25,7 +25,7 @@ pub const OUTPUT_LICENCE: &str = "CC0-1.0";
 pub fn library(
     target: &Target,
     method: &Method,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     command: &str,
 ) -> Vec<String> {
     let mut lines = start(command);
@@ -83,7 +83,7 @@ pub(super) fn source(method: &Method) -> String {
 }
 
 /// The comment above one specialised function in a material's file.
-pub fn specialised(emitted: &Emitted) -> Vec<String> {
+pub fn specialised(emitted: &EmittedFunction) -> Vec<String> {
     let mut lines = vec![format!(
         "{}: {}, specialised",
         emitted.name, emitted.method.summary
@@ -104,7 +104,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
 /// The head of a function for pasting.
 pub fn pasted(
     target: &Target,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     subject: Option<&MaterialInMedium>,
     command: &str,
 ) -> Vec<String> {
@@ -131,7 +131,7 @@ pub fn pasted(
 }
 
 /// Which formula it has, if that is another method's, and which of two forms, if the cheaper one is written.
-pub(super) fn form_line(emitted: &Emitted) -> Vec<String> {
+pub(super) fn form_line(emitted: &EmittedFunction) -> Vec<String> {
     let other = emitted
         .written_as
         .map(|method| format!("Written as: {}, with constants found in f64", method.name));
@@ -208,7 +208,7 @@ fn medium(subject: &MaterialInMedium) -> &str {
 
 /// How the index was derived from the spectrum, where it is not the index itself.
 fn how_found(subject: &MaterialInMedium) -> Option<String> {
-    let named = |by: By| {
+    let named = |by: IndexSource| {
         let channels = ["red", "green", "blue"]
             .into_iter()
             .zip(subject.effective.by);
@@ -218,7 +218,7 @@ fn how_found(subject: &MaterialInMedium) -> Option<String> {
             .collect();
         names.join(", ")
     };
-    let (given, nearest) = (named(By::F0AndF82), named(By::Nearest));
+    let (given, nearest) = (named(IndexSource::F0AndF82), named(IndexSource::Nearest));
     let given = (!given.is_empty()).then(|| format!("{given} as F0 and F82 determine it"));
     let kind = if subject.effective.channels.is_transparent() {
         "transparent index"
@@ -238,7 +238,7 @@ fn triple(values: [f64; 3]) -> String {
 }
 
 /// The table that a specialised function reads.
-pub(super) fn table_line(emitted: &Emitted) -> Option<String> {
+pub(super) fn table_line(emitted: &EmittedFunction) -> Option<String> {
     let reads = emitted.function.fetches() > 0 && emitted.form == FunctionForm::Specialised;
     reads.then(|| {
         format!(
@@ -307,7 +307,7 @@ impl Heading<'_> {
         &self,
         target: &Target,
         method: &Method,
-        functions: &[Emitted],
+        functions: &[EmittedFunction],
     ) -> Vec<String> {
         match self.form {
             HeaderForm::Short => short::library(target, method, functions, self.command),
@@ -329,7 +329,7 @@ impl Heading<'_> {
     }
 
     /// The comment above one specialised function in a material's file.
-    pub(super) fn specialised(&self, emitted: &Emitted) -> Vec<String> {
+    pub(super) fn specialised(&self, emitted: &EmittedFunction) -> Vec<String> {
         match self.form {
             HeaderForm::Short => short::specialised(emitted),
             HeaderForm::Full => header::specialised(emitted),
@@ -340,7 +340,7 @@ impl Heading<'_> {
     pub(super) fn pasted(
         &self,
         target: &Target,
-        emitted: &Emitted,
+        emitted: &EmittedFunction,
         subject: Option<&MaterialInMedium>,
     ) -> Vec<String> {
         match self.form {
@@ -383,7 +383,7 @@ pub(super) struct Notes {
 
 impl Notes {
     /// The notes of a function.
-    pub(super) fn of(emitted: &Emitted) -> Notes {
+    pub(super) fn of(emitted: &EmittedFunction) -> Notes {
         match emitted.effect {
             Some(part) => of_effect(part),
             None => of_method(emitted),
@@ -391,7 +391,7 @@ impl Notes {
     }
 }
 
-fn of_method(emitted: &Emitted) -> Notes {
+fn of_method(emitted: &EmittedFunction) -> Notes {
     let method = emitted.method;
     let is_specialised = emitted.form == FunctionForm::Specialised;
     Notes {

@@ -28,8 +28,8 @@ pub use catalogue::{
 };
 pub use comment::lines as comment_lines;
 pub use detail::{
-    AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail,
-    TableDetail,
+    AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, TableDetail,
+    ViewingDetail,
 };
 pub use effect_file::{
     EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text,
@@ -42,7 +42,7 @@ pub use file::{
     Error, File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for,
 };
 pub use function::{
-    Emitted, FunctionForm, Naming, Specialised, library_functions, specialised_function,
+    EmittedFunction, FunctionForm, Naming, Specialised, library_functions, specialised_function,
     specialised_graph,
 };
 pub use header::{HeaderForm, Heading, MARK, OUTPUT_LICENCE};

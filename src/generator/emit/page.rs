@@ -11,7 +11,7 @@ use tera::{Context, Tera};
 
 use super::batch::batch_entry;
 use super::file::Error;
-use super::function::{Emitted, FunctionForm};
+use super::function::{EmittedFunction, FunctionForm};
 use super::print;
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{Finish, Page, Target};
@@ -65,7 +65,7 @@ pub struct PageRequest<'a> {
     /// The include guard's name; empty if there is none.
     pub guard: &'a str,
     /// The functions, each with the comments above it.
-    pub functions: &'a [(Vec<String>, Emitted)],
+    pub functions: &'a [(Vec<String>, EmittedFunction)],
     /// The name of the file, for messages.
     pub file: &'a str,
 }
@@ -97,8 +97,8 @@ pub fn text_of_template(
 ///
 /// # Errors
 /// The language refuses the text: a bug.
-pub fn bare_text(target: &'static Target, functions: &[Emitted]) -> Result<String, Error> {
-    let plain: Vec<(Vec<String>, Emitted)> = functions
+pub fn bare_text(target: &'static Target, functions: &[EmittedFunction]) -> Result<String, Error> {
+    let plain: Vec<(Vec<String>, EmittedFunction)> = functions
         .iter()
         .map(|one| (Vec::new(), one.clone()))
         .collect();
@@ -176,7 +176,7 @@ fn textures(request: &PageRequest) -> Vec<String> {
 }
 
 /// How a module's entry point calls a function: numbers lie in its block, textures and samplers beside it.
-fn call(target: &Target, emitted: &Emitted) -> String {
+fn call(target: &Target, emitted: &EmittedFunction) -> String {
     let narrow = |ty: Ty, value: String| match emitted.precision {
         Precision::F32 => value,
         Precision::F16 => format!("{}({value})", target.half.spelling.ty(ty)),
@@ -195,7 +195,12 @@ fn call(target: &Target, emitted: &Emitted) -> String {
     }
 }
 
-fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) -> FunctionView {
+fn function(
+    target: &Target,
+    index: usize,
+    doc: &[String],
+    emitted: &EmittedFunction,
+) -> FunctionView {
     let spelling = target.spelling_in(emitted.precision);
     FunctionView {
         doc: doc.to_vec(),
@@ -208,7 +213,7 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
 
 /// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, `c0` and so on for
 /// coefficients, and the method's name for others. An effect's are named after its functions.
-pub fn entry_point(index: usize, emitted: &Emitted) -> String {
+pub fn entry_point(index: usize, emitted: &EmittedFunction) -> String {
     match emitted.form {
         _ if emitted.effect.is_some() => batch_entry(&emitted.name),
         _ if index == 0 => "main".to_owned(),

@@ -7,7 +7,7 @@ use super::figures::{
     FILTERED, beyond_colours, code_line, half_promise, missed_line, model_line, model_promises,
     operations,
 };
-use super::function::Emitted;
+use super::function::EmittedFunction;
 use super::header::{
     MARK, OUTPUT_LICENCE, cosine_line, exemption, extrapolated, half_line, table_line,
     viewing_conditions,
@@ -22,7 +22,7 @@ use crate::physics::num::Precision;
 pub fn library(
     target: &Target,
     method: &Method,
-    functions: &[Emitted],
+    functions: &[EmittedFunction],
     command: &str,
 ) -> Vec<String> {
     let first = &functions[0];
@@ -61,7 +61,7 @@ fn medium_line(subject: &MaterialInMedium) -> Option<String> {
 }
 
 /// The comment above one specialised function in a material's file.
-pub fn specialised(emitted: &Emitted) -> Vec<String> {
+pub fn specialised(emitted: &EmittedFunction) -> Vec<String> {
     let mut lines = vec![format!("{}: {}", emitted.name, emitted.method.summary)];
     lines.extend(exemption(emitted.method));
     lines.extend(known_of(emitted));
@@ -71,7 +71,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
 /// The head of a function for pasting.
 pub fn pasted(
     target: &Target,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     subject: Option<&MaterialInMedium>,
     command: &str,
 ) -> Vec<String> {
@@ -111,7 +111,7 @@ fn banner(command: &str) -> Vec<String> {
 }
 
 /// The figures of a specialised function: its largest error with its warnings, its cost and its source.
-fn known_of(emitted: &Emitted) -> Vec<String> {
+fn known_of(emitted: &EmittedFunction) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     if table_line(emitted).is_some() {
         lines.push(format!(
@@ -163,7 +163,7 @@ fn arguments(method: &Method, precision: Precision) -> String {
     format!("Arguments: {}", told.join("; "))
 }
 
-fn costs(functions: &[Emitted]) -> String {
+fn costs(functions: &[EmittedFunction]) -> String {
     let (first, others) = (&functions[0], &functions[1..]);
     let others = others
         .iter()
@@ -173,7 +173,7 @@ fn costs(functions: &[Emitted]) -> String {
 }
 
 /// What a mean over the hemisphere is, if one is among the functions.
-fn mean_line(functions: &[Emitted]) -> Option<String> {
+fn mean_line(functions: &[EmittedFunction]) -> Option<String> {
     let mean = functions.iter().find(|emitted| emitted.form.is_mean())?;
     let error = mean.method.average.map_or(String::new(), |average| {
         format!("; off by at most {} for {}", average.max_abs, average.over)

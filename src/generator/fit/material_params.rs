@@ -6,10 +6,10 @@
 use serde::Serialize;
 
 use super::grey_tint::{GreyTint, grey_tint};
-use crate::generator::reference::{By, Derivation, ReferenceCurve, effective};
+use crate::generator::reference::{Derivation, IndexSource, ReferenceCurve, effective};
 use crate::language::methods::{Input, KnownSurface, Light};
 use crate::physics::materials::{
-    Channels, Extrapolate, Index, Material, MaterialKind, Surface, Unseen, ViewingConditions,
+    Channels, Extrapolate, Index, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
     surfaces_of,
 };
 use crate::physics::num::each_channel;
@@ -110,7 +110,7 @@ pub fn material_params(
     medium: Option<&Material>,
     viewing: &ViewingConditions,
     catalogue: &[Material],
-) -> Result<MaterialParams, Unseen> {
+) -> Result<MaterialParams, SurfaceError> {
     // A material known at three wavelengths is compared with others at the same three.
     let own = material.rgb_nm.or(medium.and_then(|medium| medium.rgb_nm));
     let viewing = ViewingConditions {
@@ -241,7 +241,7 @@ pub(super) fn params(surface: Surface, kind: MaterialKind) -> Params {
         edge_tint: value(Input::EDGE_TINT),
         n,
         k,
-        nk_by: effective.by.map(By::text),
+        nk_by: effective.by.map(IndexSource::text),
         average: reference.average(),
     }
 }

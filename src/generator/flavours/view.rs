@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::flavour::Flavour;
 use crate::generator::emit::{
-    self, CatalogueRow, Emitted, MARK, Naming, OUTPUT_LICENCE, comment_lines, library_functions,
-    xml_comment,
+    self, CatalogueRow, EmittedFunction, MARK, Naming, OUTPUT_LICENCE, comment_lines,
+    library_functions, xml_comment,
 };
 use crate::generator::fit::rounded_up;
 use crate::generator::lut::{Depth, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
@@ -262,7 +262,7 @@ fn library_text(
     method: &'static Method,
     naming: &Naming,
 ) -> Result<String, emit::Error> {
-    let mut functions: Vec<Emitted> = library_functions(method, naming)?;
+    let mut functions: Vec<EmittedFunction> = library_functions(method, naming)?;
     functions.extend(emit::companions(method, naming)?);
     functions.retain(|emitted| !emitted.form.is_scalar());
     emit::bare_text(target, &functions)

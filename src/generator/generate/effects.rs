@@ -1,7 +1,7 @@
 //! The files of effects: in their default form, with another method, or specialised to materials.
 
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{self, EffectRequest, Emitted, Naming};
+use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::written::Owners;
 use crate::generator::generate::{Made, Run};
@@ -79,7 +79,7 @@ impl Run<'_> {
         &self,
         effect: &'static Effect,
         subject: Option<&'s MaterialInMedium>,
-    ) -> Result<(EffectRequest<'s>, Vec<Emitted>), Error> {
+    ) -> Result<(EffectRequest<'s>, Vec<EmittedFunction>), Error> {
         let usual = subject.map_or(USUAL_METHOD, MaterialInMedium::exact_method);
         let usual = methods::find(usual).expect("the usual methods are registered");
         let request = EffectRequest {
@@ -125,7 +125,9 @@ impl Run<'_> {
     ///
     /// # Errors
     /// No effect has any functions.
-    pub fn effect_functions(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
+    pub fn effect_functions(
+        &self,
+    ) -> Result<Vec<(EffectRequest<'_>, Vec<EmittedFunction>)>, Error> {
         let mut all = Vec::new();
         for effect in &self.effects.effects {
             for subject in self.effect_subjects() {
@@ -162,7 +164,7 @@ impl Run<'_> {
     }
 
     /// The effects with all their functions. Functions that several materials share appear once.
-    pub fn whole_effects(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
+    pub fn whole_effects(&self) -> Result<Vec<(EffectRequest<'_>, Vec<EmittedFunction>)>, Error> {
         let mut all = Vec::new();
         for effect in &self.effects.effects {
             for (place, subject) in self.effect_subjects().into_iter().enumerate() {

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::generator::bake::as_tables_are_seen;
-use crate::generator::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
+use crate::generator::emit::{self, Bounds, EmittedFunction, File, Heading, NAGA_VERSION, Naming};
 use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::tables::add_tables;
@@ -24,7 +24,7 @@ use crate::generator::request::source::Subjects;
 use crate::generator::request::{Materials, Request};
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
-use crate::physics::materials::Unseen;
+use crate::physics::materials::SurfaceError;
 use effects::WantedEffects;
 use written::Owners;
 
@@ -42,7 +42,7 @@ pub struct Generated {
     #[doc(hidden)]
     pub provenance: Provenance,
     /// Why some materials that `all` includes are left out.
-    pub left_out: Vec<Unseen>,
+    pub left_out: Vec<SurfaceError>,
     /// Methods that nobody named and that half precision cannot represent, with the reason.
     pub refused: Vec<String>,
 }
@@ -129,7 +129,7 @@ pub struct Made {
     /// The file.
     pub artifact: Artifact,
     /// Its functions in order.
-    pub functions: Vec<Emitted>,
+    pub functions: Vec<EmittedFunction>,
     /// The index of its material among the subjects, if it has one.
     pub subject: Option<usize>,
 }
@@ -142,7 +142,7 @@ pub struct Meant {
     /// The materials.
     pub subjects: Vec<MaterialInMedium>,
     /// Why some materials that `all` includes are left out.
-    pub left_out: Vec<Unseen>,
+    pub left_out: Vec<SurfaceError>,
 }
 
 /// What the files of a folder hold.
@@ -205,7 +205,7 @@ struct Run<'r> {
     effects: WantedEffects,
     flavours: Vec<&'static Flavour>,
     subjects: Vec<(MaterialInMedium, String)>,
-    left_out: Vec<Unseen>,
+    left_out: Vec<SurfaceError>,
     naming: Naming,
     bounds: Bounds,
     /// The contents of existing files that are compared with what would be written.
@@ -242,7 +242,7 @@ impl<'r> Run<'r> {
     }
 
     /// The functions of a method's library file, and their companions.
-    fn library_functions(&self, method: &'static Method) -> Result<Vec<Emitted>, Error> {
+    fn library_functions(&self, method: &'static Method) -> Result<Vec<EmittedFunction>, Error> {
         let mut functions = emit::library_functions(method, &self.naming)?;
         functions.extend(emit::companions(method, &self.naming)?);
         Ok(functions)
@@ -279,7 +279,7 @@ impl<'r> Run<'r> {
         kept: &Kept,
         owners: &mut Owners,
     ) -> Result<Vec<Made>, Error> {
-        let mut ready: BTreeMap<&str, Emitted> = BTreeMap::new();
+        let mut ready: BTreeMap<&str, EmittedFunction> = BTreeMap::new();
         let mut files = Vec::new();
         for target in &self.targets {
             let methods = written::methods_of(self, target, subject, kept);
@@ -313,8 +313,8 @@ impl<'r> Run<'r> {
         &self,
         methods: &[&'a str],
         subject: &MaterialInMedium,
-        ready: &mut BTreeMap<&'a str, Emitted>,
-    ) -> Result<Vec<Emitted>, Error> {
+        ready: &mut BTreeMap<&'a str, EmittedFunction>,
+    ) -> Result<Vec<EmittedFunction>, Error> {
         let mut functions = Vec::new();
         for name in methods {
             if !ready.contains_key(name) {

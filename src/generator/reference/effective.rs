@@ -17,12 +17,12 @@ pub struct Effective {
     /// n and k per channel.
     pub channels: Channels,
     /// How each channel's index was found.
-    pub by: [By; 3],
+    pub by: [IndexSource; 3],
 }
 
 /// How a channel's index was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum By {
+pub enum IndexSource {
     /// It is the index itself: the channel is one wavelength.
     Itself,
     /// It has the channel's F0 and F82.
@@ -31,13 +31,13 @@ pub enum By {
     Nearest,
 }
 
-impl By {
+impl IndexSource {
     /// In words.
     pub fn text(self) -> &'static str {
         match self {
-            By::Itself => "one wavelength",
-            By::F0AndF82 => "f0 and f82",
-            By::Nearest => "nearest curve",
+            IndexSource::Itself => "one wavelength",
+            IndexSource::F0AndF82 => "f0 and f82",
+            IndexSource::Nearest => "nearest curve",
         }
     }
 }
@@ -68,7 +68,7 @@ pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
     if let Some(channels) = reference.surface.channels() {
         return Effective {
             channels,
-            by: [By::Itself; 3],
+            by: [IndexSource::Itself; 3],
         };
     }
     let transparent = kind == MaterialKind::Dielectric && reference.surface.most_k() < FAINT_K;
@@ -82,13 +82,13 @@ pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
                 n: found.n,
                 k: found.k,
             };
-            (index, By::F0AndF82)
+            (index, IndexSource::F0AndF82)
         } else {
             let channel: Vec<(f64, f64)> = curve.iter().map(|(c, r)| (*c, r[i])).collect();
             if transparent {
-                (nearest_transparent(&channel), By::Nearest)
+                (nearest_transparent(&channel), IndexSource::Nearest)
             } else {
-                (nearest(&channel), By::Nearest)
+                (nearest(&channel), IndexSource::Nearest)
             }
         }
     });
@@ -209,7 +209,7 @@ mod tests {
         ] {
             let (reference, kind) = reference(name);
             let found = effective(&reference, kind);
-            assert_eq!(found.by[channel], By::Nearest, "{name}");
+            assert_eq!(found.by[channel], IndexSource::Nearest, "{name}");
             let curve: Vec<(f64, f64)> = curve(&reference, ANGLES)
                 .iter()
                 .map(|(c, r)| (*c, r[channel]))

@@ -4,7 +4,7 @@ use super::effective::{Effective, effective};
 use super::reference_curve::ReferenceCurve;
 use crate::language::methods::{Light, Method};
 use crate::physics::materials::{
-    Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions,
+    Channels, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
 };
 
 /// The least n of a dielectric for which there is a fitted method.
@@ -45,7 +45,7 @@ impl MaterialInMedium {
         medium: Option<Typed>,
         viewing: &ViewingConditions,
         derivation: Derivation,
-    ) -> Result<MaterialInMedium, Unseen> {
+    ) -> Result<MaterialInMedium, SurfaceError> {
         let around = medium.as_ref().map(|(_, medium)| medium);
         let surface = Surface::new(&material, around, viewing)?;
         let reference = ReferenceCurve::new(surface, Light::Unpolarised);

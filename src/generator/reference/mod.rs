@@ -5,7 +5,7 @@ mod effective;
 mod material_in_medium;
 mod reference_curve;
 
-pub use effective::{By, Effective, effective};
+pub use effective::{Effective, IndexSource, effective};
 pub use material_in_medium::{
     Derivation, FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialClass, MaterialInMedium,
     THESIS_MATCHING_COS, Typed,

@@ -11,7 +11,7 @@ use crate::generator::output::folder::{self, is_below};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::Source;
 use crate::physics::foreign::{self, one_line};
-use crate::physics::materials::{self, ConstantIndex, FileFault, Material, Unseen};
+use crate::physics::materials::{self, ConstantIndex, FileFault, Material, SurfaceError};
 use crate::physics::spectra::{TextFault, mesh_text, user_text};
 
 /// The largest material file in bytes: 10⁶ rows fit.
@@ -192,7 +192,7 @@ pub struct Subjects {
     /// Each material in its medium, with the text of both files; sorted by name, each once.
     pub ready: Vec<(MaterialInMedium, String)>,
     /// Why some of the materials that `all` includes are left out.
-    pub left_out: Vec<Unseen>,
+    pub left_out: Vec<SurfaceError>,
 }
 
 impl Subjects {

@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use crate::generator::emit::{
-    Bounds, EffectRequest, Emitted, Error, FunctionForm, Naming, library_functions,
+    Bounds, EffectRequest, EmittedFunction, Error, FunctionForm, Naming, library_functions,
     specialised_graph,
 };
 use crate::generator::reference::MaterialInMedium;
@@ -97,7 +97,7 @@ pub fn functions_of_effect(
         subject: None,
     };
     let functions = request.functions(&Naming::default())?;
-    let costed = |emitted: Emitted| CostedFunction {
+    let costed = |emitted: EmittedFunction| CostedFunction {
         effect: emitted.effect.map(|part| part.function),
         ..CostedFunction::library(emitted)
     };
@@ -119,7 +119,7 @@ fn reference() -> Result<CostedFunction, Error> {
 }
 
 impl CostedFunction {
-    fn library(emitted: Emitted) -> CostedFunction {
+    fn library(emitted: EmittedFunction) -> CostedFunction {
         CostedFunction::new(
             emitted.method,
             emitted.form,

@@ -3,7 +3,7 @@
 
 use super::plan::{DrawingPlan, TimedFunction};
 use crate::generator::emit::{
-    Bounds, Emitted, Error, Naming, library_functions, specialised_function,
+    Bounds, EmittedFunction, Error, Naming, library_functions, specialised_function,
 };
 use crate::generator::fit::{table_of, values_for_material};
 use crate::generator::reference::MaterialInMedium;
@@ -114,7 +114,7 @@ impl TimedFunctions {
 }
 
 impl LibraryMaterials {
-    fn timed(&self, emitted: Emitted) -> TimedFunction {
+    fn timed(&self, emitted: EmittedFunction) -> TimedFunction {
         let material = match emitted.method.class {
             Class::Dielectric => &self.dielectric,
             Class::Metal | Class::Any => &self.metal,
@@ -144,7 +144,7 @@ impl LibraryMaterials {
     }
 }
 
-fn timed(emitted: Emitted, values: Values, material: &MaterialInMedium) -> TimedFunction {
+fn timed(emitted: EmittedFunction, values: Values, material: &MaterialInMedium) -> TimedFunction {
     let reflectance = material.truth_for(emitted.method);
     TimedFunction {
         table: table_of(&emitted.function, |cos_theta| reflectance.at(cos_theta)),

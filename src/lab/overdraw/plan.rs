@@ -2,7 +2,7 @@
 
 use half::f16;
 
-use crate::generator::emit::Emitted;
+use crate::generator::emit::EmittedFunction;
 use crate::lab::cost::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX};
 use crate::language::ir::{Param, Texels, Ty};
 use crate::language::methods::Values;
@@ -12,7 +12,7 @@ use crate::physics::num::Precision;
 #[derive(Clone, Debug)]
 pub struct TimedFunction {
     /// The function.
-    pub emitted: Emitted,
+    pub emitted: EmittedFunction,
     /// The material that it is specialised to, as a user types it.
     pub material: Option<String>,
     /// The values of its arguments. A specialised function has none.

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::nearest_half;
-use crate::generator::emit::{EffectPart, Emitted};
+use crate::generator::emit::{EffectPart, EmittedFunction};
 use crate::language::effects::{Argument, Domain};
 use crate::language::ir::{
     Checked, Column, CubeTexels, Filter, Param, Texels, Ty, Value, evaluate,
@@ -53,7 +53,7 @@ pub struct EffectOutcome {
 impl EffectTrial {
     /// The trial of a function. Inputs of its method take these sets of values in turn.
     pub fn new(
-        emitted: &Emitted,
+        emitted: &EmittedFunction,
         part: EffectPart,
         values: &[Vec<(String, [f64; 3])>],
     ) -> EffectTrial {

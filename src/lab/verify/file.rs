@@ -7,7 +7,7 @@ use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 use super::run;
 use super::trial::{TrialCase, cases};
-use crate::generator::emit::Emitted;
+use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::{self, ModelError};
 use crate::generator::reference::ReferenceCurve;
 use crate::lab::verify::compilers::{self, Verdict};
@@ -78,7 +78,7 @@ fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
 /// A function, and how it is run.
 pub(super) struct FileTrial<'a> {
     pub file: &'a PlannedFile,
-    pub emitted: &'a Emitted,
+    pub emitted: &'a EmittedFunction,
     entry: &'a str,
     pub devices: &'a Devices,
     effort: VerifyEffort,
@@ -90,7 +90,7 @@ impl<'a> FileTrial<'a> {
     fn new(
         file: &'a PlannedFile,
         index: usize,
-        emitted: &'a Emitted,
+        emitted: &'a EmittedFunction,
         devices: &'a Devices,
         effort: VerifyEffort,
     ) -> FileTrial<'a> {

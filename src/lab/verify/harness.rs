@@ -4,7 +4,7 @@
 use serde::{Serialize, Serializer};
 
 use super::naga_translation::Gles;
-use crate::generator::emit::{Emitted, uniform_offsets};
+use crate::generator::emit::{EmittedFunction, uniform_offsets};
 use crate::language::ir::{Param, Ty};
 use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
 use crate::physics::num::Precision;
@@ -27,7 +27,7 @@ pub const ENTRY: &str = "fg_main";
 
 impl Call<'_> {
     /// The call of a function.
-    pub fn to_emitted(emitted: &Emitted) -> Call<'_> {
+    pub fn to_emitted(emitted: &EmittedFunction) -> Call<'_> {
         Call {
             name: &emitted.name,
             params: &emitted.function.params,

@@ -9,7 +9,7 @@ use super::row::{
 };
 use super::run::{ExecutionPath, RunFault};
 use super::{HalfError, Miss, Outcome};
-use crate::generator::emit::{CodeBound, Emitted, fingerprint};
+use crate::generator::emit::{CodeBound, EmittedFunction, fingerprint};
 use crate::generator::fit::{Measured, ModelError};
 use crate::physics::num::Precision;
 
@@ -83,7 +83,7 @@ pub struct RanFunction<'a> {
     /// The file.
     pub file: &'a PlannedFile,
     /// The function.
-    pub emitted: &'a Emitted,
+    pub emitted: &'a EmittedFunction,
     /// The material, as a user types it.
     pub material: &'a str,
     /// What compilers say of the file.
@@ -322,7 +322,7 @@ fn second_opinion(path: ExecutionPath, judged: &Judged) -> SecondOpinion {
 }
 
 /// What a function promises, in words.
-fn bound_text(emitted: &Emitted) -> String {
+fn bound_text(emitted: &EmittedFunction) -> String {
     match &emitted.code {
         Measured::Yes(CodeBound::Ulp(ulp)) => {
             format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
@@ -357,7 +357,7 @@ fn not_asked(verdicts: &[(&'static str, Verdict)]) -> Vec<(String, String)> {
 }
 
 /// What is known of a function before it is run.
-fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
+fn row_without_run(file: &PlannedFile, emitted: &EmittedFunction) -> VerifyRow {
     let page = file.run_page();
     VerifyRow {
         target: file.target.name.to_owned(),
@@ -389,7 +389,7 @@ fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
 
 /// The rows of a file whose run timed out or crashed.
 pub fn unfinished(file: &PlannedFile, why: &str) -> Vec<VerifyRow> {
-    let row = |emitted: &Emitted| VerifyRow {
+    let row = |emitted: &EmittedFunction| VerifyRow {
         reason: Some(format!("{}: {}: {why}", file.run_page().path, emitted.name)),
         ..row_without_run(file, emitted)
     };

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::generator::emit::{Emitted, HeaderForm};
+use crate::generator::emit::{EmittedFunction, HeaderForm};
 use crate::generator::error::Error;
 use crate::generator::generate::kept;
 use crate::generator::generate::{Held, Kept, Made, Meant, generate_meant};
@@ -166,7 +166,7 @@ fn page(
 }
 
 /// Whether a function's method was asked for: by name, or because none was named.
-fn is_asked_for(request: &Request, emitted: &Emitted) -> bool {
+fn is_asked_for(request: &Request, emitted: &EmittedFunction) -> bool {
     let named = |name: &String| name == "all" || name == emitted.method.name;
     emitted.effect.is_some() || request.methods.is_empty() || request.methods.iter().any(named)
 }
@@ -217,7 +217,7 @@ pub struct PlannedFile {
     /// Its pages. The one that is run comes last.
     pub pages: Vec<ShippedPage>,
     /// Its functions in order.
-    pub functions: Vec<Emitted>,
+    pub functions: Vec<EmittedFunction>,
     /// The index of its material in the plan's `subjects`, where it has one.
     pub subject: Option<usize>,
 }

@@ -23,7 +23,7 @@ use super::requested::VerifyPlan;
 use super::row::VerifyRow;
 use super::trial::Trial;
 use super::{Outcome, naga_translation};
-use crate::generator::emit::{EffectPart, Emitted, batch_entry, batch_program, places};
+use crate::generator::emit::{EffectPart, EmittedFunction, batch_entry, batch_program, places};
 use crate::generator::fit::{Measured, values_for_material_in};
 use crate::lab::gpu::{
     self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
@@ -135,7 +135,7 @@ pub struct ShippedFunction<'a> {
     /// The content of the file.
     pub bytes: &'a [u8],
     /// The function.
-    pub function: &'a Emitted,
+    pub function: &'a EmittedFunction,
     /// The entry point of a module.
     pub entry: &'a str,
 }
@@ -319,7 +319,7 @@ fn not_run(target: &Target) -> RunFault {
 }
 
 /// Checks that a device has 16-bit arithmetic where a function needs it.
-fn check_able(device: &Device, emitted: &Emitted) -> Result<(), RunFault> {
+fn check_able(device: &Device, emitted: &EmittedFunction) -> Result<(), RunFault> {
     if !emitted.precision.is_half() || device.has_half() {
         return Ok(());
     }

@@ -17,7 +17,7 @@ use super::row::Error;
 use super::run::{Devices, RunFault, ShippedFunction};
 use super::shard::{PlannedRows, Shard, ShardOutcome};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range, specialised};
-use crate::generator::emit::Emitted;
+use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::Measured;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::gpu::{Program, ShaderCode};
@@ -241,7 +241,7 @@ pub fn exhaustive_rows(
 }
 
 /// A function that can be swept, with its file and its material.
-type Swept<'a> = (&'a PlannedFile, &'a MaterialInMedium, &'a Emitted);
+type Swept<'a> = (&'a PlannedFile, &'a MaterialInMedium, &'a EmittedFunction);
 
 /// Every function of the plan that can be swept, in order.
 fn swept(plan: &VerifyPlan) -> Vec<Swept<'_>> {
@@ -265,7 +265,7 @@ fn swept(plan: &VerifyPlan) -> Vec<Swept<'_>> {
 fn run(
     file: &PlannedFile,
     subject: &MaterialInMedium,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     devices: &Devices,
     progress: Progress,
 ) -> (Result<PathRun, RunFault>, f64) {

@@ -8,7 +8,7 @@ use super::half::nearest_half;
 use super::points::{limits, worst_cases, worst_cosines};
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row;
-use crate::generator::emit::{CodeBound, Emitted, FunctionForm};
+use crate::generator::emit::{CodeBound, EmittedFunction, FunctionForm};
 use crate::generator::fit::{self, Measured, values_for_material_in};
 use crate::generator::reference::{MaterialInMedium, ReferenceCurve};
 use crate::language::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluate};
@@ -310,7 +310,7 @@ pub struct TrialCase<'a> {
 pub fn cases<'a>(
     plan: &'a VerifyPlan,
     file: &PlannedFile,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
 ) -> Vec<TrialCase<'a>> {
     if let Some(index) = file.subject {
         return vec![specialised(&plan.subjects[index], emitted)];
@@ -328,7 +328,7 @@ pub fn cases<'a>(
 pub fn case_materials<'a>(
     plan: &'a VerifyPlan,
     file: &PlannedFile,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
 ) -> Vec<&'a str> {
     if let Some(index) = file.subject {
         return vec![&plan.subjects[index].argument];
@@ -345,7 +345,7 @@ pub fn case_materials<'a>(
 /// The materials with whose values a library function is run.
 fn described<'a>(
     plan: &'a VerifyPlan,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
 ) -> impl Iterator<Item = &'a MaterialInMedium> {
     let method = emitted.method;
     let all = plan.trial_subjects().iter();
@@ -353,14 +353,14 @@ fn described<'a>(
 }
 
 /// The trial of a function with a material's values.
-pub fn material_trial(subject: &MaterialInMedium, emitted: &Emitted) -> Trial {
+pub fn material_trial(subject: &MaterialInMedium, emitted: &EmittedFunction) -> Trial {
     match emitted.form {
         FunctionForm::Specialised => specialised(subject, emitted).trial,
         _ => library(subject, emitted).trial,
     }
 }
 
-pub fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
+pub fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &EmittedFunction) -> TrialCase<'a> {
     let bound = match &emitted.code {
         Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
         Measured::No(why) => Measured::No(why.clone()),
@@ -378,7 +378,7 @@ pub fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Tria
     }
 }
 
-fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
+fn library<'a>(subject: &'a MaterialInMedium, emitted: &EmittedFunction) -> TrialCase<'a> {
     let values = values_for_material_in(emitted.precision, subject, emitted.method);
     let numbers = emitted
         .method
@@ -402,7 +402,7 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a
 }
 
 /// The trials of a method at its worst known inputs, which are kept for ever.
-fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
+fn known_worst(emitted: &EmittedFunction) -> Vec<TrialCase<'static>> {
     let case = |(values, cos_theta): (Vec<[f32; 3]>, f32)| TrialCase {
         material: row::WORST,
         trial: trial(emitted, values, None, promised(emitted.method)),
@@ -413,7 +413,7 @@ fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
 }
 
 /// What a library function promises for a material. Its bound is stated over a set of media.
-fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
+fn promised_for(emitted: &EmittedFunction, channels: &Channels) -> Measured<f64> {
     let method = emitted.method;
     let over = match (emitted.precision, method.half.claim()) {
         (Precision::F32, _) => method.claims.code_over,
@@ -434,7 +434,7 @@ fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
 }
 
 /// The absolute difference that is no error. What coefficients promise is absolute.
-fn floor(emitted: &Emitted) -> f64 {
+fn floor(emitted: &EmittedFunction) -> f64 {
     match emitted.code {
         Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => most,
         _ => ABSOLUTE_FLOOR,
@@ -451,7 +451,7 @@ fn promised(method: &Method) -> Measured<f64> {
 }
 
 fn trial(
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     values: Vec<[f32; 3]>,
     table: Option<crate::language::ir::Texels>,
     bound: Measured<f64>,

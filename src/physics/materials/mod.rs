@@ -21,4 +21,4 @@ pub use file::{FileText, name_fault};
 pub use formula::{DispersionCurve, Extrapolate, Formula};
 pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;
-pub use surface::{Channels, Surface, THESIS_NM, Unseen, ViewingConditions, surfaces_of};
+pub use surface::{Channels, Surface, SurfaceError, THESIS_NM, ViewingConditions, surfaces_of};

@@ -68,7 +68,7 @@ pub struct Surface {
 /// Why a material has no surface under these conditions.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{advice}", crate::physics::foreign::one_line(why))]
-pub struct Unseen {
+pub struct SurfaceError {
     /// The material, its measured range and the wavelength that is wanted.
     pub why: String,
     /// What can be done.
@@ -84,14 +84,14 @@ impl Surface {
         material: &Material,
         medium: Option<&Material>,
         viewing: &ViewingConditions,
-    ) -> Result<Surface, Unseen> {
+    ) -> Result<Surface, SurfaceError> {
         let three = viewing
             .wavelengths_nm
             .or(material.rgb_nm)
             .or(medium.and_then(|medium| medium.rgb_nm));
         let integrator = match three {
             Some(rgb) => Integrator::three_wavelengths(rgb),
-            None => Integrator::new(&viewing.integration).map_err(|fault| Unseen {
+            None => Integrator::new(&viewing.integration).map_err(|fault| SurfaceError {
                 why: fault.to_string(),
                 advice: String::new(),
             })?,
@@ -115,7 +115,7 @@ impl Surface {
             viewing.gamut
         };
         Ok(Surface {
-            indices: indices.map_err(|why| Unseen {
+            indices: indices.map_err(|why| SurfaceError {
                 why,
                 advice: advice(extrapolated_nm, three.is_some()),
             })?,

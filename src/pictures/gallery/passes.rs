@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::lower::{GlesProgram, LoweringFault, lowered};
 use super::orbit::Orbit;
 use super::packed::SKY;
-use crate::generator::emit::{self, EffectRequest, Emitted, Naming, effect_function_text};
+use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming, effect_function_text};
 use crate::language::{effects, methods, targets};
 use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
 
@@ -144,7 +144,7 @@ pub struct FunctionTexts {
 /// # Errors
 /// A function cannot be written: a bug.
 pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error> {
-    let mut all: BTreeMap<String, Emitted> = BTreeMap::new();
+    let mut all: BTreeMap<String, EmittedFunction> = BTreeMap::new();
     for effect in effects::ALL {
         for method in methods::ALL {
             let request = EffectRequest {
@@ -162,7 +162,7 @@ pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error
     all.into_values().map(|emitted| written(&emitted)).collect()
 }
 
-fn written(emitted: &Emitted) -> Result<FunctionTexts, emit::Error> {
+fn written(emitted: &EmittedFunction) -> Result<FunctionTexts, emit::Error> {
     let text = |target: &str| {
         let target = targets::find(target).expect("a target");
         effect_function_text(target, emitted)

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::orbit::Orbit;
 use super::passes::{GalleryPass, passes_of};
-use crate::generator::emit::{Emitted, effect_function_text};
+use crate::generator::emit::{EmittedFunction, effect_function_text};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::Reflectance;
 use crate::language::methods::{self, Class, Light, Method};
@@ -208,7 +208,7 @@ impl GalleryRow {
 /// has its own version of the latter.
 fn common_names(row: &'static RenderRow) -> Result<(Vec<String>, Vec<String>), LoweringFault> {
     let common = RowText::usual(row).common_functions()?;
-    let asks = |emitted: &&Emitted| {
+    let asks = |emitted: &&EmittedFunction| {
         let part = emitted.effect.map(|part| part.function.reflectance);
         part != Some(Reflectance::Unused) && !row.text.contains(&format!("{}(", emitted.name))
     };

@@ -13,7 +13,7 @@ use super::planned::JudgedMaterial;
 use super::request::PlanRequest;
 use super::row::Proof;
 use crate::generator::emit::{
-    self, Bounds, CodeBound, Emitted, HeaderForm, Heading, Naming, library_functions,
+    self, Bounds, CodeBound, EmittedFunction, HeaderForm, Heading, Naming, library_functions,
     specialised_function,
 };
 use crate::generator::fit::Measured;
@@ -62,7 +62,7 @@ pub fn prove(
 
 /// The chosen function as it is written to a file.
 struct Written {
-    functions: Vec<Emitted>,
+    functions: Vec<EmittedFunction>,
     /// The index of the function that is called.
     called: usize,
     naming: Naming,

@@ -6,7 +6,7 @@
 use super::glass::Glass;
 use super::table::RenderRow;
 use crate::generator::emit::{
-    self, EffectRequest, Emitted, FunctionForm, Naming, effect_function_text,
+    self, EffectRequest, EmittedFunction, FunctionForm, Naming, effect_function_text,
 };
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
@@ -81,7 +81,7 @@ impl RowText {
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
-    pub fn common_functions(&self) -> Result<Vec<Emitted>, emit::Error> {
+    pub fn common_functions(&self) -> Result<Vec<EmittedFunction>, emit::Error> {
         let mut all = Vec::new();
         for name in self.row.effects {
             all.extend(request(name, usual_method()).functions(&Naming::default())?);
@@ -93,7 +93,7 @@ impl RowText {
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
-    pub fn called_functions(&self) -> Result<Vec<Emitted>, emit::Error> {
+    pub fn called_functions(&self) -> Result<Vec<EmittedFunction>, emit::Error> {
         let mut called = vec![self.entry_function()?];
         if self.leaves_a_body() {
             called.push(self.exit_function()?);
@@ -114,7 +114,7 @@ impl RowText {
         self.row.effects.contains(&"ggx_specular")
     }
 
-    fn rough_function(&self) -> Result<Emitted, emit::Error> {
+    fn rough_function(&self) -> Result<EmittedFunction, emit::Error> {
         let each = Reflectance::EachChannel;
         function("ggx_specular", self.method, each, self.is_scalar())
     }
@@ -139,7 +139,7 @@ impl RowText {
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
-    pub fn entry_function(&self) -> Result<Emitted, emit::Error> {
+    pub fn entry_function(&self) -> Result<EmittedFunction, emit::Error> {
         function(
             "interface",
             self.method,
@@ -148,7 +148,7 @@ impl RowText {
         )
     }
 
-    fn exit_function(&self) -> Result<Emitted, emit::Error> {
+    fn exit_function(&self) -> Result<EmittedFunction, emit::Error> {
         function(
             "interior",
             self.exit_method(),
@@ -207,7 +207,13 @@ impl RowText {
 
     /// The call of a function that needs R: its own arguments, then the method's inputs. Where it returns one value, that value
     /// serves all channels.
-    fn call(&self, words: &Words, frame: &str, function: &Emitted, own: &[(&str, &str)]) -> String {
+    fn call(
+        &self,
+        words: &Words,
+        frame: &str,
+        function: &EmittedFunction,
+        own: &[(&str, &str)],
+    ) -> String {
         let own = own.iter().map(|(name, _)| (*name).to_owned());
         let places = self.method.inputs.iter().enumerate();
         let inputs = places.map(|(place, input)| self.argument(frame, place, input));
@@ -291,7 +297,7 @@ fn function(
     method: &'static Method,
     asked: Reflectance,
     is_scalar: bool,
-) -> Result<Emitted, emit::Error> {
+) -> Result<EmittedFunction, emit::Error> {
     let functions = request(effect, method).functions(&Naming::default())?;
     let mut found = functions.into_iter().filter(|emitted| {
         let own = emitted.effect.map(|part| part.function.reflectance);

@@ -1,6 +1,6 @@
 //! What each function states of its error, in both directions, and that it gives numbers at the ends of its domain.
 
-use fresnel_gen::generator::emit::{EffectRequest, Emitted, Naming};
+use fresnel_gen::generator::emit::{EffectRequest, EmittedFunction, Naming};
 use fresnel_gen::generator::fit::Measured;
 use fresnel_gen::lab::verify::effect_trial::EffectTrial;
 use fresnel_gen::language::effects;
@@ -8,7 +8,7 @@ use fresnel_gen::language::ir::{Checked, Function, NodeId, Op, Payload, check};
 use fresnel_gen::language::methods;
 
 /// Every function of every effect in its usual form.
-fn functions() -> Vec<Emitted> {
+fn functions() -> Vec<EmittedFunction> {
     let method = methods::find(effects::USUAL_METHOD).expect("a method");
     let of = |effect: &&'static effects::Effect| {
         let request = EffectRequest {
@@ -22,7 +22,7 @@ fn functions() -> Vec<Emitted> {
 }
 
 /// The trial of a function with R for water, diamond, and from within diamond.
-fn trial(emitted: &Emitted) -> EffectTrial {
+fn trial(emitted: &EmittedFunction) -> EffectTrial {
     let value = |n: f64| vec![("eta".to_owned(), [n, n * 1.01, n * 1.02])];
     let part = emitted.effect.expect("a function of an effect");
     EffectTrial::new(
@@ -33,7 +33,7 @@ fn trial(emitted: &Emitted) -> EffectTrial {
 }
 
 /// What a function states of its error, with that of R.
-fn stated(emitted: &Emitted) -> f64 {
+fn stated(emitted: &EmittedFunction) -> f64 {
     match &emitted.code {
         Measured::Yes(bound) => bound.value(),
         Measured::No(why) => panic!("{}: {why}", emitted.name),
@@ -113,7 +113,7 @@ fn a_function_with_one_thing_wrong_is_caught() {
                 continue;
             };
             count += 1;
-            let wrong = Emitted {
+            let wrong = EmittedFunction {
                 function,
                 ..emitted.clone()
             };

@@ -3,7 +3,7 @@
 //! promise that each file's reader relies on.
 
 use crate::not_checked;
-use fresnel_gen::generator::emit::{self, Bounds, Emitted, Naming};
+use fresnel_gen::generator::emit::{self, Bounds, EmittedFunction, Naming};
 use fresnel_gen::generator::fit::{self, Measured};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Materials, Request, Source};
@@ -173,7 +173,7 @@ const RULES: [Rule; 8] = [
 ];
 
 /// Values of a method's arguments: all combinations; the three channels have three of an input's values.
-fn rows(emitted: &Emitted) -> Vec<Vec<[f32; 3]>> {
+fn rows(emitted: &EmittedFunction) -> Vec<Vec<[f32; 3]>> {
     let params = emitted.function.params.iter().skip(1);
     let numbers = params.filter(|param| param.ty != Ty::Texture);
     numbers.fold(vec![Vec::new()], |rows: Vec<Vec<[f32; 3]>>, param| {
@@ -191,7 +191,11 @@ fn rows(emitted: &Emitted) -> Vec<Vec<[f32; 3]>> {
 }
 
 /// The inputs of a channel by name.
-fn inputs<'a>(emitted: &'a Emitted, row: &[[f32; 3]], channel: usize) -> Vec<(&'a str, f32)> {
+fn inputs<'a>(
+    emitted: &'a EmittedFunction,
+    row: &[[f32; 3]],
+    channel: usize,
+) -> Vec<(&'a str, f32)> {
     let params = emitted.function.params.iter().skip(1);
     let numbers = params.filter(|param| param.ty != Ty::Texture);
     numbers
@@ -207,7 +211,7 @@ fn inputs<'a>(emitted: &'a Emitted, row: &[[f32; 3]], channel: usize) -> Vec<(&'
 fn broken(
     devices: &Devices,
     (target, way): (&'static targets::Target, ExecutionPath),
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     bytes: &[u8],
 ) -> Result<Vec<String>, RunFault> {
     let shown = ShippedFunction {
@@ -239,7 +243,7 @@ fn broken(
 }
 
 /// The rules that some results break.
-fn judged(emitted: &Emitted, trial: &Trial, got: &[[f32; 3]]) -> Vec<String> {
+fn judged(emitted: &EmittedFunction, trial: &Trial, got: &[[f32; 3]]) -> Vec<String> {
     let want = trial.run::<f64>(&COSINES);
     let mut faults = Vec::new();
     for (i, cos_theta) in COSINES.iter().enumerate() {
@@ -280,7 +284,7 @@ fn subjects() -> Vec<MaterialInMedium> {
 }
 
 /// Every function that keeps the contract, with a file that holds it alone.
-fn files(target: &'static targets::Target) -> Vec<(Emitted, Vec<u8>)> {
+fn files(target: &'static targets::Target) -> Vec<(EmittedFunction, Vec<u8>)> {
     let naming = Naming::default();
     let kept = |method: &&&'static Method| method.contract == Contract::Kept;
     let mut files = Vec::new();

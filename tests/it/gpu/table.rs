@@ -3,7 +3,7 @@
 
 use super::device;
 use fresnel_gen::generator::bake::TableMaterial;
-use fresnel_gen::generator::emit::{self, Emitted, Naming};
+use fresnel_gen::generator::emit::{self, EmittedFunction, Naming};
 use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::lut::{Depth, Stored, Table, TableAxis};
 use fresnel_gen::generator::request::Materials;
@@ -32,7 +32,7 @@ fn committed() -> Vec<TableMaterial> {
     table_materials(&wanted).unwrap().0
 }
 
-fn function() -> Emitted {
+fn function() -> EmittedFunction {
     let method = methods::find("table").unwrap();
     emit::library_functions(method, &Naming::default())
         .unwrap()

@@ -120,7 +120,7 @@ fn text_targets() -> impl Iterator<Item = &'static &'static targets::Target> {
 }
 
 /// All functions of a library file.
-fn library(method: &'static methods::Method, naming: &emit::Naming) -> Vec<emit::Emitted> {
+fn library(method: &'static methods::Method, naming: &emit::Naming) -> Vec<emit::EmittedFunction> {
     let own = emit::library_functions(method, naming).expect("well formed");
     let means = emit::companions(method, naming).expect("well formed");
     own.into_iter().chain(means).collect()

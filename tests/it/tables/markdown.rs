@@ -6,7 +6,7 @@ use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::lab::cost;
 use fresnel_gen::language::methods::{self, Class, Contract, Method, Origin, Spread};
 use fresnel_gen::language::{effects, targets};
-use fresnel_gen::physics::materials::{Material, Unseen, ViewingConditions};
+use fresnel_gen::physics::materials::{Material, SurfaceError, ViewingConditions};
 
 /// The effects with their functions; `...` stands for what the method of R takes.
 pub fn effects_table() -> String {
@@ -96,7 +96,7 @@ fn source_cell(method: &Method) -> String {
 ///
 /// # Errors
 /// A material was not measured over the whole visible spectrum.
-pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
+pub fn errors_table(materials: Vec<Material>) -> Result<String, SurfaceError> {
     let subject = |material: Material| {
         let typed = (material.name.clone(), material);
         MaterialInMedium::new(

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
-use fresnel_gen::generator::emit::{Detail, FunctionsDetail, SeenDetail};
+use fresnel_gen::generator::emit::{Detail, FunctionsDetail, ViewingDetail};
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::output::artifact::{Artifact, Scope};
 use fresnel_gen::generator::output::lock::Lock;
@@ -114,7 +114,7 @@ pub fn artifact(path: &str, target: &str, edition: usize) -> Artifact {
             functions: Vec::new(),
             precision: None,
             // These digits change when a float is read carelessly, and the names are not in order.
-            seen: Some(SeenDetail {
+            seen: Some(ViewingDetail {
                 truth: "as measured".to_string(),
                 extrapolated: None,
                 n: [

@@ -3,7 +3,7 @@
 
 use super::subjects;
 use crate::not_checked;
-use fresnel_gen::generator::emit::{self, Emitted, Naming};
+use fresnel_gen::generator::emit::{self, EmittedFunction, Naming};
 use fresnel_gen::generator::fit::{self, Measured, values_for_material};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::gpu::Wanted;
@@ -212,7 +212,7 @@ fn well_formed(function: Function) -> Checked {
 }
 
 /// The function of a method with a material's values.
-fn trial(emitted: &Emitted, subject: &MaterialInMedium) -> Trial {
+fn trial(emitted: &EmittedFunction, subject: &MaterialInMedium) -> Trial {
     let values = values_for_material(subject, emitted.method);
     let inputs = emitted
         .method
@@ -241,7 +241,7 @@ fn is_caught(
     devices: &Devices,
     target: &str,
     trial: &Trial,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
 ) -> Result<bool, RunFault> {
     let target = targets::find(target).unwrap();
     let files = emit::library(
@@ -263,7 +263,7 @@ fn is_caught(
     Ok(expected.judge(&got).miss.is_some())
 }
 
-fn emitted(method: &'static Method) -> Emitted {
+fn emitted(method: &'static Method) -> EmittedFunction {
     emit::library_functions(method, &Naming::default())
         .unwrap()
         .remove(0)
@@ -304,7 +304,7 @@ fn check_target(target: &str) {
                 .iter()
                 .any(|(name, kind, _)| *name == method.name && *kind == wrong);
             let caught = function.is_some_and(|function| {
-                let mutant = Emitted {
+                let mutant = EmittedFunction {
                     function,
                     ..right.clone()
                 };

@@ -5,7 +5,7 @@ use std::process::Command;
 use super::subjects;
 use crate::exhaustive::{Line, lines};
 use fresnel_gen::generator::emit::{
-    Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function,
+    Bounds, CodeBound, EmittedFunction, Naming, fingerprint, specialised_function,
 };
 use fresnel_gen::generator::fit::Measured;
 use fresnel_gen::generator::reference::MaterialInMedium;
@@ -13,12 +13,12 @@ use fresnel_gen::generator::request::DEFAULT_MATERIALS as MATERIALS;
 use fresnel_gen::language::ir::Op;
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
 
-fn emitted(method: &'static Method, subject: &MaterialInMedium) -> Emitted {
+fn emitted(method: &'static Method, subject: &MaterialInMedium) -> EmittedFunction {
     specialised_function(method, subject, &Naming::default(), &Bounds::recorded()).unwrap()
 }
 
 /// Every pair that there can be.
-fn pairs() -> Vec<(Emitted, &'static str)> {
+fn pairs() -> Vec<(EmittedFunction, &'static str)> {
     let subjects = subjects(&MATERIALS);
     let mut all = Vec::new();
     for method in methods::ALL.iter().filter(|method| !method.is_textured()) {
@@ -31,7 +31,7 @@ fn pairs() -> Vec<(Emitted, &'static str)> {
     all
 }
 
-fn line(emitted: &Emitted, material: &str) -> &'static Line {
+fn line(emitted: &EmittedFunction, material: &str) -> &'static Line {
     let name = emitted.method.name;
     let found = lines().find(|line| line.method == name && line.material == material);
     found.unwrap_or_else(|| panic!("{name} for {material} is not in the record"))

@@ -7,7 +7,7 @@ mod record;
 use super::average::Average;
 use super::figures::Bounds;
 use super::file::Error;
-use super::function::{Emitted, Naming, specialised_function};
+use super::function::{EmittedFunction, Naming, specialised_function};
 use crate::generator::fit::{
     FitCurve, FitObjective, ModelError, coefficients_and_error, model_error,
 };
@@ -110,7 +110,7 @@ fn catalogue_row(
 
 /// The function of a material with coefficients whose form keeps to [0, 1] by itself, where colours are clipped. A function that
 /// is not fitted is returned unchanged.
-fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
+fn within_gamut(subject: &MaterialInMedium, emitted: EmittedFunction) -> EmittedFunction {
     let gamut = subject.reference.surface.gamut;
     if gamut == Gamut::Keep || !emitted.method.is_fitted() {
         return emitted;
@@ -124,7 +124,7 @@ fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
     let function = emitted.method.specialise(&constants);
     let function = function.expect("a test specialises every method");
     let error = model_error(&function, &subject.truth_for(emitted.method));
-    Emitted {
+    EmittedFunction {
         function,
         constants,
         model_error: Some(error),
@@ -136,7 +136,7 @@ fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
 /// where the fit misses its class.
 fn closer_fit(
     subject: &MaterialInMedium,
-    emitted: &Emitted,
+    emitted: &EmittedFunction,
     naming: &Naming,
     bounds: &Bounds,
 ) -> Result<Option<CloserFit>, Error> {
