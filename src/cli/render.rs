@@ -24,8 +24,8 @@ use crate::physics::spectra::{Space, srgb_byte};
 use crate::pictures::plot::shade_bytes;
 use crate::pictures::png::rgb_png;
 use crate::pictures::scene::{
-    self, Difference, Display, Environment, Glass, Order, Picture, RenderRow, RenderedRow,
-    TONE_CURVES, ToneCurve,
+    self, Difference, Display, Environment, OpticalMaterial, Picture, PictureRequest, RenderRow,
+    RenderedRow, TONE_CURVES, ToneCurve,
 };
 
 /// The flags of `render`.
@@ -132,15 +132,16 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
         exposure: flags.exposure,
         curve: flags.tone_curve,
     };
-    let order = Order {
+    let request = PictureRequest {
         row: flags.name,
-        glass: &Glass::of_surface(&surface),
+        material: &OpticalMaterial::of_surface(&surface),
+        material_name: &material.name,
         environment: &environment,
         is_ldr: flags.ldr,
         size: flags.size,
         display,
     };
-    let picture = scene::render(&device, &order, &material.name, progress).map_err(lacking)?;
+    let picture = scene::render(&device, &request, progress).map_err(lacking)?;
     let command: String = flags.command_line().into();
     let bytes = if is_exr {
         panels_exr(&picture)

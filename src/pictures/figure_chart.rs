@@ -1,34 +1,25 @@
 //! A figure of the thesis as a chart.
 
 use crate::lab::reproduce::{DrawnCurve, FIGURE_POINTS, ThesisFigure};
-use crate::pictures::plot::{ChartAxis, LineChart, Mark, Series, Style, ticks};
+use crate::pictures::plot::{ChartAxis, LineChart, Mark, Series, Style};
 
 /// The chart of a figure.
 pub fn figure_chart(figure: &ThesisFigure) -> LineChart {
-    let approximate = figure.curves.iter().enumerate();
-    let approximate = approximate.map(|(i, curve)| series(curve, Style::Approximate(i)));
-    let marks = figure.marks.iter();
+    let mut all = vec![series(&figure.exact, Style::Exact)];
+    for (i, curve) in figure.curves.iter().enumerate() {
+        all.push(series(curve, Style::Approximate(i)));
+    }
+    let mark = |(at, label): &(f64, String)| Mark {
+        at: *at,
+        label: label.clone(),
+    };
     LineChart {
         title: format!("Figure {}: {}", figure.number, figure.subject),
         subtitle: subtitle(figure),
         x: ChartAxis::angle_of_incidence(),
-        y: ChartAxis {
-            label: "unpolarised reflectance".to_owned(),
-            low: figure.low,
-            high: 100.0,
-            ticks: ticks(figure.low, 100.0, 5),
-            unit: "%",
-        },
-        series: [series(&figure.exact, Style::Exact)]
-            .into_iter()
-            .chain(approximate)
-            .collect(),
-        marks: marks
-            .map(|(at, label)| Mark {
-                at: *at,
-                label: label.clone(),
-            })
-            .collect(),
+        y: ChartAxis::new("unpolarised reflectance", [figure.low, 100.0], 5, "%"),
+        series: all,
+        marks: figure.marks.iter().map(mark).collect(),
         foot: "fresnel-gen reproduce figures".to_owned(),
     }
 }

@@ -6,13 +6,12 @@
 //! It imports all wings but the command line, and is left out without the feature `pictures`.
 //! Start with [`plot`], which every curve goes through, or with [`plan`].
 
-// Rooms: plot, table, html, png < cost_page, figure_chart, frontier, headline, material_sheet, stability_map, scene < gallery, plan
+// Rooms: plot, table, html, png < cost_page, figure_chart, frontier, material_sheet, stability_map, scene < gallery, plan
 
 pub mod cost_page;
 pub mod figure_chart;
 pub mod frontier;
 pub mod gallery;
-pub mod headline;
 mod html;
 pub mod material_sheet;
 pub mod plan;

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use png::{BitDepth, ColorType, Compression, Encoder};
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
 
@@ -37,7 +37,16 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
         Transform::from_scale(scale, scale),
         &mut map.as_mut(),
     );
-    encode(&map).map_err(|why| format!("the picture cannot be written as PNG: {why}"))
+    // On the white ground nothing is transparent.
+    let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
+    let colours: Vec<u8> = colours.copied().collect();
+    let encoding = Encoding {
+        compression: Compression::Balanced,
+        intent: SrgbRenderingIntent::RelativeColorimetric,
+        text: ("Software", MARK.to_owned()),
+    };
+    encoded(&colours, [width, height], encoding)
+        .map_err(|why| format!("the picture cannot be written as PNG: {why}"))
 }
 
 /// The document as `resvg` understands it.
@@ -78,42 +87,39 @@ fn pixels(length: f32, scale: f32) -> Result<u32, String> {
     ))
 }
 
-/// Red, green and blue of each pixel, marked as sRGB. On the white ground nothing is transparent.
-fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, map.width(), map.height());
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Balanced);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    encoder.add_text_chunk("Software".to_owned(), MARK.to_owned())?;
-    let mut writer = encoder.write_header()?;
-    let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
-    writer.write_image_data(&colours.copied().collect::<Vec<u8>>())?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
 /// A PNG from bytes of red, green and blue, row by row, in sRGB. `about` is ASCII.
 ///
 /// # Errors
 /// The picture cannot be encoded; the text says why.
 pub fn rgb_png(pixels: &[u8], size: [u32; 2], about: String) -> Result<Vec<u8>, String> {
-    encoded(pixels, size, about).map_err(|why| why.to_string())
+    let encoding = Encoding {
+        compression: Compression::High,
+        intent: SrgbRenderingIntent::Perceptual,
+        text: ("Comment", about),
+    };
+    encoded(pixels, size, encoding).map_err(|why| why.to_string())
+}
+
+/// How pixels are written, and a text beside them with its keyword.
+struct Encoding {
+    compression: Compression,
+    intent: SrgbRenderingIntent,
+    text: (&'static str, String),
 }
 
 fn encoded(
     pixels: &[u8],
     [width, height]: [u32; 2],
-    about: String,
-) -> Result<Vec<u8>, png::EncodingError> {
+    encoding: Encoding,
+) -> Result<Vec<u8>, EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::High);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.add_text_chunk("Comment".to_owned(), about)?;
+    encoder.set_compression(encoding.compression);
+    encoder.set_source_srgb(encoding.intent);
+    let (keyword, text) = encoding.text;
+    encoder.add_text_chunk(keyword.to_owned(), text)?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
     writer.finish()?;

@@ -28,6 +28,7 @@ mod gpu;
 mod graph;
 mod grey_tint;
 mod half;
+mod headline;
 mod incidents;
 mod licences;
 mod lut;

@@ -17,16 +17,13 @@ use super::{
     ChartData, ChartEntry, ChartView, CostAxis, FunctionOrigin, MaterialSet, STATISTICS, set_name,
     sets,
 };
-use crate::generator::emit::{Bounds, FunctionForm, Naming, specialised_function};
+use crate::generator::emit::FunctionForm;
 use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
-use crate::generator::reference::{Derivation, MaterialClass, MaterialInMedium};
+use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::lab::overdraw::times;
-use crate::language::ir::{Value, evaluate};
-use crate::language::methods::{self, ALL, Light, Method};
-use crate::physics::materials::{self, ViewingConditions};
+use crate::language::methods::{ALL, Light, Method};
 use crate::physics::num::{Precision, in_parallel};
-use crate::physics::optics::cosine;
 use crate::physics::records::rows;
 use crate::physics::spectra::Space;
 
@@ -203,44 +200,6 @@ fn reason(view: &ChartView, place: usize, entry: &ChartEntry) -> Option<String> 
     }
     let unknown = view.cost.costs[place].is_none();
     unknown.then(|| format!("costs nothing or is not recorded on {}", view.cost.name))
-}
-
-/// The reflectance of a material of the catalogue over angles: by each of some methods, and by the exact law of the whole spectrum.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reflectances {
-    /// By each method, in the methods' order.
-    pub by_methods: Vec<Vec<[f64; 3]>>,
-    /// By the exact law.
-    pub exact: Vec<[f64; 3]>,
-}
-
-/// The reflectances at these angles in degrees, in air and under the default viewing conditions.
-///
-/// # Errors
-/// The material or a method does not exist, or the material is not known under these conditions.
-pub fn exact_and_approximated(
-    material: &str,
-    methods: &[&str],
-    degrees: &[f64],
-) -> Result<Reflectances, String> {
-    let found = materials::find(material);
-    let found = found.ok_or_else(|| format!("there is no material {material}"))?;
-    let typed = (material.to_owned(), found.map_err(|why| why.to_string())?);
-    let viewing = ViewingConditions::default();
-    let subject = MaterialInMedium::new(typed, None, &viewing, Derivation::default());
-    let subject = subject.map_err(|why| why.to_string())?;
-    let cosines: Vec<f64> = degrees.iter().copied().map(cosine).collect();
-    let mut by_methods = Vec::new();
-    for name in methods {
-        let method = methods::find(name).ok_or_else(|| format!("there is no method {name}"))?;
-        let (naming, bounds) = (Naming::default(), Bounds::recorded());
-        let emitted = specialised_function(method, &subject, &naming, &bounds);
-        let function = emitted.map_err(|why| why.to_string())?.function;
-        let values = evaluate(&function, &[Value::each(cosines.clone())]);
-        by_methods.push((0..cosines.len()).map(|i| values.at(i)).collect());
-    }
-    let exact = cosines.iter().map(|c| subject.reference.at(*c)).collect();
-    Ok(Reflectances { by_methods, exact })
 }
 
 /// An axis for each family with recorded costs, and one of times.

@@ -12,10 +12,7 @@ use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::language::methods::{Contract, Method};
 
 pub use audited::{ChartedFunction, charted_function};
-pub use data::{
-    LeftOutErrors, Reflectances, chart_data, cost_names, exact_and_approximated, left_out,
-    without_point,
-};
+pub use data::{LeftOutErrors, chart_data, cost_names, left_out, without_point};
 pub use sets::{STATISTICS, set_name};
 
 /// A measure of error.

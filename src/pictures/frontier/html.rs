@@ -56,10 +56,8 @@ struct SetColumns<'a> {
 /// # Errors
 /// The page's template cannot be filled.
 pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<String, String> {
-    let json = serde_json::to_string(&page_data(data)).map_err(|why| why.to_string())?;
     let mut context = Context::new();
-    // The JSON may hold `</script>` in a string. A JSON escape keeps that from ending the script.
-    context.insert("data", &json.replace('<', "\\u003c"));
+    context.insert("data", &html::script_json(&page_data(data))?);
     context.insert("first", &[set, cost, error]);
     context.insert("command", &data.command);
     let user = data.entries.iter().find_map(ChartEntry::user);
@@ -114,7 +112,7 @@ fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
 }
 
 /// Each error with four significant digits, as much as a reader can see of a point on a page.
-fn four_digits(errors: &MethodErrors) -> [Option<f64>; 4] {
+pub fn four_digits(errors: &MethodErrors) -> [Option<f64>; 4] {
     ERRORS.map(|axis| {
         let error = (axis.value)(errors)?;
         format!("{error:.3e}").parse().ok()

@@ -2,5 +2,5 @@
 
 mod html;
 mod svg;
-pub use html::chart_page;
+pub use html::{chart_page, four_digits};
 pub use svg::chart_svg;

@@ -4,7 +4,7 @@
 use crate::lab::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
 use crate::pictures::plot::{
     AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK,
-    TITLE, Tick, VERMILION, capital, log_ticks, plain_label,
+    TITLE, Tick, VERMILION, capital, labelled, log_ticks, plain_label,
 };
 
 /// The size of the picture.
@@ -53,10 +53,8 @@ impl Plane {
 
     /// The position of a point.
     fn at(&self, point: &ChartPoint) -> (f64, f64) {
-        (
-            self.axes.x.at(point.cost),
-            self.axes.y.at(drawn(point.error)),
-        )
+        let Axes { x, y, .. } = self.axes;
+        (x.at(point.cost), y.at(drawn(point.error)))
     }
 }
 
@@ -72,12 +70,7 @@ fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
 fn power_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
     let is_long = libm::log10(high) - libm::log10(low) > 2.5;
     let multiples: &[f64] = if is_long { &[1.0] } else { &[1.0, 2.0, 5.0] };
-    let tick = |value| Tick {
-        value,
-        label: plain_label(value),
-    };
-    let ticks = log_ticks(low, high, multiples).into_iter();
-    ticks.map(tick).collect()
+    labelled(log_ticks(low, high, multiples), plain_label)
 }
 
 /// The picture of a view; `None` where it has no known points.
@@ -91,11 +84,10 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
     layout.paragraph(&TITLE, &title);
     let key = key(view);
     layout.paragraph(&SUBTITLE, &key);
-    let top = layout.bottom() + 12.0;
     let bottom = FRAME.height - BELOW - FOOT_ROOM;
     let area = Area {
         left: FRAME.margin + LEFT - 30.0,
-        top,
+        top: layout.bottom + 12.0,
         right: FRAME.right() - 8.0,
         bottom,
     };
@@ -125,10 +117,10 @@ fn key(view: &ChartView) -> String {
         None => format!(" Green diamond: {}, your own.", user.name),
         Some(lacks) => format!(" {lacks}"),
     });
-    let without = without_point(view).into_iter();
-    let without: Vec<String> = without.map(|line| format!(" {line}")).collect();
+    let without = without_point(view);
     let head = if without.is_empty() { "" } else { " Left out:" };
-    format!("{KEY}{}{head}{}", own.unwrap_or_default(), without.concat())
+    let without: String = without.iter().map(|line| format!(" {line}")).collect();
+    format!("{KEY}{}{head}{without}", own.unwrap_or_default())
 }
 
 /// The titles of the axes.
@@ -229,19 +221,25 @@ fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
         (entry.user().is_none(), !point.is_on_frontier, entry.is_best)
     });
     let all: Vec<(f64, f64)> = points.iter().map(|point| plane.at(point)).collect();
-    let at: Vec<(f64, f64)> = order.iter().map(|point| plane.at(point)).collect();
-    let texts: Vec<String> = order.iter().map(|point| point.entry.label()).collect();
-    let widths: Vec<f64> = texts.iter().map(|text| FONT.width(text)).collect();
-    let found = place_names(&at, &widths, FONT.leading - 3.0, &all, plane.axes.area);
-    let draw = |(i, place): (usize, Option<LabelPlace>)| {
-        let place = place?;
-        let line = place.is_led.then(|| led(at[i], &place, widths[i]));
+    let names: Vec<((f64, f64), String)> = order
+        .iter()
+        .map(|point| (plane.at(point), point.entry.label()))
+        .collect();
+    let sized: Vec<((f64, f64), f64)> = names
+        .iter()
+        .map(|(at, text)| (*at, FONT.width(text)))
+        .collect();
+    let places = place_names(&sized, FONT.leading - 3.0, &all, plane.axes.area);
+    let mut elements = Vec::new();
+    for (((at, text), (_, width)), place) in names.iter().zip(sized).zip(places) {
+        let Some(place) = place else { continue };
+        if place.is_led {
+            elements.push(led(*at, &place, width));
+        }
         let top = place.middle - FONT.leading / 2.0;
-        let text = FONT.draw_with_rim(&texts[i..=i], place.left, top, "start");
-        Some(line.into_iter().chain(text).collect::<Vec<String>>())
-    };
-    let drawn = found.into_iter().enumerate().filter_map(draw);
-    drawn.flatten().collect()
+        elements.extend(FONT.draw_with_rim(text, place.left, top, "start"));
+    }
+    elements
 }
 
 /// A thin line from a point to its name.
@@ -255,17 +253,18 @@ fn led((x, y): (f64, f64), place: &LabelPlace, width: f64) -> String {
 
 /// A name's place, and whether it is so far from its point that a line leads to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LabelPlace {
+struct LabelPlace {
     /// The left end.
-    pub left: f64,
+    left: f64,
     /// The middle of its height.
-    pub middle: f64,
-    /// Whether a line leads to it.
-    pub is_led: bool,
+    middle: f64,
+    /// What the name covers.
+    area: Area,
+    is_led: bool,
 }
 
 /// Half the width of a point.
-pub const DOT: f64 = 4.5;
+const DOT: f64 = 4.5;
 /// The gap between a point and its name.
 const GAP: f64 = 3.0;
 
@@ -279,23 +278,22 @@ fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
     }
 }
 
-/// A place for the name of each of these points, of this width and height, in order, so that no name covers any of all points.
-/// `None` where there is no room.
-pub fn place_names(
-    points: &[(f64, f64)],
-    widths: &[f64],
+/// A place for the name of each of these points, by its width and the height of all, in order, so that no name covers any of all
+/// points. `None` where there is no room.
+fn place_names(
+    names: &[((f64, f64), f64)],
     height: f64,
     all: &[(f64, f64)],
     page: Area,
 ) -> Vec<Option<LabelPlace>> {
-    let dot = |point: &(f64, f64)| around(*point, DOT, DOT);
-    let mut taken: Vec<Area> = all.iter().map(dot).collect();
+    let mut taken: Vec<Area> = all.iter().map(|point| around(*point, DOT, DOT)).collect();
     let mut places = Vec::new();
-    for (point, width) in points.iter().zip(widths) {
-        let free = candidates(*point, *width, height)
-            .find(|(area, _)| area.lies_in(&page) && !taken.iter().any(|other| area.meets(other)));
-        taken.extend(free.map(|(area, _)| area));
-        places.push(free.map(|(_, place)| place));
+    for (point, width) in names {
+        let free = candidates(*point, *width, height).find(|LabelPlace { area, .. }| {
+            area.lies_in(&page) && !taken.iter().any(|other| area.meets(other))
+        });
+        taken.extend(free.map(|place| place.area));
+        places.push(free);
     }
     places
 }
@@ -306,11 +304,7 @@ fn beside(left: f64, middle: f64, width: f64, height: f64) -> Area {
 }
 
 /// The candidates for a place: right, left, above and below, then the same farther off.
-fn candidates(
-    (x, y): (f64, f64),
-    width: f64,
-    height: f64,
-) -> impl Iterator<Item = (Area, LabelPlace)> {
+fn candidates((x, y): (f64, f64), width: f64, height: f64) -> impl Iterator<Item = LabelPlace> {
     let near = DOT + GAP;
     let sides = [
         (near, 0.0),
@@ -334,16 +328,12 @@ fn candidates(
                 dx
             };
             let (left, middle) = (x + dx, y + dy * further);
-            let area = beside(left, middle, width, height);
-            let is_led = ring > 0;
-            (
-                area,
-                LabelPlace {
-                    left,
-                    middle,
-                    is_led,
-                },
-            )
+            LabelPlace {
+                left,
+                middle,
+                area: beside(left, middle, width, height),
+                is_led: ring > 0,
+            }
         })
     })
 }
@@ -354,22 +344,17 @@ mod tests {
 
     #[test]
     fn names_lie_over_nothing() {
-        let points: Vec<(f64, f64)> = (0..12)
-            .map(|i| {
-                (
-                    200.0 + 6.0 * f64::from(i % 3),
-                    100.0 + 5.0 * f64::from(i / 3),
-                )
-            })
-            .collect();
+        let point = |i: u32| {
+            (
+                200.0 + 6.0 * f64::from(i % 3),
+                100.0 + 5.0 * f64::from(i / 3),
+            )
+        };
+        let points: Vec<(f64, f64)> = (0..12).map(point).collect();
+        let names: Vec<((f64, f64), f64)> = points.iter().map(|at| (*at, 60.0)).collect();
         let page = beside(0.0, 200.0, 600.0, 400.0);
-        let widths = vec![60.0; points.len()];
-        let places = place_names(&points, &widths, 12.0, &points, page);
-        let areas: Vec<Area> = places
-            .iter()
-            .flatten()
-            .map(|place| beside(place.left, place.middle, 60.0, 12.0))
-            .collect();
+        let places = place_names(&names, 12.0, &points, page);
+        let areas: Vec<Area> = places.iter().flatten().map(|place| place.area).collect();
         assert!(areas.len() > 6, "{}", areas.len());
         for (i, one) in areas.iter().enumerate() {
             assert!(one.lies_in(&page));
@@ -379,10 +364,7 @@ mod tests {
 
     #[test]
     fn where_there_is_no_room_there_is_no_name() {
-        let page = beside(0.0, 10.0, 20.0, 20.0);
-        assert_eq!(
-            place_names(&[(10.0, 10.0)], &[100.0], 12.0, &[(10.0, 10.0)], page),
-            [None]
-        );
+        let (page, at) = (beside(0.0, 10.0, 20.0, 20.0), (10.0, 10.0));
+        assert_eq!(place_names(&[(at, 100.0)], 12.0, &[at], page), [None]);
     }
 }

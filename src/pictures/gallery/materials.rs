@@ -7,11 +7,12 @@ use serde::Serialize;
 use super::packed::Packed;
 use crate::generator::fit::{values, values_for_material};
 use crate::generator::reference::{Derivation, MaterialInMedium};
-use crate::lab::chart::{ChartData, ChartEntry, ERRORS, MaterialSet};
+use crate::lab::chart::{ChartData, ChartEntry};
 use crate::language::methods::{Class, Light, Method, Values};
 use crate::physics::materials::Channels;
 use crate::physics::num::in_parallel;
-use crate::pictures::scene::Glass;
+use crate::pictures::frontier::four_digits;
+use crate::pictures::scene::OpticalMaterial;
 
 /// A material.
 #[derive(Clone, Debug, Serialize)]
@@ -62,8 +63,8 @@ pub struct OwnIndex {
     pub inputs: BTreeMap<&'static str, (usize, Packed)>,
 }
 
-/// The methods that the gallery shows.
-fn shown() -> impl Iterator<Item = &'static Method> {
+/// The methods that the gallery shows: those for unpolarised light without a table.
+pub fn shown_methods() -> impl Iterator<Item = &'static Method> {
     let all = crate::language::methods::ALL.iter().copied();
     all.filter(|method| method.light == Light::Unpolarised && !method.is_textured())
 }
@@ -82,7 +83,7 @@ pub fn method_numbers(data: &ChartData) -> Vec<MethodNumbers> {
             costs: costs.map(|axis| axis.costs[place?]).collect(),
         }
     };
-    shown().map(numbers).collect()
+    shown_methods().map(numbers).collect()
 }
 
 /// The index of a method with its intended inputs in the chart's data.
@@ -98,32 +99,25 @@ pub fn numbers(subjects: &[MaterialInMedium], data: &ChartData) -> Vec<MaterialN
 }
 
 fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
-    let glass = Glass::of_surface(&subject.reference.surface);
+    let optical = OpticalMaterial::of_surface(&subject.reference.surface);
     let single = |numbers: glam::DVec3| numbers.to_array().map(|value| value as f32);
     let set = data.sets.iter().find(|set| set.name == subject.argument);
     let (mut inputs, mut errors) = (BTreeMap::new(), BTreeMap::new());
-    for method in shown().filter(|method| subject.is_described_by(method)) {
+    for method in shown_methods().filter(|method| subject.is_described_by(method)) {
         let found = values_for_material(subject, method);
         inputs.insert(method.name, in_order(method, &found));
-        errors.insert(method.name, errors_in(set, entry(data, method)));
+        let own = set.and_then(|set| set.errors.get(entry(data, method)?));
+        errors.insert(method.name, own.map_or([None; 4], four_digits));
     }
     MaterialNumbers {
         name: subject.name.clone(),
         summary: subject.material.summary.clone(),
-        n: single(glass.n),
-        k: single(glass.k),
-        absorption: single(glass.absorption()),
+        n: single(optical.n),
+        k: single(optical.k),
+        absorption: single(optical.absorption()),
         inputs,
         errors,
     }
-}
-
-/// Errors rounded to four digits.
-fn errors_in(set: Option<&MaterialSet>, entry: Option<usize>) -> [Option<f64>; 4] {
-    ERRORS.map(|axis| {
-        let error = (axis.value)(set?.errors.get(entry?)?)?;
-        format!("{error:.3e}").parse().ok()
-    })
 }
 
 fn in_order(method: &Method, values: &Values) -> Vec<[f32; 3]> {
@@ -143,14 +137,11 @@ pub fn own_indices() -> Vec<OwnIndex> {
 }
 
 fn own_index(transparent: bool, n: [f64; 3], k: [f64; 3]) -> OwnIndex {
-    let describes = |method: &&Method| {
-        if transparent {
-            method.class != Class::Metal
-        } else {
-            method.class == Class::Any && !method.is_fitted()
-        }
+    let describes = |method: &&Method| match transparent {
+        true => method.class != Class::Metal,
+        false => method.class == Class::Any && !method.is_fitted(),
     };
-    let methods: Vec<&Method> = shown().filter(describes).collect();
+    let methods: Vec<&Method> = shown_methods().filter(describes).collect();
     let at = |[first, step, _]: [f64; 3], i: usize| first + step * i as f64;
     let one = |i: usize| {
         let mut numbers = Vec::new();
@@ -169,12 +160,11 @@ fn own_index(transparent: bool, n: [f64; 3], k: [f64; 3]) -> OwnIndex {
             (methods[i].inputs.len(), Packed::floats(&numbers)),
         )
     };
+    let inputs = in_parallel(methods.len(), &one, &mut |_, _| {});
     OwnIndex {
         transparent,
         n,
         k,
-        inputs: in_parallel(methods.len(), &one, &mut |_, _| {})
-            .into_iter()
-            .collect(),
+        inputs: inputs.into_iter().collect(),
     }
 }

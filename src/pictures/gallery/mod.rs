@@ -18,20 +18,20 @@ use serde::Serialize;
 
 use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::chart::{ChartData, chart_data};
+use crate::lab::chart::{ERRORS, chart_data};
 use crate::physics::spectra::Space;
 use crate::pictures::scene::{
     self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
 };
-use packed::{SKY, textures_of};
+use lower::LoweringFault;
+use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
+use orbit::Orbit;
+use packed::{PackedMesh, PackedTexture, SKY, textures_of};
+use passes::ShowPrograms;
 
-pub use lower::{GlesProgram, LoweredTexture, LoweringFault, lowered};
-pub use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
-pub use orbit::{AZIMUTHS, Orbit, eye_at};
-pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
+pub use packed::{CUBE, SKY_HEIGHT, as_stored, reduced_tables};
 pub use passes::FunctionTexts;
-pub use passes::{GalleryPass, SHOW, ShowPrograms};
-pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, find, methods_of, rows};
+pub use row::{GalleryRow, methods_of, rows};
 
 /// The data of the page.
 #[derive(Debug, Serialize)]
@@ -88,7 +88,7 @@ pub fn gallery(
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Gallery, LoweringFault> {
-    let data: ChartData = chart_data(subjects, space, None, String::new(), progress);
+    let data = chart_data(subjects, space, None, String::new(), progress);
     let (mut orbits, mut played) = (Vec::new(), Vec::new());
     let mut textures = BTreeMap::from([(SKY.to_owned(), packed::sky_texture())]);
     let mut meshes = BTreeMap::new();
@@ -109,17 +109,15 @@ pub fn gallery(
     }
     let all = played.iter().flat_map(GalleryRow::function_names);
     let functions = passes::texts(&all.collect())?;
-    let errors = crate::lab::chart::ERRORS.iter();
+    let costs = data.costs.iter();
     Ok(Gallery {
         methods: materials::method_numbers(&data),
         materials: materials::numbers(subjects, &data),
         own: materials::own_indices(),
-        costs: data
-            .costs
-            .iter()
+        costs: costs
             .map(|cost| [cost.name.to_owned(), cost.title.clone()])
             .collect(),
-        errors: errors.map(|error| [error.name, error.title]).collect(),
+        errors: ERRORS.map(|error| [error.name, error.title]).to_vec(),
         functions,
         frame: FRAME,
         layout: Layout {

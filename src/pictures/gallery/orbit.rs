@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::packed::Packed;
 use crate::pictures::scene::{
-    Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame,
+    Camera, INPUTS, INPUTS_AT, LightBlock, OpticalMaterial, PHOTONS, RenderRow, View, frame,
 };
 
 /// Positions around the body: every 5 degrees.
@@ -67,7 +67,7 @@ impl Orbit {
 
     /// The orbit of the light's own view, which cannot be turned.
     fn of_light(row: &RenderRow, receiver: [f64; 2]) -> Orbit {
-        let nothing = Glass::of_index(0.0);
+        let nothing = OpticalMaterial::of_index(0.0);
         let light = LightBlock {
             window: receiver,
             widths: [0.0; 2],
@@ -88,7 +88,7 @@ impl Orbit {
     }
 
     fn new(eye: [f64; 3], size: f64, views: Vec<View>) -> Orbit {
-        let nothing = Glass::of_index(0.0);
+        let nothing = OpticalMaterial::of_index(0.0);
         let mut numbers = Vec::new();
         for view in &views {
             for step in 0..STEPS.len() {

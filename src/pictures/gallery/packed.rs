@@ -9,7 +9,7 @@ use half::f16;
 use serde::Serialize;
 
 use crate::pictures::scene::{
-    Body, BodyName, Environment, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky_of,
+    Body, BodyName, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky_of, vertex_numbers,
 };
 
 /// Bytes as a page holds them.
@@ -50,7 +50,7 @@ pub struct PackedTexture {
 /// The sky's name among textures.
 pub const SKY: &str = "Sky";
 /// Texels of the sky from pole to pole.
-const SKY_HEIGHT: usize = 1024;
+pub const SKY_HEIGHT: usize = 1024;
 /// Texels along a side of the room's cube map: fewer than in pictures, since every reader downloads them.
 pub const CUBE: usize = 512;
 /// The greatest width of a body's tables after reduction: for colours, and for others, which deflate badly.
@@ -58,64 +58,50 @@ const WIDEST: [usize; 2] = [512, 320];
 
 /// The sky as a texture.
 pub fn sky_texture() -> PackedTexture {
-    let environment = environment();
-    let [width, height] = environment.size();
-    let texels = environment.texels();
-    shared(SKY.to_owned(), [width, height], texels.iter().copied())
+    texture(SKY.to_owned(), &sky_of(SKY_HEIGHT).table)
 }
 
 /// The textures that a row reads besides what it draws, by slot.
 pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
     let mut all = BTreeMap::new();
     if row.in_room {
-        let texels = halves(room_cube(CUBE).into_iter());
-        let room = texture("Room".to_owned(), [CUBE, CUBE, 6], texels);
+        let room = halves("Room".to_owned(), [CUBE, CUBE, 6], &room_cube(CUBE));
         all.insert(Slot::Room, room);
     }
     if let Some(slope) = row.dents {
-        let relief = Relief::hammered(slope);
-        let [width, height] = relief.normals().size();
-        let normals = halves(relief.normals().texels().iter().copied());
-        let dents = texture(format!("dents of {slope}"), [width, height, 1], normals);
+        let dents = texture(
+            format!("dents of {slope}"),
+            &Relief::hammered(slope).normals,
+        );
         all.insert(Slot::Relief, dents);
     }
-    let body = row.body.body();
-    for (slot, table) in reduced_tables(&body) {
+    for (slot, table) in reduced_tables(&row.body.body()) {
         let name = format!("{} {slot:?}", row.body.name());
-        let [width, height] = table.size();
-        let packed = if is_opaque(&table) {
-            let colours = table.texels().iter().map(|[r, g, b, _]| [*r, *g, *b]);
-            shared(name, [width, height], colours)
-        } else {
-            texture(
-                name,
-                [width, height, 1],
-                halves(table.texels().iter().copied()),
-            )
-        };
-        all.insert(slot, packed);
+        all.insert(slot, texture(name, &table));
     }
     all
 }
 
 /// The tables of a body as the page holds them.
-pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'_, Texels>)> {
+pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'static, Texels>)> {
     let reduced = |(slot, table): (Slot, &Texels)| {
         let [colours, others] = WIDEST;
-        let is_opaque = is_opaque(table);
-        let widest = if is_opaque { colours } else { others };
+        let widest = if is_opaque(table) { colours } else { others };
         let table = table.reduced(table.size()[0].div_ceil(widest));
-        let coarse = if is_opaque {
-            table.mapped(|[r, g, b, _]| {
-                let [r, g, b] = from_shared_exponent(shared_exponent([r, g, b]));
-                [r, g, b, 1.0]
-            })
-        } else {
-            table.mapped(|texel| texel.map(coarse))
-        };
-        (slot, Cow::Owned(coarse))
+        (slot, Cow::Owned(as_stored(&table)))
     };
     body.tables().into_iter().map(reduced).collect()
+}
+
+/// A table with the precision of the page: colours with a shared exponent, others with few bits.
+pub fn as_stored(table: &Texels) -> Texels {
+    if !is_opaque(table) {
+        return table.mapped(|texel| texel.map(coarse));
+    }
+    table.mapped(|[r, g, b, _]| {
+        let [r, g, b] = from_shared_exponent(shared_exponent([r, g, b]));
+        [r, g, b, 1.0]
+    })
 }
 
 /// Whether a table holds only colours.
@@ -132,37 +118,35 @@ fn coarse(value: f32) -> f32 {
     f32::from_bits((value.to_bits() + half) >> DROPPED << DROPPED)
 }
 
-fn shared(
-    name: String,
-    [width, height]: [usize; 2],
-    texels: impl Iterator<Item = [f32; 3]>,
-) -> PackedTexture {
-    let bytes: Vec<u8> = texels
-        .map(shared_exponent)
-        .flat_map(u32::to_le_bytes)
-        .collect();
+/// A table as a texture: colours as three numbers of 9 bits with a shared exponent, others as halves.
+fn texture(name: String, table: &Texels) -> PackedTexture {
+    let [width, height] = table.size();
+    let size = [width, height, 1];
+    if !is_opaque(table) {
+        return halves(name, size, table.texels());
+    }
+    let colours = table.texels().iter().map(|[r, g, b, _]| [*r, *g, *b]);
+    let shared = colours.map(shared_exponent);
+    let bytes: Vec<u8> = shared.flat_map(u32::to_le_bytes).collect();
     PackedTexture {
         name,
-        size: [width, height, 1],
+        size,
         format: "rgb9e5ufloat",
         texels: packed_rows(&bytes, 4 * width),
     }
 }
 
-fn texture(name: String, size: [usize; 3], halves: Vec<u8>) -> PackedTexture {
+fn halves(name: String, size: [usize; 3], texels: &[[f32; 4]]) -> PackedTexture {
+    let numbers = texels.iter().flatten();
+    let bytes: Vec<u8> = numbers
+        .flat_map(|x| f16::from_f32(*x).to_le_bytes())
+        .collect();
     PackedTexture {
         name,
         size,
         format: "rgba16float",
-        texels: packed_rows(&halves, 8 * size[0]),
+        texels: packed_rows(&bytes, 8 * size[0]),
     }
-}
-
-fn halves(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
-    let numbers = texels.flatten();
-    numbers
-        .flat_map(|x| f16::from_f32(x).to_le_bytes())
-        .collect()
 }
 
 /// Each byte less the one above it. Rows resemble each other, so this deflates well.
@@ -172,17 +156,6 @@ fn packed_rows(bytes: &[u8], row: usize) -> Packed {
         .map(|i| bytes[i].wrapping_sub(above(i)))
         .collect();
     Packed::new(&less)
-}
-
-/// The sky as the page holds it: three numbers of 9 bits with a shared exponent for each texel.
-pub fn environment() -> Environment {
-    sky_of(SKY_HEIGHT)
-}
-
-/// The same sky after it was stored in a texture.
-pub fn unpacked_environment() -> Environment {
-    let whole = environment();
-    whole.mapped(|texel| from_shared_exponent(shared_exponent(texel)))
 }
 
 /// Bits of a number, and the bias of the exponent: OpenGL ES 3.0, section 3.8.3.2.
@@ -220,7 +193,7 @@ pub struct PackedMesh {
 }
 
 /// Rows of the ball, half as many as in pictures.
-pub const ROWS: usize = 128;
+const ROWS: usize = 128;
 
 impl PackedMesh {
     /// A body.
@@ -241,12 +214,10 @@ impl PackedMesh {
     }
 
     fn new(name: String, triangles: &[[Vertex; 3]]) -> PackedMesh {
-        let vertices = triangles.iter().flatten();
-        let numbers: Vec<f32> = vertices.flat_map(Vertex::numbers).collect();
         PackedMesh {
             name,
             ball: None,
-            vertices: Some(Packed::floats(&numbers)),
+            vertices: Some(Packed::floats(vertex_numbers(triangles).as_flattened())),
         }
     }
 }

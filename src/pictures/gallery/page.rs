@@ -14,10 +14,8 @@ static PLAYER: &str = include_str!("../../../templates/gallery.player.js");
 /// # Errors
 /// The page's template cannot be filled.
 pub fn gallery_page(gallery: &Gallery, command: &str) -> Result<String, String> {
-    let json = serde_json::to_string(gallery).map_err(|why| why.to_string())?;
     let mut context = Context::new();
-    // The JSON may hold `</script>` in a string. A JSON escape keeps that from ending the script.
-    context.insert("data", &json.replace('<', "\\u003c"));
+    context.insert("data", &html::script_json(gallery)?);
     context.insert("player", PLAYER);
     context.insert("script", SCRIPT);
     context.insert("command", command);

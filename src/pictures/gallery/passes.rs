@@ -9,8 +9,9 @@ use super::lower::{GlesProgram, LoweringFault, lowered};
 use super::orbit::Orbit;
 use super::packed::SKY;
 use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming, effect_function_text};
+use crate::lab::gpu::Depth;
 use crate::language::{effects, methods, targets};
-use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
+use crate::pictures::scene::{BACK, DrawnSurface, PHOTONS, PassRow, RenderRow, Slot, TRIANGLES};
 
 /// A pass.
 #[derive(Clone, Debug, Serialize)]
@@ -61,7 +62,7 @@ fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
         mesh: Some(row.body.name().to_owned()),
         count: 0,
         adds: false,
-        depth,
+        depth: depth_test(depth),
         view: 0,
         margin: false,
         side: Some(side),
@@ -79,17 +80,22 @@ fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
         mesh: None,
         count,
         reads: names(&[SKY, of[0], of[1], back[0], back[1]]),
-        ..side("none", PHOTONS, photons)
+        ..side(Depth::Unused, PHOTONS, photons)
     };
     vec![
-        side("nearest", PHOTONS, front),
-        side("farthest", BACK, back),
+        side(Depth::Nearest, PHOTONS, front),
+        side(Depth::Farthest, BACK, back),
         drawn("vs_cover", "fs_photon", 3, front),
         GalleryPass {
             adds: true,
             side: None,
             writes: names(&["Colour"]),
-            ..drawn("vs_triangle", "fs_lit", 6 * (PHOTONS - 1).pow(2), photons)
+            ..drawn(
+                TRIANGLES.vertex,
+                TRIANGLES.fragment,
+                (TRIANGLES.vertices)(PHOTONS),
+                photons,
+            )
         },
     ]
 }
@@ -97,28 +103,30 @@ fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
 fn seen_pass(row: &RenderRow, pass: &PassRow, orbit: &Orbit) -> GalleryPass {
     let reads = pass.reads.iter().map(slot);
     GalleryPass {
-        vertex: match pass.place {
-            Place::Everywhere => "vs_cover",
-            Place::Front | Place::Back | Place::Water => "vs_body",
-        },
+        vertex: pass.surface.vertex(),
         fragment: pass.fragment,
-        mesh: match pass.place {
-            Place::Everywhere => None,
-            Place::Front | Place::Back => Some(row.body.name().to_owned()),
-            Place::Water => Some(format!("{} water", row.body.name())),
+        mesh: match pass.surface {
+            DrawnSurface::Everywhere => None,
+            DrawnSurface::Front | DrawnSurface::Back => Some(row.body.name().to_owned()),
+            DrawnSurface::Water => Some(format!("{} water", row.body.name())),
         },
         count: 3,
         adds: false,
         margin: pass.view.has_margin(),
         side: None,
-        depth: match pass.place {
-            Place::Everywhere | Place::Water => "none",
-            Place::Front => "nearest",
-            Place::Back => "farthest",
-        },
+        depth: depth_test(pass.surface.depth()),
         view: orbit.view(pass.view),
         writes: pass.writes.iter().map(slot).collect(),
         reads: [SKY.to_owned()].into_iter().chain(reads).collect(),
+    }
+}
+
+/// The name of a depth test on the page.
+fn depth_test(depth: Depth) -> &'static str {
+    match depth {
+        Depth::Unused => "none",
+        Depth::Nearest => "nearest",
+        Depth::Farthest => "farthest",
     }
 }
 

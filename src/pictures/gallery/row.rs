@@ -6,17 +6,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
+use super::materials::shown_methods;
 use super::orbit::Orbit;
 use super::passes::{GalleryPass, passes_of};
-use crate::generator::emit::{EmittedFunction, effect_function_text};
+use crate::generator::emit::effect_function_text;
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::Reflectance;
-use crate::language::methods::{self, Class, Light, Method};
+use crate::language::methods::{Class, Method};
 use crate::language::targets;
 use crate::physics::materials::MaterialKind;
-use crate::pictures::scene::{
-    self, BodyName, FRAME, PassRow, Paths, Place, RenderRow, RowText, Slot, View,
-};
+use crate::pictures::scene::{self, FRAME, PassRow, RenderRow, RowText};
 
 /// A row of the gallery.
 #[derive(Clone, Debug, Serialize)]
@@ -83,27 +82,13 @@ pub struct ProgramPair {
     pub fragment: GlesProgram,
 }
 
-/// The exact law for a row's kind of body.
-pub fn exact_method(row: &RenderRow) -> &'static str {
-    if row.is_transparent() {
-        "dielectric_exact"
-    } else {
-        "conductor_exact"
-    }
-}
-
-/// The methods that a row may be drawn by: those for unpolarised light without a table.
+/// The methods that a row may be drawn by.
 pub fn methods_of(row: &RenderRow) -> Vec<&'static Method> {
-    let all = methods::ALL.iter().copied().filter(|method| {
-        method.light == Light::Unpolarised
-            && !method.is_textured()
-            && if row.is_transparent() {
-                method.class != Class::Metal
-            } else {
-                method.class == Class::Any
-            }
-    });
-    all.collect()
+    let describes = |method: &&Method| match row.is_transparent() {
+        true => method.class != Class::Metal,
+        false => method.class == Class::Any,
+    };
+    shown_methods().filter(describes).collect()
 }
 
 impl GalleryRow {
@@ -117,11 +102,31 @@ impl GalleryRow {
         (orbits, images): (&mut Vec<Orbit>, BTreeMap<String, String>),
     ) -> Result<GalleryRow, LoweringFault> {
         let orbit = Orbit::of(row, orbits);
-        let (names, unused) = common_names(row)?;
+        let passes = passes_of(row, &orbits[orbit]);
         let takes = |subject: &&MaterialInMedium| {
             row.is_transparent() == (subject.material.kind == MaterialKind::Dielectric)
         };
-        let passes = passes_of(row, &orbits[orbit]);
+        let materials = subjects.iter().filter(takes);
+        // Each method has its own version of a function that needs R. The usual one stands in the programs only where a pass calls it.
+        let (mut text, mut names, mut functions) = (String::new(), Vec::new(), Vec::new());
+        for function in RowText::usual(row).common_functions()? {
+            text += &effect_function_text(targets::find("wgsl").expect("a target"), &function)?;
+            let part = function.effect.map(|part| part.function.reflectance);
+            let is_called = row.text.contains(&format!("{}(", function.name));
+            if part == Some(Reflectance::Unused) || is_called {
+                functions.push(function.name.clone());
+            }
+            names.push(function.name);
+        }
+        text = text + FRAME + STAND_IN + row.text;
+        let program = |entry: &str| lowered(&text, entry, &names, true);
+        let pair = |pass: &GalleryPass| {
+            Ok(ProgramPair {
+                vertex: program(pass.vertex)?,
+                fragment: program(pass.fragment)?,
+            })
+        };
+        let programs: Result<Vec<ProgramPair>, LoweringFault> = passes.iter().map(pair).collect();
         let calls = methods_of(row)
             .into_iter()
             .map(|method| method_calls(row, method));
@@ -129,25 +134,22 @@ impl GalleryRow {
             name: row.name,
             summary: row.summary,
             wrong: row.wrong,
-            exact: exact_method(row),
+            exact: if row.is_transparent() {
+                "dielectric_exact"
+            } else {
+                "conductor_exact"
+            },
             method: row.method,
             material: row.material,
-            materials: subjects
-                .iter()
-                .filter(takes)
-                .map(|one| one.name.clone())
-                .collect(),
+            materials: materials.map(|one| one.name.clone()).collect(),
             disperses: row.disperses,
-            programs: programs(&passes, &common_text(row)?)?,
+            programs: programs?,
             passes,
             half: row.receiver.map(|[_, half]| half),
             roughness: RowText::usual(row).is_rough().then_some(ROUGHNESS),
             // Gathered light is bright.
             exposure: if row.receiver.is_some() { -2.0 } else { 0.0 },
-            functions: names
-                .into_iter()
-                .filter(|name| !unused.contains(name))
-                .collect(),
+            functions,
             text: row.text,
             calls: calls.collect::<Result<_, _>>()?,
             orbit,
@@ -160,61 +162,6 @@ impl GalleryRow {
         let called = self.calls.iter().flat_map(|calls| &calls.functions);
         called.chain(&self.functions).cloned().collect()
     }
-
-    /// The WGSL module with a method, as the page puts it together.
-    pub fn module(&self, method: &str, texts: &BTreeMap<String, String>) -> Option<String> {
-        let calls = self.calls.iter().find(|calls| calls.method == method)?;
-        let mut names: Vec<&String> = self.functions.iter().collect();
-        names.extend(
-            calls
-                .functions
-                .iter()
-                .filter(|name| !self.functions.contains(name)),
-        );
-        let functions: String = names.iter().map(|name| texts[*name].as_str()).collect();
-        Some(functions + FRAME + &calls.wgsl + self.text)
-    }
-
-    /// The GLSL ES fragment shader of a pass with a method, as the page puts it together.
-    pub fn fragment(
-        &self,
-        pass: usize,
-        method: &str,
-        texts: &BTreeMap<String, String>,
-    ) -> Option<String> {
-        let calls = self.calls.iter().find(|calls| calls.method == method)?;
-        let part = &self.programs[pass].fragment;
-        let mut names: Vec<&String> = part.functions.iter().collect();
-        if part.calls {
-            names.extend(
-                calls
-                    .functions
-                    .iter()
-                    .filter(|name| !part.functions.contains(name)),
-            );
-            // The functions that compute a call's arguments.
-            names.extend(self.functions.iter().filter(|name| {
-                calls.gles.contains(&format!("{name}(")) && !part.functions.contains(name)
-            }));
-        }
-        names.dedup();
-        let functions: String = names.iter().map(|name| texts[*name].as_str()).collect();
-        let called = if part.calls { calls.gles.as_str() } else { "" };
-        Some([&part.before, functions.as_str(), called, &part.after].concat())
-    }
-}
-
-/// The names of the functions of a row's effects, and of those among them that need R and that no pass calls itself. Each method
-/// has its own version of the latter.
-fn common_names(row: &'static RenderRow) -> Result<(Vec<String>, Vec<String>), LoweringFault> {
-    let common = RowText::usual(row).common_functions()?;
-    let asks = |emitted: &&EmittedFunction| {
-        let part = emitted.effect.map(|part| part.function.reflectance);
-        part != Some(Reflectance::Unused) && !row.text.contains(&format!("{}(", emitted.name))
-    };
-    let unused = common.iter().filter(asks).map(|one| one.name.clone());
-    let unused = unused.collect();
-    Ok((common.into_iter().map(|one| one.name).collect(), unused))
 }
 
 /// The initial roughness.
@@ -237,38 +184,6 @@ fn method_calls(
     })
 }
 
-/// The module with a stand-in for the calls, and the names of its functions.
-fn common_text(row: &'static RenderRow) -> Result<(String, Vec<String>), LoweringFault> {
-    let wgsl = targets::find("wgsl").expect("a target");
-    let (mut text, mut names) = (String::new(), Vec::new());
-    for function in RowText::usual(row).common_functions()? {
-        text += &effect_function_text(wgsl, &function)?;
-        names.push(function.name);
-    }
-    Ok((text + FRAME + STAND_IN + row.text, names))
-}
-
-fn programs(
-    passes: &[GalleryPass],
-    (text, names): &(String, Vec<String>),
-) -> Result<Vec<ProgramPair>, LoweringFault> {
-    let pair = |pass: &GalleryPass| {
-        Ok(ProgramPair {
-            vertex: lowered(text, pass.vertex, names, true)?,
-            fragment: lowered(text, pass.fragment, names, true)?,
-        })
-    };
-    passes.iter().map(pair).collect()
-}
-
-const DARK: PassRow = PassRow {
-    fragment: "fs_dark",
-    place: Place::Everywhere,
-    view: View::Eye,
-    writes: &[Slot::Colour],
-    reads: &[],
-};
-
 /// A rough ball under three lamps.
 static ROUGH: RenderRow = RenderRow {
     name: "ggx_specular",
@@ -277,31 +192,18 @@ static ROUGH: RenderRow = RenderRow {
     method: "schlick",
     text: include_str!("ggx_specular.wgsl"),
     passes: &[
-        DARK,
         PassRow {
-            fragment: "fs_front",
-            place: Place::Front,
-            ..DARK
+            fragment: "fs_dark",
+            ..scene::SKY
         },
+        scene::FRONT,
     ],
-    body: BodyName::Ball,
     material: "gold",
-    disperses: true,
-    own_paths: Paths::Mirror,
-    true_paths: Paths::Mirror,
-    eye: [0.0, 0.75, 2.9],
-    in_room: false,
-    dents: None,
-    receiver: None,
     wrong: "light that bounces twice is missing",
+    ..scene::METAL
 };
 
 /// All rows of the gallery.
 pub fn rows() -> Vec<&'static RenderRow> {
     scene::ALL.iter().chain([&ROUGH]).collect()
-}
-
-/// The row of this name.
-pub fn find(name: &str) -> Option<&'static RenderRow> {
-    rows().into_iter().find(|row| row.name == name)
 }

@@ -1,7 +1,7 @@
 //! n and k against wavelength, as measured.
 
 use crate::physics::materials::{DispersionCurve, Extrapolate};
-use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
+use crate::pictures::material_sheet::{DrawnMaterial, axis};
 use crate::pictures::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 
 const N: Look = Look {
@@ -17,7 +17,7 @@ const K: Look = Look {
 };
 /// Dashes of lines that only join points.
 const JOINT: &str = "2 5";
-/// A k below this cannot be told from 0 in a chart with n.
+/// A k below this is not distinguished from 0 in a chart with n.
 const LEAST_K: f64 = 1e-3;
 
 /// n and k of the material itself, whatever surrounds it.
@@ -27,8 +27,8 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
         .rgb_nm
         .map(|rgb| drawn.viewing.wavelengths_nm.unwrap_or(rgb));
     let range = match three {
-        Some(rgb) => Some(swatches::around(rgb)),
-        None => swatches::either(material),
+        Some(rgb) => Some(axis::around(rgb)),
+        None => axis::either(material),
     };
     let curve_series = |name: &str, curve: &DispersionCurve, look: Look| match three {
         Some(rgb) => joined(name, curve, look, rgb, drawn.viewing.beyond),
@@ -41,7 +41,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
     if drawn.medium.is_some() {
         subtitle += " Its own, not divided by the medium's.";
     }
-    let k = k.filter(is_seen);
+    let k = k.filter(|k| highest(k) >= LEAST_K);
     // With k in the chart, the axis of n begins at 0. Alone, n's dispersion is what matters.
     let ground = k.as_ref().map(|_| 0.0);
     let label = if k.is_some() { "n, k" } else { "n" };
@@ -54,7 +54,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Refractive index and extinction".to_owned(),
         subtitle,
-        x: swatches::wavelength_axis(range),
+        x: axis::wavelength_axis(range),
         y,
         series,
         marks: Vec::new(),
@@ -66,11 +66,6 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
 fn highest(series: &Series) -> f64 {
     let values = series.points.iter().map(|point| point.1);
     values.fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// Whether a k can be told from 0.
-fn is_seen(k: &Series) -> bool {
-    highest(k) >= LEAST_K
 }
 
 /// The reason why no k is drawn, where none is.
@@ -88,10 +83,9 @@ fn joined(
     name: &str,
     curve: &DispersionCurve,
     look: Look,
-    rgb: [f64; 3],
+    mut rgb: [f64; 3],
     beyond: Extrapolate,
 ) -> Series {
-    let mut rgb = rgb;
     rgb.sort_by(f64::total_cmp);
     let value = |nm: f64| curve.at(nm, beyond).unwrap_or(f64::NAN);
     Series {
@@ -112,9 +106,9 @@ fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f6
         (_, None) => Vec::new(),
         (DispersionCurve::Table(table), Some(range)) => within(table.points(), range),
         (DispersionCurve::Formula(formula), Some(_)) => {
-            let own = swatches::shown((formula.from_nm, formula.to_nm));
+            let own = axis::shown((formula.from_nm, formula.to_nm));
             let at = |nm: f64| (nm, formula.n(nm).unwrap_or(f64::NAN));
-            let samples = own.map_or(Vec::new(), swatches::samples);
+            let samples = own.map_or(Vec::new(), axis::samples);
             samples.into_iter().map(at).collect()
         }
     };
@@ -151,10 +145,11 @@ fn origin(
         DispersionCurve::Formula(formula) => format!("n by dispersion formula {}.", formula.number),
         DispersionCurve::Table(_) => {
             let inside = |point: &&(f64, f64)| (from..=to).contains(&point.0);
-            let count = n.points.iter().filter(inside).count();
-            match count {
+            match n.points.iter().filter(inside).count() {
                 1 => "One measured point in this range.".to_owned(),
-                _ => format!("{count} measured points in this range, straight lines between them."),
+                count => {
+                    format!("{count} measured points in this range, straight lines between them.")
+                }
             }
         }
     }

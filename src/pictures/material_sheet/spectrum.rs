@@ -3,13 +3,11 @@
 use glam::DVec3;
 
 use crate::physics::materials::{Extrapolate, Index, Material};
-use crate::physics::optics;
-use crate::pictures::material_sheet::{DrawnMaterial, axis, swatches};
+use crate::physics::optics::{self, cosine};
+use crate::pictures::material_sheet::{DrawnMaterial, axis};
 use crate::pictures::plot::{
     BLUE, ChartAxis, GREEN, INK, LineChart, Look, Series, Style, VERMILION,
 };
-
-pub use crate::physics::optics::cosine;
 
 /// Angles in degrees, from near normal incidence to where metals are palest.
 const ANGLES: [(f64, &str, &str); 4] = [
@@ -23,7 +21,7 @@ const ANGLES: [(f64, &str, &str); 4] = [
 pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
     let three = drawn.three_nm();
     let (range, indices) = match three {
-        Some(rgb) => (Some(swatches::around(rgb)), points(drawn)),
+        Some(rgb) => (Some(axis::around(rgb)), points(drawn)),
         None => measured(drawn),
     };
     let alone = three.is_some() || indices.len() == 1;
@@ -47,7 +45,7 @@ pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Reflectance against wavelength".to_owned(),
         subtitle,
-        x: swatches::wavelength_axis(range),
+        x: axis::wavelength_axis(range),
         y: axis::reflectance(&series),
         series: series.to_vec(),
         marks: Vec::new(),
@@ -72,25 +70,22 @@ fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
     let medium = drawn.medium.map(Material::range_nm);
     let (from, to) = drawn.material.range_nm();
     let (low, high) = medium.unwrap_or((from, to));
-    let range = swatches::shown((from.max(low), to.min(high)));
-    let samples = range.map_or(Vec::new(), swatches::samples);
+    let range = axis::shown((from.max(low), to.min(high)));
+    let samples = range.map_or(Vec::new(), axis::samples);
     let index = |nm: f64| {
-        let own = drawn.material.index(nm, Extrapolate::Refuse).ok()?;
-        let Some(medium) = drawn.medium else {
-            return Some((nm, own));
-        };
-        let around = medium.index(nm, Extrapolate::Refuse).ok()?;
-        Some((nm, own.relative_to(around)))
+        let mut index = drawn.material.index(nm, Extrapolate::Refuse).ok()?;
+        if let Some(medium) = drawn.medium {
+            index = index.relative_to(medium.index(nm, Extrapolate::Refuse).ok()?);
+        }
+        Some((nm, index))
     };
     (range, samples.into_iter().filter_map(index).collect())
 }
 
 fn reflectance(indices: &Indices, cos_theta: f64) -> Vec<(f64, f64)> {
     let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
-    indices
-        .iter()
-        .map(|(nm, index)| (*nm, law(index)))
-        .collect()
+    let points = indices.iter().map(|(nm, index)| (*nm, law(index)));
+    points.collect()
 }
 
 /// The number of angles: from 0 to 90 degrees, a quarter of a degree apart.
@@ -115,29 +110,26 @@ const fn look(colour: &'static str, dashes: &'static str, width: f64) -> Look {
 
 /// The reflected share of unpolarised light in each channel, by the exact law.
 pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
-    let degrees: Vec<f64> = (0..POINTS)
-        .map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
-        .collect();
-    let colours: Vec<DVec3> = degrees
-        .iter()
-        .map(|at| drawn.surface.unpolarised(cosine(*at)))
-        .collect();
-    let series = |(channel, (name, look)): (usize, (&str, Look))| Series {
-        name: name.to_owned(),
-        style: Style::Own(look),
-        points: degrees
-            .iter()
-            .zip(&colours)
-            .map(|(at, colour)| (*at, colour[channel]))
-            .collect(),
+    let colour = |i: u32| {
+        let degrees = 90.0 * f64::from(i) / f64::from(POINTS - 1);
+        (degrees, drawn.surface.unpolarised(cosine(degrees)))
     };
-    let series: Vec<Series> = CHANNELS.into_iter().enumerate().map(series).collect();
+    let colours: Vec<(f64, DVec3)> = (0..POINTS).map(colour).collect();
+    let series = [0, 1, 2].map(|channel| {
+        let (name, look) = CHANNELS[channel];
+        let points = colours.iter().map(|(at, colour)| (*at, colour[channel]));
+        Series {
+            name: name.to_owned(),
+            style: Style::Own(look),
+            points: points.collect(),
+        }
+    });
     LineChart {
         title: "Reflectance against angle".to_owned(),
         subtitle: subtitle(&series),
         x: ChartAxis::angle_of_incidence(),
         y: axis::reflectance(&series),
-        series,
+        series: series.to_vec(),
         marks: Vec::new(),
         foot: String::new(),
     }

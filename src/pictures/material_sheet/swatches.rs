@@ -1,15 +1,11 @@
-//! The colour of the reflection at a few angles, as a screen shows it, with its numbers. Also the wavelengths that a material
-//! sheet shows: the measured part of 360 to 830 nm, the range that an eye can see.
+//! The colour of the reflection at a few angles, as a screen shows it, with its numbers.
 
 use glam::DVec3;
 
-use crate::physics::materials::{DispersionCurve, Material};
-use crate::physics::spectra::{OBSERVED_NM, Space, bradford};
+use crate::physics::optics::cosine;
+use crate::physics::spectra::{Space, bradford};
 use crate::pictures::material_sheet::DrawnMaterial;
-use crate::pictures::material_sheet::spectrum::cosine;
-use crate::pictures::plot::{
-    Area, ChartAxis, Font, Layout, PANEL, PanelFrame, SUBTITLE, TICK, hex_colour, ticks,
-};
+use crate::pictures::plot::{Area, Layout, PANEL, PanelFrame, SUBTITLE, TICK, hex_colour};
 
 /// Angles in degrees; metals and glass change most beyond 75.
 const ANGLES: [f64; 7] = [0.0, 30.0, 60.0, 75.0, 82.0, 86.0, 90.0];
@@ -33,17 +29,16 @@ pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: PanelFrame) -> (Layout,
     let to_screen = to_screen(space(drawn));
     let swatches = ANGLES.map(|degrees| {
         let linear = drawn.surface.unpolarised(cosine(degrees));
-        let screen = to_screen(linear);
         Swatch {
             degrees,
             linear,
-            screen,
+            screen: to_screen(linear),
         }
     });
     let mut layout = Layout::new(frame);
     layout.paragraph(&PANEL, "Colour of the reflection, where a mirror is white");
     layout.paragraph(&SUBTITLE, &subtitle(drawn, &swatches));
-    let (elements, bottom) = draw(&swatches, frame, layout.bottom() + 8.0);
+    let (elements, bottom) = draw(&swatches, frame, layout.bottom + 8.0);
     layout.extend(elements, bottom);
     (layout, swatches.iter().map(Swatch::words).collect())
 }
@@ -79,21 +74,14 @@ fn subtitle(drawn: &DrawnMaterial, swatches: &[Swatch]) -> String {
             space.title()
         ),
     };
-    let clipped = swatches.iter().any(|swatch| swatch.clipped().is_some());
-    let clipped = if clipped {
-        " Some colours lie outside sRGB: the swatch is clipped there, as said beneath it."
-    } else {
-        ""
-    };
-    numbers + clipped
+    if swatches.iter().any(|swatch| swatch.clipped().is_some()) {
+        return numbers
+            + " Some colours lie outside sRGB: the swatch is clipped there, as said beneath it.";
+    }
+    numbers
 }
 
 impl Swatch {
-    /// The colour of the swatch, as SVG writes it.
-    fn fill(&self) -> String {
-        hex_colour(self.screen.to_array())
-    }
-
     /// Which channels of the swatch were clipped.
     fn clipped(&self) -> Option<String> {
         let outside = |i: &usize| !(-CLIPPED..=1.0 + CLIPPED).contains(&self.screen[*i]);
@@ -118,7 +106,7 @@ impl Swatch {
 
 /// All swatches in a row from `top` down, and their lower edge.
 fn draw(swatches: &[Swatch], frame: PanelFrame, top: f64) -> (Vec<String>, f64) {
-    let names = f64::ceil(widest(&TICK, &CHANNELS)) + 10.0;
+    let names = TICK.widest(CHANNELS).ceil() + 10.0;
     let left = frame.margin + names;
     let width = (frame.right() - left) / swatches.len() as f64;
     let colours = top + TICK.leading + 4.0;
@@ -135,11 +123,13 @@ fn draw(swatches: &[Swatch], frame: PanelFrame, top: f64) -> (Vec<String>, f64) 
         let middle = start + width / 2.0;
         elements.push(format!(
             "<rect x=\"{start:.2}\" y=\"{colours:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{}\"/>",
-            swatch.fill()
+            hex_colour(swatch.screen.to_array())
         ));
-        let angle = [format!("{}°", swatch.degrees)];
-        elements.extend(TICK.draw(&angle, middle, top, "middle"));
-        elements.extend(TICK.draw(&swatch.below(width), middle, numbers, "middle"));
+        let angle = format!("{}°", swatch.degrees);
+        elements.push(TICK.draw_line(&angle, middle, top, "middle"));
+        let mut below = swatch.numbers().to_vec();
+        below.extend(TICK.wrap(&swatch.clipped().unwrap_or_default(), width - 4.0));
+        elements.extend(TICK.draw(&below, middle, numbers, "middle"));
     }
     let outline = Area {
         left,
@@ -149,84 +139,6 @@ fn draw(swatches: &[Swatch], frame: PanelFrame, top: f64) -> (Vec<String>, f64) 
     };
     elements.push(outline.outline());
     (elements, numbers + LINES_BELOW * TICK.leading)
-}
-
-impl Swatch {
-    /// The lines under a swatch.
-    fn below(&self, width: f64) -> Vec<String> {
-        let clipped = self.clipped().unwrap_or_default();
-        let mut lines = self.numbers().to_vec();
-        lines.extend(TICK.wrap(&clipped, width - 4.0));
-        lines
-    }
-}
-
-fn widest(font: &Font, names: &[&str]) -> f64 {
-    names
-        .iter()
-        .map(|name| font.width(name))
-        .fold(0.0, f64::max)
-}
-
-/// The margin beside points that stand alone.
-const BESIDE_NM: f64 = 20.0;
-
-/// The part of a range that is shown, if any.
-pub fn shown((from, to): (f64, f64)) -> Option<(f64, f64)> {
-    let inside = (from.max(OBSERVED_NM.0), to.min(OBSERVED_NM.1));
-    (inside.0 <= inside.1).then_some(inside)
-}
-
-/// The shown part of the range where n or k is known.
-pub fn either(material: &Material) -> Option<(f64, f64)> {
-    let n = shown(material.n.range_nm());
-    let k = material
-        .k
-        .as_ref()
-        .map(DispersionCurve::range_nm)
-        .and_then(shown);
-    match (n, k) {
-        (Some(n), Some(k)) => Some((n.0.min(k.0), n.1.max(k.1))),
-        (one, other) => one.or(other),
-    }
-}
-
-/// A range from below the least to above the greatest of three wavelengths.
-pub fn around(rgb: [f64; 3]) -> (f64, f64) {
-    let [least, greatest] = [f64::min, f64::max].map(|end| rgb.into_iter().fold(rgb[0], end));
-    (least - BESIDE_NM, greatest + BESIDE_NM)
-}
-
-/// The axis of a range, wide enough to look at; the whole visible range where there is none.
-pub fn wavelength_axis(range: Option<(f64, f64)>) -> ChartAxis {
-    let (mut low, mut high) = range.unwrap_or(OBSERVED_NM);
-    if high - low < BESIDE_NM {
-        (low, high) = (low - BESIDE_NM, high + BESIDE_NM);
-    }
-    ChartAxis {
-        label: "wavelength in vacuum (nm)".to_owned(),
-        low,
-        high,
-        ticks: ticks(low, high, 8),
-        unit: "",
-    }
-}
-
-/// The wavelengths at which a curve is drawn: both ends, and each whole nanometre between.
-pub fn samples((from, to): (f64, f64)) -> Vec<f64> {
-    let whole = (from.floor() as i64 + 1..to.ceil() as i64).map(|nm| nm as f64);
-    let mut samples: Vec<f64> = std::iter::once(from).chain(whole).chain([to]).collect();
-    samples.dedup();
-    samples
-}
-
-/// A range in words, without needless digits.
-pub fn words((from, to): (f64, f64)) -> String {
-    let [from, to] = [from, to].map(|nm| (10.0 * nm).round() / 10.0);
-    if from < to {
-        return format!("from {from} to {to} nm");
-    }
-    format!("at {from} nm")
 }
 
 #[cfg(test)]
@@ -250,16 +162,14 @@ mod tests {
             linear: screen.into(),
             screen: screen.into(),
         };
-        let words = |screen| swatch(screen).clipped();
-        assert_eq!(words([1.0, 1.000_4, 0.0]), None);
-        assert_eq!(words([1.04, 0.5, 0.2]), Some("red clipped".to_owned()));
-        assert_eq!(
-            words([1.04, 0.5, -0.2]),
-            Some("red, blue clipped".to_owned())
-        );
-        assert_eq!(
-            swatch([1.04, 0.5, -1e-9]).numbers(),
-            ["1.040", "0.500", "0.000"]
-        );
+        for (screen, words) in [
+            ([1.0, 1.000_4, 0.0], None),
+            ([1.04, 0.5, 0.2], Some("red clipped")),
+            ([1.04, 0.5, -0.2], Some("red, blue clipped")),
+        ] {
+            assert_eq!(swatch(screen).clipped().as_deref(), words);
+        }
+        let numbers = swatch([1.04, 0.5, -1e-9]).numbers();
+        assert_eq!(numbers, ["1.040", "0.500", "0.000"]);
     }
 }

@@ -66,7 +66,7 @@ impl BlurredEnvironment {
 
     /// The mean over all directions.
     pub fn mean(&self) -> [f32; 3] {
-        let [left, right] = [0, 1].map(|at| self.tables[self.tables.len() - 1].texels()[at]);
+        let [left, right] = [0, 1].map(|at| self.tables[self.tables.len() - 1].table.texels()[at]);
         [0, 1, 2].map(|channel| (left[channel] + right[channel]) / 2.0)
     }
 
@@ -74,7 +74,7 @@ impl BlurredEnvironment {
     pub fn radiance(&self, direction: DVec3, roughness: f64) -> DVec3 {
         let alpha = roughness * roughness;
         let rows = std::f64::consts::FRAC_1_SQRT_2 / alpha;
-        let finest = self.tables[0].size()[1] as f64;
+        let finest = self.tables[0].table.size()[1] as f64;
         // A mirror's lobe has no width, so that no finite table would be fine enough.
         if rows >= finest {
             return self.tables[0].radiance(direction);

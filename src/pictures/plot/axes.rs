@@ -1,10 +1,7 @@
-//! What charts are laid out with: two axes around an area with grid, ticks and titles; the legend; scales, linear or in powers of
-//! ten; and the layout, which sets text, panels and elements from the top down.
+//! Two axes around an area, with grid, ticks and titles, and their scales, linear or in powers of ten.
 
-use crate::generator::emit::{MARK, xml_text};
-use crate::pictures::plot::line_chart::Series;
-use crate::pictures::plot::palette::{EDGE, GRID, Style};
-use crate::pictures::plot::text::{AXIS, Font, LEGEND, TICK};
+use crate::pictures::plot::palette::{EDGE, GRID};
+use crate::pictures::plot::text::{AXIS, TICK};
 
 /// The gap between a vertical axis and its tick labels, a little more than for a horizontal one.
 pub const TICK_GAP: f64 = 7.0;
@@ -31,6 +28,15 @@ pub struct Tick {
     pub value: f64,
     /// The text of the label.
     pub label: String,
+}
+
+/// A tick at each of these values.
+pub fn labelled(values: impl IntoIterator<Item = f64>, label: impl Fn(f64) -> String) -> Vec<Tick> {
+    let tick = |value| Tick {
+        value,
+        label: label(value),
+    };
+    values.into_iter().map(tick).collect()
 }
 
 /// An area, and the scales of the values in it.
@@ -116,31 +122,22 @@ impl Axes {
     pub fn right_ticks(&self, ticks: &[Tick]) -> Vec<String> {
         let right = self.area.right;
         let draw = |tick: &Tick| {
-            let y = self.y.at(tick.value);
-            let line = outer_tick(right, y, [TICK_LENGTH, 0.0]);
-            let top = y - TICK.leading / 2.0;
-            let label = TICK.draw(
-                std::slice::from_ref(&tick.label),
-                right + TICK_GAP,
-                top,
-                "start",
-            );
-            [line].into_iter().chain(label).collect::<Vec<_>>()
+            let (y, left) = (self.y.at(tick.value), right + TICK_GAP);
+            let label = TICK.draw_line(&tick.label, left, y - TICK.leading / 2.0, "start");
+            [outer_tick(right, y, [TICK_LENGTH, 0.0]), label]
         };
         ticks.iter().flat_map(draw).collect()
     }
 
     /// The labels of the ticks, below the area and on its left.
     pub fn tick_labels(&self, x: &[Tick], y: &[Tick]) -> Vec<String> {
-        let below = x.iter().flat_map(|tick| {
-            let top = self.area.bottom + TICK_GAP - 2.0;
-            let label = std::slice::from_ref(&tick.label);
-            TICK.draw(label, self.x.at(tick.value), top, "middle")
-        });
-        let beside = y.iter().flat_map(|tick| {
+        let (top, right) = (self.area.bottom + TICK_GAP - 2.0, self.area.left - TICK_GAP);
+        let below = x
+            .iter()
+            .map(|tick| TICK.draw_line(&tick.label, self.x.at(tick.value), top, "middle"));
+        let beside = y.iter().map(|tick| {
             let top = self.y.at(tick.value) - TICK.leading / 2.0;
-            let label = std::slice::from_ref(&tick.label);
-            TICK.draw(label, self.area.left - TICK_GAP, top, "end")
+            TICK.draw_line(&tick.label, right, top, "end")
         });
         below.chain(beside).collect()
     }
@@ -156,42 +153,6 @@ impl Axes {
 
 fn outer_tick(x: f64, y: f64, [right, down]: [f64; 2]) -> String {
     format!("<path stroke=\"{EDGE}\" d=\"M{x:.2} {y:.2}l{right} {down}\"/>")
-}
-
-/// The length of a line sample: two periods of the longest dash pattern.
-const SAMPLE: f64 = 38.0;
-const SAMPLE_GAP: f64 = 8.0;
-const ENTRY_GAP: f64 = 24.0;
-
-impl Layout {
-    /// Sets a line sample and a name for each curve, in as many rows as needed.
-    pub fn legend(&mut self, series: &[Series]) {
-        let (margin, room) = (self.frame().margin, self.frame().room());
-        let (mut left, mut top) = (margin, self.bottom() + 7.0);
-        for one in series {
-            let lines = LEGEND.wrap(&one.name, room - SAMPLE - SAMPLE_GAP);
-            let width = SAMPLE + SAMPLE_GAP + LEGEND.widest(&lines);
-            if left > margin && left + width > margin + room {
-                (left, top) = (margin, self.bottom());
-            }
-            let bottom = self.bottom().max(top + LEGEND.height(&lines));
-            self.extend(legend_entry(one.style, &lines, left, top), bottom);
-            left += width + ENTRY_GAP;
-        }
-    }
-}
-
-fn legend_entry(style: Style, lines: &[String], left: f64, top: f64) -> Vec<String> {
-    let sample = format!(
-        "<path {} d=\"M{left:.2} {:.2}H{:.2}\"/>",
-        style.attributes(),
-        top + LEGEND.leading / 2.0,
-        left + SAMPLE
-    );
-    let mut elements = vec![sample];
-    elements.extend(style.dot(left + SAMPLE / 2.0, top + LEGEND.leading / 2.0));
-    elements.extend(LEGEND.draw(lines, left + SAMPLE + SAMPLE_GAP, top, "start"));
-    elements
 }
 
 /// A map from values to the coordinates between two ends.
@@ -251,164 +212,8 @@ impl Scale {
     }
 }
 
-/// The size of a picture or a panel, and its margins.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PanelFrame {
-    /// The width.
-    pub width: f64,
-    /// The usual height, which is also the least.
-    pub height: f64,
-    /// The margin on the left and right.
-    pub margin: f64,
-    /// The margin above the first line.
-    pub upper: f64,
-    /// The margin beneath the last line, which has its own leading.
-    pub lower: f64,
-}
-
-/// The frame of a chart that stands alone.
-pub const ALONE: PanelFrame = PanelFrame {
-    width: 720.0,
-    height: 440.0,
-    margin: 24.0,
-    upper: 20.0,
-    lower: 18.0,
-};
-
-impl PanelFrame {
-    /// The width inside the margins.
-    pub fn room(&self) -> f64 {
-        self.width - 2.0 * self.margin
-    }
-
-    /// The right edge of the room inside the margins.
-    pub fn right(&self) -> f64 {
-        self.margin + self.room()
-    }
-}
-
-/// The gap between one paragraph and the next.
-const PARAGRAPH_GAP: f64 = 2.0;
-/// The elements set so far, and the position of the next one.
-pub struct Layout {
-    frame: PanelFrame,
-    elements: Vec<String>,
-    bottom: f64,
-}
-
-impl Layout {
-    /// An empty layout.
-    pub fn new(frame: PanelFrame) -> Layout {
-        Layout {
-            frame,
-            elements: Vec::new(),
-            bottom: frame.upper,
-        }
-    }
-
-    /// The size and the margins.
-    pub fn frame(&self) -> PanelFrame {
-        self.frame
-    }
-
-    /// The lower edge of what has been set.
-    pub fn bottom(&self) -> f64 {
-        self.bottom
-    }
-
-    /// Adds elements that reach down to `bottom`.
-    pub fn extend(&mut self, elements: Vec<String>, bottom: f64) {
-        self.elements.extend(elements);
-        self.bottom = bottom;
-    }
-
-    /// Sets text across the layout.
-    pub fn paragraph(&mut self, font: &Font, text: &str) {
-        let lines = font.wrap(text, self.frame.room());
-        let elements = font.draw(&lines, self.frame.margin, self.bottom, "start");
-        let height = paragraph_height(font, text, self.frame.room());
-        self.extend(elements, self.bottom + height);
-    }
-
-    /// Sets other layouts side by side from `left` on, each in its own frame.
-    pub fn side_by_side(&mut self, left: f64, panels: Vec<Layout>) {
-        let (top, mut left) = (self.bottom, left);
-        for panel in panels {
-            let height = panel.height();
-            self.elements
-                .push(format!("<g transform=\"translate({left:.2} {top:.2})\">"));
-            self.elements.extend(panel.elements);
-            self.elements.push("</g>".into());
-            self.bottom = self.bottom.max(top + height);
-            left += panel.frame.width;
-        }
-    }
-
-    /// The height, margins included.
-    fn height(&self) -> f64 {
-        (self.bottom + self.frame.lower).max(self.frame.height)
-    }
-
-    /// The finished SVG document.
-    pub fn document(&self, title: &str, description: &str) -> String {
-        let (width, height) = (self.frame.width, self.height().round());
-        let head = format!(
-            "<!-- {MARK} -->\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"system-ui, sans-serif\">"
-        );
-        // The card is opaque so that the chart reads on a dark page too.
-        let card = format!(
-            "<rect x=\"0.5\" y=\"0.5\" width=\"{}\" height=\"{}\" rx=\"8\" \
-             fill=\"#ffffff\" stroke=\"#d5dae1\"/>",
-            width - 1.0,
-            height - 1.0
-        );
-        let title = format!("<title>{}</title>", xml_text(title));
-        let description = format!("<desc>{}</desc>", xml_text(description));
-        let body = self.elements.join("\n");
-        format!("{head}\n{title}\n{description}\n{card}\n{body}\n</svg>\n")
-    }
-}
-
-/// The height that a paragraph takes; none when it is blank.
-pub fn paragraph_height(font: &Font, text: &str, room: f64) -> f64 {
-    match font.wrap(text, room) {
-        lines if lines.is_empty() => 0.0,
-        lines => font.height(&lines) + PARAGRAPH_GAP,
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::pictures::plot::axes::ALONE;
-
-    fn named(name: &str) -> Series {
-        Series {
-            name: name.into(),
-            style: Style::Exact,
-            points: vec![],
-        }
-    }
-
-    #[test]
-    fn legend_rows_follow_the_length_of_the_names() {
-        let rows = |names: &[&str]| {
-            let mut layout = Layout::new(ALONE);
-            let start = layout.bottom();
-            layout.legend(&names.iter().map(|name| named(name)).collect::<Vec<_>>());
-            ((layout.bottom() - start) / LEGEND.leading).floor()
-        };
-        let (half, long) = ("word ".repeat(12), "word ".repeat(40));
-        assert_eq!(rows(&[]), 0.0);
-        assert_eq!(rows(&["a", "b", "c"]), 1.0);
-        assert_eq!(rows(&[&half, &half, "c"]), 2.0);
-        assert_eq!(rows(&["a", &long, "c"]), 5.0);
-    }
-}
-
-#[cfg(test)]
-mod scale_tests {
     use super::*;
 
     #[test]

@@ -5,15 +5,16 @@
 //! a plot gets whatever height the text leaves over.
 
 mod axes;
+mod layout;
 mod line_chart;
 mod palette;
 mod text;
 mod ticks;
 
-pub(super) use axes::{Area, Axes, Layout, PanelFrame, Scale, Tick};
+pub use axes::{Area, Axes, Scale, Tick, labelled};
+pub use layout::{Layout, PanelFrame};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
 pub use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
 pub use palette::{Look, Style};
-pub(crate) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
-pub use ticks::ticks;
-pub(super) use ticks::{log_ticks, plain_label, power_label};
+pub use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
+pub use ticks::{log_ticks, plain_label, power_label, ticks};

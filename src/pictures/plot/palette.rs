@@ -75,54 +75,53 @@ pub struct Look {
 }
 
 impl Style {
-    /// The attributes of a path in this style.
-    pub fn attributes(self) -> String {
-        match self {
-            Style::Exact => format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"3\""),
-            Style::Approximate(number) => format!(
-                "fill=\"none\" stroke=\"{}\" stroke-dasharray=\"{}\" stroke-width=\"2.2\"",
-                COLOURS[number % COLOURS.len()],
-                DASHES[number % DASHES.len()]
-            ),
-            Style::Own(look) => look.attributes(),
+    fn look(self) -> Look {
+        let (colour, dashes, width) = match self {
+            Style::Exact => (INK, "", 3.0),
+            Style::Approximate(number) => {
+                let dashes = DASHES[number % DASHES.len()];
+                (COLOURS[number % COLOURS.len()], dashes, 2.2)
+            }
+            Style::Own(look) => return look,
+        };
+        Look {
+            colour,
+            dashes,
+            width,
+            dots: false,
         }
     }
 
-    /// A dot of this style, where it has dots.
-    pub fn dot(self, x: f64, y: f64) -> Option<String> {
-        let Style::Own(Look {
-            colour, dots: true, ..
-        }) = self
-        else {
-            return None;
-        };
-        Some(format!(
-            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{DOT}\" fill=\"{colour}\"/>"
-        ))
-    }
-}
-
-impl Look {
-    fn attributes(self) -> String {
-        let (colour, width) = (self.colour, self.width);
-        let dashes = match self.dashes {
+    /// The attributes of a path in this style.
+    pub fn attributes(self) -> String {
+        let look = self.look();
+        let (colour, width) = (look.colour, look.width);
+        let dashes = match look.dashes {
             "" => String::new(),
             dashes => format!(" stroke-dasharray=\"{dashes}\""),
         };
         format!("fill=\"none\" stroke=\"{colour}\"{dashes} stroke-width=\"{width}\"")
     }
+
+    /// A dot of this style, where it has dots.
+    pub fn dot(self, x: f64, y: f64) -> Option<String> {
+        let Look { colour, dots, .. } = self.look();
+        dots.then(|| format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{DOT}\" fill=\"{colour}\"/>"))
+    }
 }
 
 /// A colour in linear sRGB in SVG notation, clipped to the gamut.
 pub fn hex_colour(linear: [f64; 3]) -> String {
-    let [red, green, blue] = linear.map(srgb_byte);
+    hex(linear.map(srgb_byte))
+}
+
+fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// One of [`SHADES`] colours, from dark to bright.
 pub fn shade(step: usize) -> String {
-    let [red, green, blue] = shade_bytes(step as f64 / (SHADES - 1) as f64);
-    format!("#{red:02x}{green:02x}{blue:02x}")
+    hex(shade_bytes(step as f64 / (SHADES - 1) as f64))
 }
 
 /// The colour of a share, 0 dark to 1 bright, in bytes of sRGB.
@@ -130,23 +129,19 @@ pub fn shade_bytes(share: f64) -> [u8; 3] {
     let place = share.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
     let at = (place as usize).min(VIRIDIS.len() - 2);
     let share = place - at as f64;
-    let channel =
-        |i: usize| (VIRIDIS[at][i] + share * (VIRIDIS[at + 1][i] - VIRIDIS[at][i])).round() as u8;
-    [channel(0), channel(1), channel(2)]
+    let (one, other) = (VIRIDIS[at], VIRIDIS[at + 1]);
+    [0, 1, 2].map(|i| (one[i] + share * (other[i] - one[i])).round() as u8)
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     #[test]
     fn approximations_differ_without_colour() {
-        let all: Vec<String> = (0..42)
-            .map(|number| Style::Approximate(number).attributes())
-            .collect();
-        let mut distinct = all.clone();
-        distinct.sort();
-        distinct.dedup();
-        assert_eq!(distinct.len(), all.len());
+        let all = (0..42).map(|number| Style::Approximate(number).attributes());
+        assert_eq!(all.collect::<BTreeSet<String>>().len(), 42);
     }
 }

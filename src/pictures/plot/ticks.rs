@@ -10,8 +10,28 @@ pub fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
     if !(1e-200..1e200).contains(&span) {
         return Vec::new();
     }
-    let step = Step::nearest(span / about.clamp(1, 100) as f64);
-    let mut values = step.multiples(low, high);
+    let raw = span / about.clamp(1, 100) as f64;
+    let exponent = libm::log10(raw).floor() as i32;
+    // The bounds are the geometric means of neighbouring digits.
+    let digit = match raw / libm::exp10(f64::from(exponent)) {
+        lead if lead < 2f64.sqrt() => 1.0,
+        lead if lead < 10f64.sqrt() => 2.0,
+        lead if lead < 50f64.sqrt() => 5.0,
+        _ => 10.0,
+    };
+    let power = libm::exp10(f64::from(exponent.abs()));
+    // One rounding only, so that three steps of 0.1 are 0.3 and nothing else.
+    let times = |count: f64| match exponent {
+        ..0 => count * digit / power,
+        _ => count * digit * power,
+    };
+    let step = times(1.0);
+    // The slack keeps an end that rounding moved just past a multiple.
+    let first = (low / step - 1e-9).ceil();
+    let last = (high / step + 1e-9).floor();
+    let count = (last - first).max(-1.0) as i64;
+    let multiples = (0..=count).map(|index| times(first + index as f64));
+    let mut values: Vec<f64> = multiples.collect();
     // A span of a few rounding errors maps several multiples to one number.
     values.dedup();
     values
@@ -56,48 +76,6 @@ pub(super) fn label(value: f64, decimals: usize, unit: &str) -> String {
 fn is_exact(value: f64, places: usize) -> bool {
     let scaled = value * libm::exp10(places as f64);
     (scaled - scaled.round()).abs() <= 1e-9 * scaled.abs().max(1.0)
-}
-
-/// A step of `digit` times ten to the power `exponent`.
-struct Step {
-    digit: f64,
-    exponent: i32,
-}
-
-impl Step {
-    /// The round step nearest to `raw`, measured as a ratio.
-    fn nearest(raw: f64) -> Step {
-        let exponent = libm::log10(raw).floor() as i32;
-        // The bounds are the geometric means of neighbouring digits.
-        let digit = match raw / libm::exp10(f64::from(exponent)) {
-            lead if lead < 2f64.sqrt() => 1.0,
-            lead if lead < 10f64.sqrt() => 2.0,
-            lead if lead < 50f64.sqrt() => 5.0,
-            _ => 10.0,
-        };
-        Step { digit, exponent }
-    }
-
-    fn multiples(&self, low: f64, high: f64) -> Vec<f64> {
-        let step = self.times(1.0);
-        // The slack keeps an end that rounding moved just past a multiple.
-        let first = (low / step - 1e-9).ceil();
-        let last = (high / step + 1e-9).floor();
-        let count = (last - first).max(-1.0) as i64;
-        (0..=count)
-            .map(|index| self.times(first + index as f64))
-            .collect()
-    }
-
-    /// One rounding only, so that three steps of 0.1 are 0.3 and nothing else.
-    fn times(&self, count: f64) -> f64 {
-        let power = libm::exp10(f64::from(self.exponent.abs()));
-        if self.exponent < 0 {
-            count * self.digit / power
-        } else {
-            count * self.digit * power
-        }
-    }
 }
 
 #[cfg(test)]

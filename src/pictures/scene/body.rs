@@ -46,13 +46,14 @@ pub struct Vertex {
     pub uv: DVec2,
 }
 
-impl Vertex {
-    /// Its numbers: position, normal, tangent with the bitangent's sign, texture coordinates.
-    pub fn numbers(&self) -> [f32; 12] {
-        let (p, n, t, uv) = (self.position, self.normal, self.tangent, self.uv);
+/// The numbers of each vertex: position, normal, tangent with the bitangent's sign, texture coordinates.
+pub fn vertex_numbers(triangles: &[[Vertex; 3]]) -> Vec<[f32; 12]> {
+    let numbers = |vertex: &Vertex| {
+        let (p, n, t, uv) = (vertex.position, vertex.normal, vertex.tangent, vertex.uv);
         let all = [p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uv.x, uv.y];
         all.map(|value| value as f32)
-    }
+    };
+    triangles.iter().flatten().map(numbers).collect()
 }
 
 /// Rows of triangles from pole to pole. There are twice as many columns around.
@@ -100,18 +101,14 @@ impl Body {
             Body::Ball | Body::Gem(_) | Body::Window(_) => Vec::new(),
         }
     }
-}
 
-impl Body {
     /// The tables that belong to it.
     pub fn tables(&self) -> Vec<(Slot, &Texels)> {
         match self {
             Body::Ball | Body::Gem(_) => Vec::new(),
-            Body::Pool(pool) => vec![(Slot::Paint, &pool.paint), (Slot::Relief, &pool.normals)],
-            Body::Window(window) => vec![
-                (Slot::Paint, &window.paint),
-                (Slot::Relief, &window.normals),
-            ],
+            Body::Pool(Pool { paint, normals, .. }) | Body::Window(Window { paint, normals }) => {
+                vec![(Slot::Paint, paint), (Slot::Relief, normals)]
+            }
         }
     }
 }

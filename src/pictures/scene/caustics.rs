@@ -2,11 +2,12 @@
 //!
 //! Light of irradiance 1 falls along -z on the ball of radius 1. The receiver lies below it, square to the light.
 
-use super::body::{Body, Vertex};
+use super::body::{Body, vertex_numbers};
 use super::draw::DrawFault;
 use super::frame::{BACK, LightBlock, PHOTONS};
-use super::glass::Glass;
+use super::material::OpticalMaterial;
 use super::table::find;
+use super::texels::square_means;
 use super::text::RowText;
 use crate::lab::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
 use crate::physics::optics;
@@ -22,16 +23,26 @@ pub struct Window {
     pub pixels: u32,
 }
 
-/// How photons are gathered on the receiver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Gathering {
-    /// Triangles between neighbouring photons.
-    Triangles,
-    /// A smooth spot for each photon.
-    Splats,
-    /// A count in the pixel where each photon lands.
-    Points,
+/// How photons are gathered on the receiver: entry points of the row's text.
+#[derive(Clone, Copy, Debug)]
+pub struct Gathering {
+    /// The vertex entry point.
+    pub vertex: &'static str,
+    /// The fragment entry point.
+    pub fragment: &'static str,
+    /// How many vertices are drawn for this many photons in a row.
+    pub vertices: fn(u32) -> u32,
+    /// The most samples along a side of a pixel.
+    pub finest: u32,
 }
+
+/// Triangles between neighbouring photons.
+pub const TRIANGLES: Gathering = Gathering {
+    vertex: "vs_triangle",
+    fragment: "fs_lit",
+    vertices: |side| 6 * (side - 1).pow(2),
+    finest: 8,
+};
 
 /// The photons that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,21 +53,14 @@ pub struct Photons {
     pub moves: u32,
 }
 
-/// One picture of 256 x 256 photons.
-pub const ONE_PICTURE: Photons = Photons {
-    side: PHOTONS,
-    moves: 1,
-};
-
-/// Four such pictures, two by two.
+/// Four pictures of 256 x 256 photons, two by two.
 pub const FOUR_PICTURES: Photons = Photons {
     side: PHOTONS,
     moves: 2,
 };
 
-/// Triangles are drawn finer than the window: with about this many samples a side, and at most this many times as fine.
+/// The receiver is drawn finer than the window: with about this many samples a side, where the gathering allows as many.
 const FINE: u32 = 1024;
-const FINEST: u32 = 8;
 
 /// The irradiance of each pixel, and the share of the photons on the ball that land.
 ///
@@ -69,36 +73,36 @@ pub fn caustics(
     gathering: Gathering,
     photons: Photons,
 ) -> Result<(Vec<f64>, f64), DrawFault> {
-    let row = find("caustics").expect("a row");
-    let by = RowText::usual(row);
-    let text = by.module();
-    let text = text.map_err(|fault| DrawFault::Text(fault.to_string()))?;
-    let finer = match gathering {
-        Gathering::Triangles => (FINE / window.pixels.max(1)).clamp(1, FINEST),
-        Gathering::Splats | Gathering::Points => 1,
-    };
-    let mut sum = vec![0.0; (window.pixels as usize).pow(2)];
-    let mut hits = 0.0;
-    let moves = photons.moves;
+    let by = RowText::usual(find("caustics").expect("a row"));
+    let text = by.module()?;
+    let material = OpticalMaterial::of_index(n);
+    let inputs = by.inputs_for(&material);
+    let finer = (FINE / window.pixels.max(1)).clamp(1, gathering.finest);
+    let pixel = 2.0 * window.half / f64::from(window.pixels);
+    let Photons { side, moves } = photons;
     let share = 1.0 / f64::from(moves * moves);
     let offscreen = device.offscreen()?;
-    let triangles = Body::Ball.triangles().concat();
-    let vertices: Vec<_> = triangles.iter().map(Vertex::numbers).collect();
-    let mut light = Light {
-        ball: offscreen.mesh(&vertices)?,
-        offscreen,
-        text: &text,
-        side: photons.side,
-        uniforms: Vec::new(),
-    };
+    let ball = offscreen.mesh(&vertex_numbers(&Body::Ball.triangles()))?;
+    let mut sum = vec![0.0; (window.pixels as usize).pow(2)];
+    let mut hits = 0.0;
     for place in 0..moves * moves {
-        let part = |i: u32| {
-            ((f64::from(i) + 0.5) / f64::from(moves) - 0.5) * 2.0 / f64::from(photons.side)
+        let part = |i: u32| ((f64::from(i) + 0.5) / f64::from(moves) - 0.5) * 2.0 / f64::from(side);
+        let light = LightBlock {
+            window: [window.below, window.half],
+            widths: [pixel / f64::from(finer), pixel],
+            photons: side,
+            shift: [part(place % moves), part(place / moves)],
         };
-        let shift = [part(place % moves), part(place / moves)];
-        light.uniforms = uniforms(n, window, &by, finer, (photons.side, shift));
-        let (map, landed) = light.gathered(window, gathering, finer)?;
-        for (sum, one) in sum.iter_mut().zip(map) {
+        let block = light.numbers(&material, inputs);
+        let uniforms: Vec<u8> = block.into_iter().flat_map(f32::to_ne_bytes).collect();
+        let light = Light {
+            offscreen: &offscreen,
+            ball: &ball,
+            text: &text,
+            uniforms: &uniforms,
+        };
+        let (map, landed) = light.gathered(side, window.pixels * finer, gathering)?;
+        for (sum, one) in sum.iter_mut().zip(square_means(&map, finer as usize)) {
             *sum += share * one;
         }
         hits += share * landed;
@@ -106,121 +110,73 @@ pub fn caustics(
     Ok((sum, hits))
 }
 
+/// What the draws of a picture have in common.
 struct Light<'a> {
-    offscreen: Offscreen,
-    ball: Mesh,
+    offscreen: &'a Offscreen,
+    ball: &'a Mesh,
     text: &'a str,
-    /// Photons in a row.
-    side: u32,
-    uniforms: Vec<u8>,
+    uniforms: &'a [u8],
 }
 
 impl Light<'_> {
-    /// The irradiance of each pixel, and the share of the photons on the ball that land.
+    /// The irradiance at this many samples a side of the receiver, and the share of the photons on the ball that land.
     fn gathered(
         &self,
-        window: &Window,
+        photons: u32,
+        samples: u32,
         gathering: Gathering,
-        finer: u32,
     ) -> Result<(Vec<f64>, f64), DrawFault> {
-        let front = self.side(self.side, Depth::Nearest)?;
-        let back = self.side(BACK, Depth::Farthest)?;
+        let target = |side: u32| self.offscreen.target(side, side);
+        let pair = |side: u32| Ok::<_, DrawFault>([target(side)?, target(side)?]);
+        let (front, back) = (pair(photons)?, pair(BACK)?);
+        // Positions and normals of the side of the ball that is nearest to the light, and of the one that is farthest from it.
+        for (side, depth) in [(&front, Depth::Nearest), (&back, Depth::Farthest)] {
+            self.offscreen.draw(&Draw {
+                mesh: Ok(self.ball),
+                targets: &[&side[0], &side[1]],
+                depth,
+                ..self.pass("vs_body", "fs_side")
+            })?;
+        }
         let nothing = self.offscreen.upload([1, 1, 1], &[[0.0; 4]])?;
-        let photons = self.pair(self.side)?;
-        let reads = [&nothing, &front[0], &front[1], &back[0], &back[1]];
-        let all = ("vs_cover", "fs_photon", 3);
-        self.draw(all, &reads, &[&photons[0], &photons[1]], false)?;
-        let (vertex, fragment, count) = match gathering {
-            Gathering::Triangles => ("vs_triangle", "fs_lit", (self.side - 1).pow(2)),
-            Gathering::Splats => ("vs_splat", "fs_splat", self.side.pow(2)),
-            Gathering::Points => ("vs_point", "fs_lit", self.side.pow(2)),
-        };
-        let side = window.pixels * finer;
-        let map = self.offscreen.target(side, side)?;
-        let reads = [&nothing, &photons[0], &photons[1], &back[0], &back[1]];
-        self.draw((vertex, fragment, 6 * count), &reads, &[&map], true)?;
-        let read = |image: &Image| self.offscreen.read(image);
-        let (entered, landed) = (read(&front[0])?, read(&photons[0])?);
-        let count = |of: &[[f32; 4]]| of.iter().filter(|texel| texel[3] > 0.0).count() as f64;
-        let hits = count(&landed) / count(&entered).max(1.0);
-        Ok((means(&read(&map)?, side as usize, finer as usize), hits))
-    }
-
-    fn pair(&self, side: u32) -> Result<[Image; 2], DrawFault> {
-        let target = || self.offscreen.target(side, side);
-        Ok([target()?, target()?])
-    }
-
-    /// Positions and normals of the side of the ball that is nearest to the light, or farthest from it.
-    fn side(&self, side: u32, depth: Depth) -> Result<[Image; 2], DrawFault> {
-        let targets = self.pair(side)?;
+        let landed = pair(photons)?;
         self.offscreen.draw(&Draw {
-            text: self.text,
-            vertex: "vs_body",
-            fragment: "fs_side",
-            uniforms: &self.uniforms,
-            images: &[],
-            mesh: Ok(&self.ball),
-            targets: &[&targets[0], &targets[1]],
-            clears: true,
-            depth,
-            adds: false,
+            images: &[&nothing, &front[0], &front[1], &back[0], &back[1]],
+            targets: &[&landed[0], &landed[1]],
+            ..self.pass("vs_cover", "fs_photon")
         })?;
-        Ok(targets)
+        let map = target(samples)?;
+        self.offscreen.draw(&Draw {
+            images: &[&nothing, &landed[0], &landed[1], &back[0], &back[1]],
+            mesh: Err((gathering.vertices)(photons)),
+            targets: &[&map],
+            adds: true,
+            ..self.pass(gathering.vertex, gathering.fragment)
+        })?;
+        let count = |image: &Image| -> Result<f64, DrawFault> {
+            let texels = self.offscreen.read(image)?;
+            Ok(texels.iter().filter(|texel| texel[3] > 0.0).count() as f64)
+        };
+        let hits = count(&landed[0])? / count(&front[0])?.max(1.0);
+        let map = self.offscreen.read(&map)?;
+        Ok((map.iter().map(|sample| sample[0].into()).collect(), hits))
     }
 
-    fn draw(
-        &self,
-        (vertex, fragment, vertices): (&str, &str, u32),
-        images: &[&Image],
-        targets: &[&Image],
-        adds: bool,
-    ) -> Result<(), DrawFault> {
-        self.offscreen.draw(&Draw {
+    /// A pass over all pixels.
+    fn pass<'a>(&'a self, vertex: &'a str, fragment: &'a str) -> Draw<'a> {
+        Draw {
             text: self.text,
             vertex,
             fragment,
-            uniforms: &self.uniforms,
-            images,
-            mesh: Err(vertices),
-            targets,
+            uniforms: self.uniforms,
+            images: &[],
+            mesh: Err(3),
+            targets: &[],
             clears: true,
             depth: Depth::Unused,
-            adds,
-        })?;
-        Ok(())
+            adds: false,
+        }
     }
-}
-
-/// The bytes of the uniform block.
-fn uniforms(
-    n: f64,
-    window: &Window,
-    by: &RowText,
-    finer: u32,
-    (photons, shift): (u32, [f64; 2]),
-) -> Vec<u8> {
-    let glass = Glass::of_index(n);
-    let pixel = 2.0 * window.half / f64::from(window.pixels);
-    let light = LightBlock {
-        window: [window.below, window.half],
-        widths: [pixel / f64::from(finer), pixel],
-        photons,
-        shift,
-    };
-    let block = light.numbers(&glass, by.inputs_for(&glass));
-    block.into_iter().flat_map(f32::to_ne_bytes).collect()
-}
-
-/// The mean of each pixel's samples.
-fn means(samples: &[[f32; 4]], side: usize, finer: usize) -> Vec<f64> {
-    let pixels = side / finer;
-    let pixel = |i: usize| {
-        let (x, y) = (i % pixels * finer, i / pixels * finer);
-        let rows = (y..y + finer).flat_map(|y| &samples[y * side + x..][..finer]);
-        rows.map(|sample| f64::from(sample[0])).sum::<f64>() / (finer * finer) as f64
-    };
-    (0..pixels * pixels).map(pixel).collect()
 }
 
 /// The rings of the ball's disc, and the samples on an eighth of each. Where rings land far apart, they are split so that at

@@ -4,20 +4,19 @@
 //! Longitude lies along the rows, with -z in the middle and +x to the right of it. Latitude lies along the columns, with +y on
 //! top.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3, DVec4};
 use half::f16;
 
 use super::light_file::LightFile;
+use super::texels::Texels;
 use crate::physics::foreign::Foreign;
 use crate::physics::spectra::Space;
 
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    width: usize,
-    height: usize,
-    /// Rounded to binary16, as the device holds them.
-    texels: Vec<[f32; 3]>,
+    /// The radiance in three channels; the fourth is 1.
+    pub table: Texels,
 }
 
 /// Why a picture is no environment.
@@ -41,27 +40,17 @@ impl Environment {
     pub fn baked(height: usize, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Environment {
         let width = 2 * height;
         // Four samples a texel, so that edges are as smooth as the table is fine.
-        let at = |row: usize, column: usize, (down, right): (f64, f64)| {
-            let v = (row as f64 + down) / height as f64;
-            radiance(direction((column as f64 + right) / width as f64, v))
-        };
         let places = [(0.25, 0.25), (0.25, 0.75), (0.75, 0.25), (0.75, 0.75)];
-        let row = |row: usize| -> Vec<[f32; 3]> {
-            let mean = |column| {
-                places
-                    .map(|place| at(row, column, place))
-                    .iter()
-                    .sum::<DVec3>()
+        let texel = |column: usize, row: usize| {
+            let sample = |(down, right)| {
+                let v = (row as f64 + down) / height as f64;
+                radiance(direction((column as f64 + right) / width as f64, v))
             };
-            let texel = |column| rounded((mean(column) / 4.0).to_array());
-            (0..width).map(texel).collect()
+            let sum: DVec3 = places.map(sample).iter().sum();
+            (sum / 4.0).extend(1.0)
         };
-        let rows = crate::physics::num::in_parallel(height, &row, &mut |_, _| {});
-        Environment {
-            width,
-            height,
-            texels: rows.concat(),
-        }
+        let table = Texels::baked([width, height], texel);
+        Environment { table }
     }
 
     /// An environment from the bytes of a picture. Radiance HDR and OpenEXR are linear; PNG and JPEG are sRGB unless they state
@@ -83,75 +72,46 @@ impl Environment {
             return Err(EnvironmentFault::Shape(width, height));
         }
         let greatest = DVec3::splat(f64::from(f16::MAX));
-        let texel = |pixel: &image::Rgb<f32>| {
-            let light = file.light(pixel.0).max(DVec3::ZERO).min(greatest);
-            rounded(light.to_array())
+        let texel = |column: usize, row: usize| {
+            let light = file.light(file.picture.get_pixel(column as u32, row as u32).0);
+            light.max(DVec3::ZERO).min(greatest).extend(1.0)
         };
-        Ok(Environment {
-            width,
-            height,
-            texels: file.picture.pixels().map(texel).collect(),
-        })
+        let table = Texels::baked([width, height], texel);
+        Ok(Environment { table })
     }
 
     /// The same with half as many rows. Each texel is the mean of those that it covers, by solid angle. `None` below two rows.
     pub fn halved(&self) -> Option<Environment> {
-        if self.height < 2 {
+        let [columns, rows] = self.table.size();
+        if rows < 2 {
             return None;
         }
-        let height = self.height / 2;
+        let height = rows / 2;
         let width = 2 * height;
         let solid_angle =
-            |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / self.height as f64);
+            |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / rows as f64);
         // With an odd number of rows, two texels share one.
         let covered = |at: usize, all: usize, parts: usize| {
             at * all / parts..((at + 1) * all).div_ceil(parts)
         };
-        let texel = |row: usize, column: usize| {
-            let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
-            for y in covered(row, self.height, height) {
-                for x in covered(column, self.width, width) {
-                    let texel = self.texels[y * self.width + x].map(f64::from);
-                    sum += solid_angle(y) * DVec3::from_array(texel);
+        let texel = |column: usize, row: usize| {
+            let (mut sum, mut whole) = (DVec4::ZERO, 0.0);
+            for y in covered(row, rows, height) {
+                for x in covered(column, columns, width) {
+                    sum += solid_angle(y) * self.table.texel(x, y);
                     whole += solid_angle(y);
                 }
             }
-            rounded((sum / whole).to_array())
+            sum / whole
         };
-        let places = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
-        Some(Environment {
-            width,
-            height,
-            texels: places.map(|(row, column)| texel(row, column)).collect(),
-        })
+        let table = Texels::baked([width, height], texel);
+        Some(Environment { table })
     }
 
     /// The same as an 8-bit picture holds it: nothing is brighter than white.
     pub fn clamped(&self) -> Environment {
-        let texels = self.texels.iter();
-        Environment {
-            texels: texels.map(|texel| texel.map(|x| x.min(1.0))).collect(),
-            ..*self
-        }
-    }
-
-    /// The same with every texel changed.
-    pub fn mapped(&self, change: impl Fn([f32; 3]) -> [f32; 3]) -> Environment {
-        let texels = self.texels.iter();
-        Environment {
-            texels: texels.map(|texel| change(*texel)).collect(),
-            ..*self
-        }
-    }
-
-    /// Its width and height.
-    pub fn size(&self) -> [usize; 2] {
-        [self.width, self.height]
-    }
-
-    /// Its texels, row after row.
-    pub fn texels(&self) -> &[[f32; 3]] {
-        &self.texels
+        let table = self.table.mapped(|texel| texel.map(|x| x.min(1.0)));
+        Environment { table }
     }
 
     /// The radiance from a direction of any length, linear between texels.
@@ -159,16 +119,7 @@ impl Environment {
         let direction = direction.normalize_or_zero();
         let u = libm::atan2(direction.x, -direction.z) / std::f64::consts::TAU + 0.5;
         let v = libm::acos(direction.y.clamp(-1.0, 1.0)) / std::f64::consts::PI;
-        let (x, y) = (u * self.width as f64 - 0.5, v * self.height as f64 - 0.5);
-        let (left, top) = (x.floor(), y.floor());
-        let column = |x: f64| (x as i64).rem_euclid(self.width as i64) as usize;
-        let row = |y: f64| y.clamp(0.0, self.height as f64 - 1.0) as usize;
-        let texel = |x: f64, y: f64| {
-            let [r, g, b] = self.texels[row(y) * self.width + column(x)];
-            DVec3::new(r.into(), g.into(), b.into())
-        };
-        let along = |y: f64| texel(left, y).lerp(texel(left + 1.0, y), x - left);
-        along(top).lerp(along(top + 1.0), y - top)
+        self.table.at_around(DVec2::new(u, v)).truncate()
     }
 }
 
@@ -177,10 +128,6 @@ fn direction(u: f64, v: f64) -> DVec3 {
     let (sin_u, cos_u) = libm::sincos(std::f64::consts::TAU * (u - 0.5));
     let (sin_v, cos_v) = libm::sincos(std::f64::consts::PI * v);
     DVec3::new(sin_u * sin_v, cos_v, -cos_u * sin_v)
-}
-
-fn rounded(texel: [f64; 3]) -> [f32; 3] {
-    texel.map(|value| f16::from_f64(value).to_f32())
 }
 
 /// The sky's texels from pole to pole.
@@ -267,23 +214,20 @@ mod tests {
     fn a_halved_table_keeps_the_mean_over_all_directions() {
         let mut table = Environment::baked(37, |direction| direction + DVec3::ONE);
         while let Some(next) = table.halved() {
-            let rows = table.height as f64;
-            let solid_angle =
-                |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / rows);
-            let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
-            for (at, texel) in table.texels.iter().enumerate() {
-                let weight = solid_angle(at / table.width);
-                sum += weight * DVec3::from_array(texel.map(f64::from));
-                whole += weight;
+            let [columns, rows] = table.table.size();
+            let (mut sum, mut whole) = (DVec4::ZERO, 0.0);
+            for row in 0..rows {
+                let weight = libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / rows as f64);
+                for column in 0..columns {
+                    sum += weight * table.table.texel(column, row);
+                    whole += weight;
+                }
             }
-            let mean = sum / whole;
-            assert!(
-                (mean - DVec3::ONE).abs().max_element() < 0.02,
-                "{rows} {mean}"
-            );
+            let off = (sum / whole - DVec4::ONE).abs().max_element();
+            assert!(off < 0.02, "{rows} {off}");
             table = next;
         }
-        assert_eq!(table.size(), [2, 1]);
+        assert_eq!(table.table.size(), [2, 1]);
     }
 
     #[test]

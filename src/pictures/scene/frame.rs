@@ -3,7 +3,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::glass::Glass;
+use super::material::OpticalMaterial;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN};
 use super::table::View;
 use super::text::INPUTS;
@@ -20,7 +20,7 @@ pub const INPUTS_AT: usize = 92;
 pub fn frame(
     (view, eye, side): (View, &Camera, u32),
     size: f64,
-    glass: &Glass,
+    material: &OpticalMaterial,
     inputs: [[f32; 4]; INPUTS],
 ) -> Vec<f32> {
     let camera = view.camera(eye, side);
@@ -30,15 +30,15 @@ pub fn frame(
     numbers.extend(matrix(camera.view_projection));
     numbers.extend(matrix(camera.inverse));
     numbers.extend(four(camera.eye, size));
-    numbers.extend(four(glass.n, 0.0));
-    numbers.extend(four(glass.k, 0.0));
+    numbers.extend(four(material.n, 0.0));
+    numbers.extend(four(material.k, 0.0));
     for corner in [ROOM_MIN, ROOM_MAX, CUBE_CENTRE] {
         numbers.extend(four(corner, 0.0));
     }
     for view in [View::Margin, View::Mirrored] {
         numbers.extend(matrix(view.camera(eye, side).view_projection));
     }
-    numbers.extend(four(glass.absorption(), 0.0));
+    numbers.extend(four(material.absorption(), 0.0));
     numbers.extend(inputs.concat());
     numbers
 }
@@ -65,7 +65,7 @@ pub struct LightBlock {
 
 impl LightBlock {
     /// The numbers of the block. The light's camera sees [-1, 1]^2 from +z, shifted a little.
-    pub fn numbers(&self, glass: &Glass, inputs: [[f32; 4]; INPUTS]) -> Vec<f32> {
+    pub fn numbers(&self, material: &OpticalMaterial, inputs: [[f32; 4]; INPUTS]) -> Vec<f32> {
         let [x, y] = self.shift;
         let view_projection = DMat4::from_cols(
             DVec4::X,
@@ -79,7 +79,7 @@ impl LightBlock {
             view_projection,
             inverse: view_projection.inverse(),
         };
-        let mut block = frame((View::Eye, &camera, self.photons), 1.0, glass, inputs);
+        let mut block = frame((View::Eye, &camera, self.photons), 1.0, material, inputs);
         let widths = self.widths.map(|width| width as f32);
         block[PIXEL_AT..PIXEL_AT + 2].copy_from_slice(&widths);
         block
@@ -228,22 +228,22 @@ mod tests {
     #[test]
     fn numbers_stand_where_their_places_say() {
         let camera = Camera::around(DVec3::new(1.0, 2.0, 3.0), 1.0);
-        let mut glass = Glass::of_index(1.5);
-        glass.k = DVec3::splat(0.25);
-        let block = frame((View::Eye, &camera, 100), 1.0, &glass, [[7.0; 4]; INPUTS]);
+        let mut material = OpticalMaterial::of_index(1.5);
+        material.k = DVec3::splat(0.25);
+        let block = frame(
+            (View::Eye, &camera, 100),
+            1.0,
+            &material,
+            [[7.0; 4]; INPUTS],
+        );
         assert_eq!(
             block[INDEX_AT..INDEX_AT + 8],
             [1.5, 1.5, 1.5, 0.0, 0.25, 0.25, 0.25, 0.0]
         );
-        let absorption = glass.absorption().to_array().map(|value| value as f32);
+        let absorption = material.absorption().to_array().map(|value| value as f32);
         assert_eq!(block[ABSORPTION_AT..ABSORPTION_AT + 3], absorption);
         assert_eq!(block[INPUTS_AT..], [7.0; 4 * INPUTS]);
     }
-}
-
-#[cfg(test)]
-mod camera_tests {
-    use super::*;
 
     #[test]
     fn what_lies_below_the_plane_is_clipped() {

@@ -6,9 +6,9 @@ mod caustics;
 mod draw;
 mod environment;
 mod frame;
-mod glass;
 mod icc;
 mod light_file;
+mod material;
 mod picture;
 mod pool;
 mod room;
@@ -18,26 +18,27 @@ mod text;
 mod trace;
 mod window;
 
-pub use body::{Body, Crossing, Vertex};
+pub use body::{Body, Vertex, vertex_numbers};
 pub use caustics::{
-    FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
+    Gathering, Photons, TRIANGLES, Window, caustic_error, caustics, exact_caustics,
 };
-pub use draw::{DrawFault, Drawn, Scenery, draw};
-pub use environment::{Environment, EnvironmentFault, sky, sky_of};
+pub use draw::{Scenery, draw};
+pub use environment::{Environment, sky, sky_of};
 pub use frame::{
     ABSORPTION_AT, BACK, Camera, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
-pub use glass::{Glass, Ray};
 pub use light_file::is_deep;
+pub use material::OpticalMaterial;
 pub use picture::{
-    Comparison, Difference, Display, Order, Picture, RenderedRow, TONE_CURVES, ToneCurve, compare,
-    render,
+    Difference, Display, Picture, PictureRequest, RenderedRow, TONE_CURVES, ToneCurve, render,
 };
-pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
-pub use table::{ALL, BodyName, PassRow, Place, RenderRow, Slot, View, find};
+pub use room::{ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
+pub use table::{
+    ALL, BodyName, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, Slot, View, find,
+};
 pub use texels::Texels;
 pub use text::{FRAME, INPUTS, RowText};
-pub use trace::{Around, Paths, Things, Traced, trace};
+pub use trace::{Around, Paths, Things, trace};
 
 /// Samples of a pixel along each side, in the drawn picture and in its truth.
 pub const SAMPLES: u32 = 2;

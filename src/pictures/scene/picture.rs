@@ -1,29 +1,32 @@
 //! Pictures of a row beside their truth: drawing and tracing both, the differences as the eye sees them, and the facts for the
 //! report. Also the way from radiance to the screen: exposure, and a tone curve that keeps bright things apart.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use serde::Serialize;
 
 use super::SAMPLES;
-use super::caustics::{FOUR_PICTURES, Gathering, Window, caustic_error, caustics, exact_caustics};
-use super::draw::{DrawFault, Drawn, Scenery, draw};
+use super::caustics::{FOUR_PICTURES, TRIANGLES, Window, caustic_error, caustics, exact_caustics};
+use super::draw::{DrawFault, Scenery, draw};
 use super::environment::Environment;
 use super::frame::Camera;
-use super::glass::Glass;
+use super::material::OpticalMaterial;
 use super::room::Relief;
 use super::table::RenderRow;
+use super::texels::square_means;
 use super::text::RowText;
 use super::trace::{Around, Things, Traced, trace};
 use crate::lab::gpu::Device;
 use crate::physics::spectra::{Lab, Space, ciede2000};
 
-/// The order for a picture.
+/// What is asked of a picture.
 #[derive(Clone, Copy, Debug)]
-pub struct Order<'a> {
+pub struct PictureRequest<'a> {
     /// The effect.
     pub row: &'static RenderRow,
     /// The body's material.
-    pub glass: &'a Glass,
+    pub material: &'a OpticalMaterial,
+    /// The material's name.
+    pub material_name: &'a str,
     /// The surroundings.
     pub environment: &'a Environment,
     /// Whether the effect is drawn with the environment clamped to white, as in an 8-bit picture.
@@ -102,105 +105,90 @@ const METRIC: &str = "CIEDE2000 over the pixels that show the body";
 /// The device does not draw it.
 pub fn render(
     device: &Device,
-    order: &Order,
-    material: &str,
+    request: &PictureRequest,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Picture, DrawFault> {
-    let row = order.row;
-    if let Some([below, half]) = row.receiver {
-        progress(0, 1, "drawing");
-        return received(device, order, material, (below, half));
+    let row = request.row;
+    progress(0, 1, "drawing");
+    if let Some(receiver) = row.receiver {
+        return received(device, request, receiver);
     }
     let body = row.body.body();
     let relief = row.dents.map(Relief::hammered);
-    let flat = order.glass.at_one_index();
+    let flat = request.material.at_one_index();
     let things = Things {
         body: &body,
-        glass: if row.disperses { order.glass } else { &flat },
+        material: if row.disperses {
+            request.material
+        } else {
+            &flat
+        },
         around: if row.in_room {
             Around::Room
         } else {
-            Around::Far(order.environment)
+            Around::Far(request.environment)
         },
         relief: relief.as_ref(),
     };
     let camera = Camera::around(DVec3::from_array(row.eye), body.radius());
-    let side = order.size * SAMPLES;
-    progress(0, 1, "drawing");
-    let clamped = order.is_ldr.then(|| order.environment.clamped());
-    let environment = clamped.as_ref().unwrap_or(order.environment);
+    let side = request.size * SAMPLES;
+    let clamped = request.is_ldr.then(|| request.environment.clamped());
+    let environment = clamped.as_ref().unwrap_or(request.environment);
     let text = RowText::usual(row);
-    let by = (&text, text.inputs_for(things.glass));
-    let drawn = draw(device, by, &Scenery::of(things, environment), &camera, side)?;
+    let by = (&text, text.inputs_for(things.material));
+    let samples = draw(device, by, &Scenery::of(things, environment), &camera, side)?;
     let mut hear = |done, whole| progress(done, whole, "tracing rays");
     let paths = [row.true_paths, row.own_paths];
-    let truth = trace(things, &camera, side as usize, paths, &mut hear);
-    let pixels = |samples: Vec<DVec3>| averaged(&samples, side as usize);
-    let colour = |of: fn(&Traced) -> DVec3| pixels(truth.iter().map(of).collect());
-    let (true_colours, own_colours) = (colour(|one| one.colour), colour(|one| one.own));
-    let shown = pixels(drawn.samples.iter().map(radiance).collect());
-    let is_body = |one: &Traced| DVec3::splat(f64::from(u8::from(one.is_body)));
-    let shares_of_body = pixels(truth.iter().map(is_body).collect());
-    let counts: Vec<bool> = shares_of_body.iter().map(|share| share.x > 0.0).collect();
-    let against = |other: &[DVec3]| compare(&shown, other, &counts, &order.display);
-    let Comparison { map, difference } = against(&true_colours);
+    let traced = trace(things, &camera, side as usize, paths, &mut hear);
+    let pixels = |samples: Vec<DVec3>| square_means(&samples, SAMPLES as usize);
+    let colour = |of: fn(&Traced) -> DVec3| pixels(traced.iter().map(of).collect());
+    let (truth, own) = (colour(|one| one.colour), colour(|one| one.own));
+    let radiance = |sample: &[f32; 4]| DVec4::from_array(sample.map(f64::from)).truncate();
+    let drawn = pixels(samples.iter().map(radiance).collect());
+    let is_body: Vec<f64> = traced
+        .iter()
+        .map(|one| f64::from(u8::from(one.is_body)))
+        .collect();
+    let shares_of_body = square_means(&is_body, SAMPLES as usize);
+    let counts: Vec<bool> = shares_of_body.iter().map(|share| *share > 0.0).collect();
+    let (map, error) = compare(&drawn, &truth, &counts, &request.display);
+    let (_, own_error) = compare(&drawn, &own, &counts, &request.display);
     Ok(Picture {
-        row: RenderedRow {
-            n: order.glass.n.y,
-            material: material.to_owned(),
-            size: order.size,
-            error: difference,
-            own_error: against(&own_colours).difference,
-            ..shares(row, &drawn, &truth)
-        },
-        truth: true_colours,
-        drawn: shown,
+        row: rendered_row(request, [error, own_error], &samples, &traced),
+        drawn,
+        truth,
         map,
     })
-}
-
-/// The radiance of a sample, without its alpha.
-fn radiance([red, green, blue, _]: &[f32; 4]) -> DVec3 {
-    DVec3::new((*red).into(), (*green).into(), (*blue).into())
 }
 
 /// Light on a receiver, compared with the exact map.
 fn received(
     device: &Device,
-    order: &Order,
-    material: &str,
-    (below, half): (f64, f64),
+    request: &PictureRequest,
+    [below, half]: [f64; 2],
 ) -> Result<Picture, DrawFault> {
     let window = Window {
         below,
         half,
-        pixels: order.size,
+        pixels: request.size,
     };
-    let n = order.glass.n.y;
-    let (drawn, hits) = caustics(device, n, &window, Gathering::Triangles, FOUR_PICTURES)?;
+    let n = request.material.n.y;
+    let (drawn, hits) = caustics(device, n, &window, TRIANGLES, FOUR_PICTURES)?;
     let exact = exact_caustics(n, &window);
     let (l1, energy) = caustic_error(&drawn, &exact);
-    let grey = |map: &[f64]| map.iter().map(|light| DVec3::splat(*light)).collect();
-    let (drawn, truth): (Vec<DVec3>, Vec<DVec3>) = (grey(&drawn), grey(&exact));
-    let all = vec![true; exact.len()];
-    let Comparison { map, difference } = compare(&drawn, &truth, &all, &order.display);
-    let nothing = Drawn {
-        samples: Vec::new(),
-    };
+    let grey = |map: Vec<f64>| map.into_iter().map(DVec3::splat).collect();
+    let (drawn, truth): (Vec<DVec3>, Vec<DVec3>) = (grey(drawn), grey(exact));
+    let all = vec![true; truth.len()];
+    let (map, error) = compare(&drawn, &truth, &all, &request.display);
     Ok(Picture {
         row: RenderedRow {
-            n,
-            material: material.to_owned(),
-            size: order.size,
             samples: 1,
             metric: "CIEDE2000 over all pixels",
-            error: difference,
-            own_error: difference,
             hits,
             misses: 1.0 - hits,
             l1: Some(l1),
             energy: Some(energy),
-            ..shares(order.row, &nothing, &[])
+            ..rendered_row(request, [error; 2], &[], &[])
         },
         drawn,
         truth,
@@ -208,58 +196,51 @@ fn received(
     })
 }
 
-/// The report's row with its shares; the rest is empty.
-fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedRow {
-    let seen = drawn.samples.iter().zip(truth);
-    let seen: Vec<(f32, &Traced)> = seen
-        .map(|(sample, traced)| (sample[3], traced))
+/// The report's row, with shares of the samples that show the body both as drawn and in truth.
+fn rendered_row(
+    request: &PictureRequest,
+    [error, own_error]: [Difference; 2],
+    drawn: &[[f32; 4]],
+    truth: &[Traced],
+) -> RenderedRow {
+    let row = request.row;
+    let seen: Vec<(f32, &Traced)> = drawn
+        .iter()
+        .map(|sample| sample[3])
+        .zip(truth)
         .filter(|(what, traced)| *what > 0.0 && traced.is_body)
         .collect();
-    let share = |of: &dyn Fn(f32, &Traced) -> bool| {
+    let share = |of: fn(f32, &Traced) -> bool| {
         let holds = seen.iter().filter(|(what, traced)| of(*what, traced));
         holds.count() as f64 / seen.len().max(1) as f64
     };
-    let is_total = |what: f32| (2.5..3.5).contains(&what);
+    fn is_total(what: f32) -> bool {
+        (2.5..3.5).contains(&what)
+    }
     let leaks = seen.iter().filter(|(what, _)| *what > 3.5).count() as u64;
-    let misses = share(&|what, _| (1.5..2.5).contains(&what));
-    let none = Difference {
-        mean: 0.0,
-        p99: 0.0,
-    };
+    let misses = share(|what, _| (1.5..2.5).contains(&what));
     RenderedRow {
         effect: row.name,
         body: row.body.name(),
-        material: String::new(),
-        n: 0.0,
-        size: 0,
+        material: request.material_name.to_owned(),
+        n: request.material.n.y,
+        size: request.size,
         samples: SAMPLES * SAMPLES,
         metric: METRIC,
-        error: none,
-        own_error: none,
+        error,
+        own_error,
         searches: row.searches(),
         hits: 1.0 - misses,
         misses,
-        total: share(&|what, _| is_total(what)),
-        true_total: share(&|_, traced| traced.is_total),
-        false_total: share(&|what, traced| is_total(what) && !traced.is_total),
-        missed_total: share(&|what, traced| !is_total(what) && traced.is_total),
+        total: share(|what, _| is_total(what)),
+        true_total: share(|_, traced| traced.is_total),
+        false_total: share(|what, traced| is_total(what) && !traced.is_total),
+        missed_total: share(|what, traced| !is_total(what) && traced.is_total),
         l1: None,
         energy: None,
         leaks: row.has_water().then_some(leaks),
         wrong: row.wrong,
     }
-}
-
-/// The mean of the samples of each pixel.
-fn averaged(samples: &[DVec3], side: usize) -> Vec<DVec3> {
-    let each = SAMPLES as usize;
-    let pixels = side / each;
-    let pixel = |i: usize| {
-        let (x, y) = (i % pixels * each, i / pixels * each);
-        let rows = (y..y + each).flat_map(|y| samples[y * side + x..][..each].iter());
-        rows.sum::<DVec3>() / (each * each) as f64
-    };
-    (0..pixels * pixels).map(pixel).collect()
 }
 
 /// Differences of pixels.
@@ -271,17 +252,14 @@ pub struct Difference {
     pub p99: f64,
 }
 
-/// The differences of two pictures.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
-    /// The difference of each pixel.
-    pub map: Vec<f64>,
-    /// The differences of the counted pixels, taken together.
-    pub difference: Difference,
-}
-
-/// CIEDE2000 between two pictures as shown on the screen. Only pixels whose entry in `counts` is true are counted.
-pub fn compare(one: &[DVec3], other: &[DVec3], counts: &[bool], display: &Display) -> Comparison {
+/// CIEDE2000 between two pictures as shown on the screen: of each pixel, and of the pixels whose entry in `counts` is true, taken
+/// together.
+fn compare(
+    one: &[DVec3],
+    other: &[DVec3],
+    counts: &[bool],
+    display: &Display,
+) -> (Vec<f64>, Difference) {
     let lab = |radiance: &DVec3| {
         let shown = display.shown(*radiance);
         Lab::from_xyz(Space::Srgb.rgb_to_xyz() * shown, Space::Srgb.white())
@@ -291,12 +269,11 @@ pub fn compare(one: &[DVec3], other: &[DVec3], counts: &[bool], display: &Displa
     let counted = map.iter().zip(counts).filter(|(_, counts)| **counts);
     let mut sorted: Vec<f64> = counted.map(|(error, _)| *error).collect();
     sorted.sort_by(f64::total_cmp);
-    let count = sorted.len().max(1);
     let difference = Difference {
-        mean: sorted.iter().sum::<f64>() / count as f64,
+        mean: sorted.iter().sum::<f64>() / sorted.len().max(1) as f64,
         p99: sorted.get(sorted.len() * 99 / 100).copied().unwrap_or(0.0),
     };
-    Comparison { map, difference }
+    (map, difference)
 }
 
 /// A tone curve.

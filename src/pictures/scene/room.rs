@@ -77,7 +77,8 @@ fn towards(face: usize, s: f64, t: f64) -> DVec3 {
 /// A square table of normals in the frame of tangent, bitangent and normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relief {
-    normals: Texels,
+    /// The normals.
+    pub normals: Texels,
 }
 
 const SIDE: usize = 512;
@@ -98,11 +99,6 @@ impl Relief {
         Relief {
             normals: Texels::baked([SIDE, SIDE], normal),
         }
-    }
-
-    /// The table of normals.
-    pub fn normals(&self) -> &Texels {
-        &self.normals
     }
 
     /// The dented normal of the ball of radius 1 in the world, where its smooth normal is this.

@@ -4,11 +4,12 @@ use super::body::Body;
 use super::pool::pool;
 use super::trace::Paths;
 use super::window::window;
+use crate::lab::gpu::Depth;
 
 /// The sky behind everything.
-const SKY: PassRow = PassRow {
+pub const SKY: PassRow = PassRow {
     fragment: "fs_sky",
-    place: Place::Everywhere,
+    surface: DrawnSurface::Everywhere,
     view: View::Eye,
     writes: &[Slot::Colour],
     reads: &[],
@@ -16,7 +17,7 @@ const SKY: PassRow = PassRow {
 /// The back of the body, for the search.
 const BACK: PassRow = PassRow {
     fragment: "fs_back",
-    place: Place::Back,
+    surface: DrawnSurface::Back,
     writes: &[Slot::BackPositions, Slot::BackNormals],
     ..SKY
 };
@@ -27,9 +28,9 @@ const THROUGH: PassRow = PassRow {
 };
 
 /// The body over the sky, by its front alone.
-const FRONT: PassRow = PassRow {
+pub const FRONT: PassRow = PassRow {
     fragment: "fs_front",
-    place: Place::Front,
+    surface: DrawnSurface::Front,
     ..SKY
 };
 
@@ -70,7 +71,7 @@ const WATER: [PassRow; 6] = [
     },
     PassRow {
         fragment: "fs_water",
-        place: Place::Water,
+        surface: DrawnSurface::Water,
         reads: &[
             Slot::Below,
             Slot::BelowPositions,
@@ -103,7 +104,7 @@ const BALL: RenderRow = RenderRow {
 };
 
 /// A ball of a metal, which light does not enter.
-const METAL: RenderRow = RenderRow {
+pub const METAL: RenderRow = RenderRow {
     method: "conductor_exact",
     disperses: true,
     own_paths: Paths::Mirror,
@@ -397,7 +398,7 @@ pub enum Slot {
 
 /// What a pass draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum DrawnSurface {
     /// All pixels.
     Everywhere,
     /// The side of the body that faces the eye.
@@ -406,6 +407,25 @@ pub enum Place {
     Back,
     /// The water's surface. The pass itself decides what stands in front of it.
     Water,
+}
+
+impl DrawnSurface {
+    /// The vertex entry point.
+    pub fn vertex(self) -> &'static str {
+        match self {
+            DrawnSurface::Everywhere => "vs_cover",
+            DrawnSurface::Front | DrawnSurface::Back | DrawnSurface::Water => "vs_body",
+        }
+    }
+
+    /// The depth test.
+    pub fn depth(self) -> Depth {
+        match self {
+            DrawnSurface::Everywhere | DrawnSurface::Water => Depth::Unused,
+            DrawnSurface::Front => Depth::Nearest,
+            DrawnSurface::Back => Depth::Farthest,
+        }
+    }
 }
 
 /// Where a pass is drawn from.
@@ -427,7 +447,7 @@ pub struct PassRow {
     /// The fragment entry point.
     pub fragment: &'static str,
     /// What it draws.
-    pub place: Place,
+    pub surface: DrawnSurface,
     /// Where it is drawn from.
     pub view: View,
     /// The slots that it writes.

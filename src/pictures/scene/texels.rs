@@ -1,6 +1,9 @@
 //! Tables of four channels, rounded to binary16 as the device holds them, so that the tracer and the device look up the same
 //! values.
 
+use std::iter::Sum;
+use std::ops::Div;
+
 use glam::{DVec2, DVec4};
 use half::f16;
 
@@ -42,6 +45,11 @@ impl Texels {
         &self.texels
     }
 
+    /// The texel at a column and a row.
+    pub fn texel(&self, column: usize, row: usize) -> DVec4 {
+        DVec4::from_array(self.texels[row * self.width + column].map(f64::from))
+    }
+
     /// The same with every texel changed.
     pub fn mapped(&self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Texels {
         let texels = self.texels.iter();
@@ -57,8 +65,7 @@ impl Texels {
             let mut sum = DVec4::ZERO;
             for y in row * by..(row + 1) * by {
                 for x in column * by..(column + 1) * by {
-                    let [a, b, c, d] = self.texels[y * self.width + x];
-                    sum += DVec4::new(a.into(), b.into(), c.into(), d.into());
+                    sum += self.texel(x, y);
                 }
             }
             sum / (by * by) as f64
@@ -83,13 +90,27 @@ impl Texels {
         let first = place.floor();
         let texel = |x: f64, y: f64| {
             let row = y.clamp(0.0, self.height as f64 - 1.0) as usize;
-            let [a, b, c, d] = self.texels[row * self.width + column(x)];
-            DVec4::new(a.into(), b.into(), c.into(), d.into())
+            self.texel(column(x), row)
         };
         let between = place - first;
         let along = |y: f64| texel(first.x, y).lerp(texel(first.x + 1.0, y), between.x);
         along(first.y).lerp(along(first.y + 1.0), between.y)
     }
+}
+
+/// The means of squares of this many samples a side, of a square picture.
+pub fn square_means<T>(samples: &[T], each: usize) -> Vec<T>
+where
+    T: Copy + Sum + Div<f64, Output = T>,
+{
+    let side = samples.len().isqrt();
+    let pixels = side / each;
+    let pixel = |i: usize| {
+        let (x, y) = (i % pixels * each, i / pixels * each);
+        let rows = (y..y + each).flat_map(|y| &samples[y * side + x..][..each]);
+        rows.copied().sum::<T>() / (each * each) as f64
+    };
+    (0..pixels * pixels).map(pixel).collect()
 }
 
 /// A pseudo-random number from 0 to 1, always the same for the same pair, by the mixing steps of SplitMix64 (Steele, Lea,

@@ -3,7 +3,7 @@
 //! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs. The
 //! values of the inputs stand in the frame's block, so one text serves every material.
 
-use super::glass::Glass;
+use super::material::OpticalMaterial;
 use super::table::RenderRow;
 use crate::generator::emit::{
     self, EffectRequest, EmittedFunction, FunctionForm, Naming, effect_function_text,
@@ -270,10 +270,10 @@ impl RowText {
     }
 
     /// The same, for a body of this index.
-    pub fn inputs_for(&self, glass: &Glass) -> [[f32; 4]; INPUTS] {
+    pub fn inputs_for(&self, material: &OpticalMaterial) -> [[f32; 4]; INPUTS] {
         let channels = Channels {
-            n: glass.n.to_array(),
-            k: glass.k.to_array(),
+            n: material.n.to_array(),
+            k: material.k.to_array(),
         };
         self.inputs(&values(self.method, &channels, &Derivation::default()))
     }

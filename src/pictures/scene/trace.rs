@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::body::Body;
 use super::environment::Environment;
 use super::frame::Camera;
-use super::glass::Glass;
+use super::material::OpticalMaterial;
 use super::room::{Relief, room_radiance};
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
@@ -43,7 +43,7 @@ pub struct Things<'a> {
     /// The body.
     pub body: &'a Body,
     /// Its material.
-    pub glass: &'a Glass,
+    pub material: &'a OpticalMaterial,
     /// Its surroundings.
     pub around: Around<'a>,
     /// Dents of its surface, seen from outside and inside; only for a ball.
@@ -99,10 +99,10 @@ pub fn trace(
 impl Scene<'_> {
     /// What a ray from the eye shows.
     fn seen(&self, eye: DVec3, direction: DVec3) -> Traced {
-        let (glass, around) = (self.things.glass, self.things.around);
+        let (material, around) = (self.things.material, self.things.around);
         match *self.things.body {
-            Body::Pool(pool) => pool.seen(glass, around, eye, direction),
-            Body::Window(window) => window.seen(glass, around, eye, direction),
+            Body::Pool(pool) => pool.seen(material, around, eye, direction),
+            Body::Window(window) => window.seen(material, around, eye, direction),
             Body::Ball | Body::Gem(_) => self.convex(eye, direction),
         }
     }
@@ -130,8 +130,8 @@ impl Scene<'_> {
             is_body: true,
             ..Traced::default()
         };
-        let middle = self.things.glass.rays.len() / 2;
-        for (i, ray) in self.things.glass.rays.iter().enumerate() {
+        let middle = self.things.material.samples.len() / 2;
+        for (i, ray) in self.things.material.samples.iter().enumerate() {
             let r = optics::conductor(ray.index.n, ray.index.k, cosine).unpolarised();
             let mut colours = [r * mirrored; 2];
             if self.paths != [Paths::Mirror; 2] {

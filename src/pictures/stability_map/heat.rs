@@ -3,7 +3,7 @@
 use crate::generator::emit::xml_text;
 use crate::lab::stability::{Cell, Map};
 use crate::pictures::plot::{
-    Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, log_ticks, plain_label,
+    Area, Axes, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, labelled, log_ticks, plain_label,
     power_label, shade,
 };
 
@@ -43,25 +43,20 @@ static PANELS: [Panel; 2] = [
 
 /// The picture of a map, as SVG.
 pub fn heat_map(method: &str, map: &Map) -> String {
-    let mut parts = vec![format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
-         font-family=\"system-ui, sans-serif\"><title>{}</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
-        xml_text(&format!("{method} over angle and {}", map.axis.name))
-    )];
-    let line = |font: &Font, text: String, top: f64| font.draw(&[text], 24.0, top, "start");
-    parts.extend(line(
-        &PANEL,
-        format!("{method} over angle and {}", map.axis.name),
-        14.0,
-    ));
-    parts.extend(line(
-        &SUBTITLE,
+    let title = format!("{method} over angle and {}", map.axis.name);
+    let held = format!(
+        "{}; red: not a number, infinite, below 0 or above 1",
+        map.held
+    );
+    let mut parts = vec![
         format!(
-            "{}; red: not a number, infinite, below 0 or above 1",
-            map.held
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+             font-family=\"system-ui, sans-serif\"><title>{}</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
+            xml_text(&title)
         ),
-        36.0,
-    ));
+        PANEL.draw_line(&title, 24.0, 14.0, "start"),
+        SUBTITLE.draw_line(&held, 24.0, 36.0, "start"),
+    ];
     for (panel, left) in PANELS.iter().zip(LEFTS) {
         parts.extend(panel.draw(map, left));
     }
@@ -72,16 +67,15 @@ pub fn heat_map(method: &str, map: &Map) -> String {
 impl Panel {
     fn draw(&self, map: &Map, left: f64) -> Vec<String> {
         let axes = axes(map, left);
-        let title = [(self.title)(map.precision.name())];
-        let middle = axes.area.centre();
-        let mut parts = SUBTITLE.draw(&title, middle, TOP - 24.0, "middle");
-        parts.extend(self.cells(map, left));
+        let title = (self.title)(map.precision.name());
         let (x, y) = (angles(), values(map));
+        let (centre, below) = (axes.area.centre(), axes.area.bottom + 21.0);
+        let value = [map.axis.name.to_owned()];
+        let mut parts = vec![SUBTITLE.draw_line(&title, centre, TOP - 24.0, "middle")];
+        parts.extend(self.cells(map, left));
         parts.extend(axes.outer_ticks(&x, &y));
         parts.extend(axes.tick_labels(&x, &y));
-        let angle = ["angle of incidence".to_owned()];
-        parts.extend(TICK.draw(&angle, middle, axes.area.bottom + 21.0, "middle"));
-        let value = [map.axis.name.to_owned()];
+        parts.push(TICK.draw_line("angle of incidence", centre, below, "middle"));
         parts.extend(TICK.draw_upwards(&value, left - 60.0, axes.area.middle()));
         parts.extend(self.bar(left + PLOT.0 + BAR.0));
         parts
@@ -90,20 +84,16 @@ impl Panel {
     /// The cells. Adjacent ones of one colour in a row become one rectangle.
     fn cells(&self, map: &Map, left: f64) -> Vec<String> {
         let columns = map.degrees.len();
-        let (width, height) = (
-            PLOT.0 / columns as f64,
-            PLOT.1 / map.axis.values.len() as f64,
-        );
+        let width = PLOT.0 / columns as f64;
+        let height = PLOT.1 / map.axis.values.len() as f64;
         let mut parts = vec!["<g shape-rendering=\"crispEdges\">".to_owned()];
         for (row, cells) in map.cells.chunks(columns).enumerate() {
             let y = TOP + PLOT.1 - height * (row + 1) as f64;
             let mut first = 0;
             while first < columns {
                 let colour = self.colour(&cells[first]);
-                let same = cells[first..]
-                    .iter()
-                    .take_while(|cell| self.colour(cell) == colour);
-                let count = same.count();
+                let rest = cells[first..].iter();
+                let count = rest.take_while(|cell| self.colour(cell) == colour).count();
                 parts.push(format!(
                     "<rect x=\"{:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{colour}\"/>",
                     left + width * first as f64,
@@ -146,12 +136,9 @@ impl Panel {
             x: Scale::linear([0.0, 1.0], [area.left, area.right]),
             y: Scale::log(ends, [area.bottom, area.top]),
         };
-        let tick = |decade: i32| Tick {
-            value: libm::exp10(f64::from(decade)),
-            label: power_label(decade),
-        };
         let step = if high - low > 6 { 2 } else { 1 };
-        let ticks: Vec<Tick> = (low..=high).step_by(step).map(tick).collect();
+        let decades = (low..=high).step_by(step);
+        let ticks = labelled(decades.map(|decade| libm::exp10(f64::from(decade))), power);
         parts.push(area.outline());
         parts.extend(axes.right_ticks(&ticks));
         parts
@@ -188,33 +175,21 @@ fn ends(values: &[f64]) -> [f64; 2] {
 }
 
 fn angles() -> Vec<Tick> {
-    let tick = |degree: i32| Tick {
-        value: f64::from(degree),
-        label: format!("{degree}°"),
-    };
-    (0..=90).step_by(15).map(tick).collect()
+    let degrees = (0..=90).step_by(15).map(f64::from);
+    labelled(degrees, |degree| format!("{degree}°"))
 }
 
 /// The ticks of the values: six per decade, or one where there are many decades.
 fn values(map: &Map) -> Vec<Tick> {
     let [low, high] = ends(&map.axis.values);
-    let is_long = high / low > 1e4;
-    let multiples: &[f64] = if is_long {
-        &[1.0]
-    } else {
-        &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0]
-    };
-    let label = |value: f64| {
-        if is_long {
-            power_label(libm::round(libm::log10(value)) as i32)
-        } else {
-            plain_label(value)
-        }
-    };
-    let tick = |value| Tick {
-        value,
-        label: label(value),
-    };
-    let ticks = log_ticks(low, high, multiples).into_iter();
-    ticks.map(tick).collect()
+    if high / low > 1e4 {
+        return labelled(log_ticks(low, high, &[1.0]), power);
+    }
+    let multiples = [1.0, 1.5, 2.0, 3.0, 5.0, 7.0];
+    labelled(log_ticks(low, high, &multiples), plain_label)
+}
+
+/// The label of a power of ten.
+fn power(value: f64) -> String {
+    power_label(libm::round(libm::log10(value)) as i32)
 }

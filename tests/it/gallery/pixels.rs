@@ -7,9 +7,10 @@ use crate::not_checked;
 use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
-use fresnel_gen::pictures::gallery::{CUBE, reduced_tables, unpacked_environment};
+use fresnel_gen::pictures::gallery::{CUBE, SKY_HEIGHT, as_stored, reduced_tables};
 use fresnel_gen::pictures::scene::{
-    self, Around, Body, Camera, Environment, Glass, RenderRow, RowText, Scenery, Things, Window,
+    self, Around, Body, Camera, Environment, OpticalMaterial, RenderRow, RowText, Scenery, Things,
+    Window,
 };
 
 /// Pixels a side of a panel in `hands.js`.
@@ -54,7 +55,9 @@ impl Held {
         Held {
             device,
             subjects: subjects(),
-            sky: unpacked_environment(),
+            sky: Environment {
+                table: as_stored(&scene::sky_of(SKY_HEIGHT).table),
+            },
         }
     }
 
@@ -62,7 +65,7 @@ impl Held {
     pub fn fault(&mut self, row: &'static RenderRow, pixels: &[DVec3]) -> Option<String> {
         let subject = self.subjects.iter().find(|one| one.name == row.material);
         let subject = subject.expect("a row's material is on the page");
-        let glass = Glass::of_surface(&subject.reference.surface);
+        let glass = OpticalMaterial::of_surface(&subject.reference.surface);
         if let Some([below, half]) = row.receiver {
             let window = Window {
                 below,
@@ -100,15 +103,15 @@ impl Held {
         &self,
         row: &'static RenderRow,
         subject: &MaterialInMedium,
-        glass: &Glass,
+        material: &OpticalMaterial,
     ) -> Option<Vec<DVec3>> {
         let device = self.device.as_ref()?;
-        let flat = glass.at_one_index();
+        let flat = material.at_one_index();
         let body = row.body.body();
         let relief = row.dents.map(scene::Relief::hammered);
         let things = Things {
             body: &body,
-            glass: if row.disperses { glass } else { &flat },
+            material: if row.disperses { material } else { &flat },
             around: if row.in_room {
                 Around::Room
             } else {
@@ -125,7 +128,7 @@ impl Held {
         };
         let camera = Camera::around(DVec3::from_array(row.eye), body.radius());
         let drawn = scene::draw(device, (&text, inputs), &scenery, &camera, SIDE as u32);
-        let samples = drawn.expect("it is drawn").samples;
+        let samples = drawn.expect("it is drawn");
         let colours = samples
             .iter()
             .map(|[r, g, b, _]| [*r, *g, *b].map(f64::from));

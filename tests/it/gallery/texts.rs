@@ -6,18 +6,61 @@ use std::path::Path;
 use super::subjects;
 use fresnel_gen::generator::emit::validate_wgsl;
 use fresnel_gen::physics::spectra::Space;
-use fresnel_gen::pictures::gallery::{Gallery, find, gallery, methods_of};
-use fresnel_gen::pictures::scene::RowText;
+use fresnel_gen::pictures::gallery::{
+    FunctionTexts, Gallery, GalleryRow, gallery, methods_of, rows,
+};
+use fresnel_gen::pictures::scene::{FRAME, RowText};
 
 fn made() -> Gallery {
     gallery(&subjects()[..1], Space::Srgb, &mut |_, _, _| {}).expect("it is made")
+}
+
+/// The WGSL module of a row with a method, as the page puts it together.
+fn module(row: &GalleryRow, method: &str, texts: &BTreeMap<String, String>) -> String {
+    let mut calls = row.calls.iter();
+    let calls = calls
+        .find(|calls| calls.method == method)
+        .expect("a method of the row");
+    let called = calls
+        .functions
+        .iter()
+        .filter(|name| !row.functions.contains(name));
+    let names = row.functions.iter().chain(called);
+    let functions: String = names.map(|name| texts[name].as_str()).collect();
+    functions + FRAME + &calls.wgsl + row.text
+}
+
+/// The GLSL ES fragment shader of a pass with a method, as the page puts it together.
+fn fragment(
+    row: &GalleryRow,
+    pass: usize,
+    method: &str,
+    texts: &BTreeMap<String, String>,
+) -> String {
+    let mut calls = row.calls.iter();
+    let calls = calls
+        .find(|calls| calls.method == method)
+        .expect("a method of the row");
+    let part = &row.programs[pass].fragment;
+    let mut names: Vec<&String> = part.functions.iter().collect();
+    if part.calls {
+        let is_new = |name: &&String| !part.functions.contains(name);
+        names.extend(calls.functions.iter().filter(is_new));
+        // The functions that compute a call's arguments.
+        let is_named = |name: &&String| calls.gles.contains(&format!("{name}("));
+        names.extend(row.functions.iter().filter(is_named).filter(is_new));
+    }
+    names.dedup();
+    let functions: String = names.iter().map(|name| texts[*name].as_str()).collect();
+    let called = if part.calls { calls.gles.as_str() } else { "" };
+    [&part.before, functions.as_str(), called, &part.after].concat()
 }
 
 /// Functions that the effects' files of another method than the usual one do not hold are read from those that are shipped.
 #[test]
 fn functions_stand_in_programs_byte_for_byte() {
     let gallery = made();
-    let of = |language: fn(&fresnel_gen::pictures::gallery::FunctionTexts) -> String| {
+    let of = |language: fn(&FunctionTexts) -> String| {
         let all = gallery.functions.iter();
         all.map(|one| (one.name.clone(), language(one)))
             .collect::<BTreeMap<_, _>>()
@@ -29,20 +72,16 @@ fn functions_stand_in_programs_byte_for_byte() {
         .map(|file| std::fs::read_to_string(file.unwrap().path()).unwrap())
         .collect();
     let (mut programs, mut found) = (0, 0);
-    for row in &gallery.rows {
-        for method in methods_of(find(row.name).unwrap()) {
-            let text = RowText {
-                row: find(row.name).unwrap(),
-                method,
-            };
-            let module = row.module(method.name, &wgsl).expect("a method of the row");
+    for (row, drawn) in gallery.rows.iter().zip(rows()) {
+        assert_eq!(row.name, drawn.name);
+        for method in methods_of(drawn) {
+            let text = RowText { row: drawn, method };
+            let module = module(row, method.name, &wgsl);
             let faults = validate_wgsl(&module).err();
             assert_eq!(faults, None, "{} by {}", row.name, method.name);
             assert!(module.contains(&text.calls().unwrap()));
             for pass in 0..row.passes.len() {
-                let fragment = row
-                    .fragment(pass, method.name, &gles)
-                    .expect("a method of the row");
+                let fragment = fragment(row, pass, method.name, &gles);
                 for (name, text) in &gles {
                     let head = format!(" {name}(");
                     let is_defined = fragment

@@ -2,7 +2,25 @@
 
 use super::device;
 use fresnel_gen::pictures::scene::{
-    Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
+    Gathering, Photons, TRIANGLES, Window, caustic_error, caustics, exact_caustics,
+};
+
+/// A smooth spot for each photon.
+const SPLATS: Gathering = Gathering {
+    vertex: "vs_splat",
+    fragment: "fs_splat",
+    vertices: |side| 6 * side.pow(2),
+    finest: 1,
+};
+/// A count in the pixel where each photon lands.
+const POINTS: Gathering = Gathering {
+    vertex: "vs_point",
+    fragment: "fs_lit",
+    ..SPLATS
+};
+const ONE_PICTURE: Photons = Photons {
+    side: 256,
+    moves: 1,
 };
 
 const N: f64 = 1.5;
@@ -26,7 +44,7 @@ fn triangles_of_photons_are_near_the_exact_map() {
             pixels: 128,
         };
         let exact = exact_caustics(N, &window);
-        let kinds = [Gathering::Triangles, Gathering::Splats, Gathering::Points];
+        let kinds = [TRIANGLES, SPLATS, POINTS];
         let found = kinds.map(|gathering| {
             let drawn = caustics(&device, N, &window, gathering, ONE_PICTURE);
             caustic_error(&drawn.expect("it is drawn").0, &exact)
@@ -75,7 +93,7 @@ fn a_moving_light_gains_more_than_more_photons() {
         let [finer_side, moved] =
             [(1024, 1), (256, 2)].map(|(side, moves)| Photons { side, moves });
         for (photons, stated) in [(ONE_PICTURE, one), (moved, four), (finer_side, many)] {
-            let drawn = caustics(&device, N, &window, Gathering::Triangles, photons);
+            let drawn = caustics(&device, N, &window, TRIANGLES, photons);
             let (l1, _) = caustic_error(&drawn.expect("it is drawn").0, &exact);
             let near = stated * 0.9..stated * 1.1;
             assert!(
@@ -100,7 +118,7 @@ fn four_pictures_of_points_are_one_with_four_times_as_many() {
     };
     let points = |side, moves| {
         let photons = Photons { side, moves };
-        let drawn = caustics(&device, N, &window, Gathering::Points, photons);
+        let drawn = caustics(&device, N, &window, POINTS, photons);
         drawn.expect("it is drawn").0
     };
     let (l1, _) = caustic_error(&points(64, 2), &points(128, 1));

@@ -11,7 +11,7 @@ use super::plain;
 use super::row;
 use super::traced;
 use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{self, Camera, Glass, Paths};
+use fresnel_gen::pictures::scene::{self, Camera, OpticalMaterial, Paths};
 
 const N: f64 = 1.5;
 
@@ -26,7 +26,7 @@ fn a_ball_shows_the_world_upside_down() {
             DVec3::Z
         }
     });
-    let glass = Glass::of_index(N);
+    let glass = OpticalMaterial::of_index(N);
     let picture = pictured(&device, "double_refraction", &glass, &environment, 64);
     for seen in [&picture.drawn, &picture.truth] {
         let (above, below) = (at(seen, 0.5, 0.25), at(seen, 0.5, 0.85));
@@ -43,7 +43,7 @@ fn every_pixel_of_a_ball_obeys_fresnel() {
     let picture = pictured(
         &device,
         "double_refraction",
-        &Glass::of_index(N),
+        &OpticalMaterial::of_index(N),
         &white,
         64,
     );
@@ -149,7 +149,7 @@ fn a_clamped_sky_has_no_sun() {
     let Some(device) = device() else {
         return;
     };
-    let (glass, sky) = (Glass::of_index(1.5), scene::sky());
+    let (glass, sky) = (OpticalMaterial::of_index(1.5), scene::sky());
     let drawn = |is_ldr| {
         let picture = pictured_in(&device, "double_refraction", &glass, (&sky, is_ldr), 64);
         let brightest = |picture: &[DVec3]| picture.iter().map(|p| p.y).fold(0.0, f64::max);

@@ -8,8 +8,8 @@ use super::one_surface::glass_of;
 use super::pictured;
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::pictures::scene::{
-    self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance,
-    sky,
+    self, Around, Camera, OpticalMaterial, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things,
+    room_radiance, sky,
 };
 
 /// The share of pixels whose channels all differ by less than 3 hundredths from the truth.
@@ -69,7 +69,13 @@ fn dents_turn_the_mirror_and_not_the_world() {
     assert!(alike > 0.9, "{alike}");
     // In a world without light a mirror is black, dents and all.
     let dark = super::around(|_| DVec3::ZERO);
-    let black = pictured(&device, "normal_mapped", &Glass::of_index(1.5), &dark, 16);
+    let black = pictured(
+        &device,
+        "normal_mapped",
+        &OpticalMaterial::of_index(1.5),
+        &dark,
+        16,
+    );
     assert!(black.drawn.iter().all(|pixel| *pixel == DVec3::ZERO));
 }
 
@@ -82,11 +88,11 @@ fn the_truth_of_a_metal_is_the_law_at_each_wavelength() {
         let surface = Surface::new(&material, None, &ViewingConditions::default()).unwrap();
         let (body, glass) = (
             super::row("complex_f0").body.body(),
-            Glass::of_surface(&surface),
+            OpticalMaterial::of_surface(&surface),
         );
         let things = Things {
             body: &body,
-            glass: &glass,
+            material: &glass,
             around: Around::Far(&white),
             relief: None,
         };
@@ -109,9 +115,9 @@ fn the_truth_of_a_metal_is_the_law_at_each_wavelength() {
 #[test]
 fn the_truth_of_gold_head_on_is_known() {
     let glass = glass_of("gold");
-    let head_on = glass.rays.iter().map(|ray| {
-        let (n, k) = (ray.index.n, ray.index.k);
-        ray.weight * (((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k))
+    let head_on = glass.samples.iter().map(|sample| {
+        let (n, k) = (sample.index.n, sample.index.k);
+        sample.weight * (((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k))
     });
     let head_on: DVec3 = head_on.sum();
     let known = DVec3::new(1.0383, 0.7727, 0.3399);

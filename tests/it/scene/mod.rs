@@ -14,8 +14,8 @@ use glam::DVec3;
 use super::not_checked;
 use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
 use fresnel_gen::pictures::scene::{
-    self, Around, Camera, Display, Environment, Glass, Order, Paths, Picture, RenderRow,
-    TONE_CURVES, Things,
+    self, Around, Camera, Display, Environment, OpticalMaterial, Paths, Picture, PictureRequest,
+    RenderRow, TONE_CURVES, Things,
 };
 
 /// The device at hand, or a word that there is none.
@@ -48,7 +48,7 @@ fn row(name: &str) -> &'static RenderRow {
 fn pictured(
     device: &Device,
     name: &str,
-    glass: &Glass,
+    glass: &OpticalMaterial,
     environment: &Environment,
     size: u32,
 ) -> Picture {
@@ -59,7 +59,7 @@ fn pictured(
 fn pictured_in(
     device: &Device,
     name: &str,
-    glass: &Glass,
+    glass: &OpticalMaterial,
     environment: (&Environment, bool),
     size: u32,
 ) -> Picture {
@@ -70,19 +70,20 @@ fn pictured_in(
 fn pictured_row(
     device: &Device,
     row: &'static RenderRow,
-    glass: &Glass,
+    glass: &OpticalMaterial,
     (environment, is_ldr): (&Environment, bool),
     size: u32,
 ) -> Picture {
-    let order = Order {
+    let request = PictureRequest {
         row,
-        glass,
+        material: glass,
+        material_name: "a test",
         environment,
         is_ldr,
         size,
         display: plain(),
     };
-    scene::render(device, &order, "a test", &mut |_, _, _| {}).expect("it is drawn")
+    scene::render(device, &request, &mut |_, _, _| {}).expect("it is drawn")
 }
 
 /// An environment from a formula.
@@ -99,10 +100,10 @@ fn at(picture: &[DVec3], x: f64, y: f64) -> DVec3 {
 
 /// What is seen of a ball by a tracer along the picture's pixels.
 fn traced(name: &str, n: f64, environment: &Environment, side: usize, paths: Paths) -> Vec<DVec3> {
-    let (body, glass) = (row(name).body.body(), Glass::of_index(n));
+    let (body, glass) = (row(name).body.body(), OpticalMaterial::of_index(n));
     let things = Things {
         body: &body,
-        glass: &glass,
+        material: &glass,
         around: Around::Far(environment),
         relief: None,
     };

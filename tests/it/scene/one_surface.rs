@@ -10,11 +10,13 @@ use super::row;
 use super::traced;
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Glass, Paths};
+use fresnel_gen::pictures::scene::{OpticalMaterial, Paths};
 
-pub fn glass_of(material: &str) -> Glass {
+pub fn glass_of(material: &str) -> OpticalMaterial {
     let material = materials::find(material).unwrap().unwrap();
-    Glass::of_surface(&Surface::new(&material, None, &ViewingConditions::default()).unwrap())
+    OpticalMaterial::of_surface(
+        &Surface::new(&material, None, &ViewingConditions::default()).unwrap(),
+    )
 }
 
 /// One surface bends light toward the normal, and turns nothing upside down beyond the middle of the focus: what one look-up
@@ -23,7 +25,7 @@ pub fn glass_of(material: &str) -> Glass {
 fn one_look_up_is_the_first_surface_and_not_a_ball() {
     let Some(device) = device() else { return };
     let world = around(|direction| direction / 2.0 + DVec3::splat(0.5));
-    let glass = Glass::of_index(1.5);
+    let glass = OpticalMaterial::of_index(1.5);
     let picture = pictured(&device, "reflection_refraction", &glass, &world, 64);
     let side = 128;
     let samples = traced(
@@ -54,7 +56,7 @@ fn one_look_up_each_loses_no_light() {
         let picture = pictured(
             &device,
             "reflection_refraction",
-            &Glass::of_index(n),
+            &OpticalMaterial::of_index(n),
             &white,
             32,
         );

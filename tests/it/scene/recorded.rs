@@ -7,7 +7,7 @@ use super::pictured;
 use crate::{bless, records};
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::physics::records::rows;
-use fresnel_gen::pictures::scene::{self, Glass, RenderRow, sky};
+use fresnel_gen::pictures::scene::{self, OpticalMaterial, RenderRow, sky};
 
 const SIZE: u32 = 128;
 const HEAD: [&str; 12] = [
@@ -36,10 +36,10 @@ const MORE: [(&str, f64); 4] = [
     ("double_refraction_gem", 2.42),
 ];
 
-fn glass_of(row: &RenderRow) -> Glass {
+fn glass_of(row: &RenderRow) -> OpticalMaterial {
     let material = materials::find(row.material).unwrap().unwrap();
     let surface = Surface::new(&material, None, &ViewingConditions::default()).unwrap();
-    Glass::of_surface(&surface)
+    OpticalMaterial::of_surface(&surface)
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn figures_of_pictures_are_the_recorded_ones() {
     let Some(device) = device() else { return };
     let sky = sky();
     let own = scene::ALL.iter().map(|row| (row.name, glass_of(row)));
-    let more = MORE.map(|(name, n)| (name, Glass::of_index(n)));
+    let more = MORE.map(|(name, n)| (name, OpticalMaterial::of_index(n)));
     let measured: Vec<Line> = own
         .chain(more)
         .map(|(name, glass)| {

@@ -10,7 +10,9 @@ use super::pictured_row;
 use super::row;
 use fresnel_gen::lab::gpu::Device;
 use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Camera, Environment, Glass, PassRow, RenderRow, View};
+use fresnel_gen::pictures::scene::{
+    Camera, Environment, OpticalMaterial, PassRow, RenderRow, View,
+};
 
 const N: f64 = 1.333;
 const SIZE: u32 = 128;
@@ -35,7 +37,7 @@ fn changed(text: String, view: impl Fn(View) -> View) -> &'static RenderRow {
 }
 
 fn leaks(device: &Device, row: &'static RenderRow) -> u64 {
-    let (glass, grey) = (Glass::of_index(N), around(|_| DVec3::splat(0.5)));
+    let (glass, grey) = (OpticalMaterial::of_index(N), around(|_| DVec3::splat(0.5)));
     let picture = pictured_row(device, row, &glass, (&grey, false), SIZE);
     picture.row.leaks.expect("there is water")
 }
@@ -71,7 +73,7 @@ fn nothing_leaks_through_the_surface() {
 #[test]
 fn water_reflects_the_more_the_lower_one_looks() {
     let Some(device) = device() else { return };
-    let glass = Glass::of_index(N);
+    let glass = OpticalMaterial::of_index(N);
     let [white, black] = [1.0, 0.0].map(|light| {
         let world = around(|_| DVec3::splat(light));
         pictured(&device, "water", &glass, &world, SIZE)
@@ -101,9 +103,9 @@ fn water_reflects_the_more_the_lower_one_looks() {
 #[test]
 fn the_image_of_a_post_hangs_from_its_water_line() {
     let Some(device) = device() else { return };
-    let black_water = Glass {
+    let black_water = OpticalMaterial {
         k: DVec3::splat(1e-3),
-        ..Glass::of_index(N)
+        ..OpticalMaterial::of_index(N)
     };
     let dark = around(|_| DVec3::ZERO);
     let picture = pictured(&device, "water", &black_water, &dark, SIZE);
@@ -142,7 +144,7 @@ fn the_foot_of_a_post_is_lifted() {
     let foot = POST + DVec3::new(0.0, FLOOR, POST_RADIUS);
     let mut before = 1.0;
     for n in [1.0, N] {
-        let picture = pictured(&device, "water", &Glass::of_index(n), &grey, SIZE);
+        let picture = pictured(&device, "water", &OpticalMaterial::of_index(n), &grey, SIZE);
         let (x, want) = place(&camera, lifted(camera.eye, foot, n));
         for seen in [&picture.drawn, &picture.truth] {
             let lowest = lowest_red(seen, x, 0.45);
@@ -208,6 +210,6 @@ fn a_picture_of_water_is_the_same_again() {
     let Some(device) = device() else { return };
     let world: Environment = around(|direction| direction.abs());
     let [one, other] =
-        [0, 1].map(|_| pictured(&device, "water", &Glass::of_index(N), &world, 32).drawn);
+        [0, 1].map(|_| pictured(&device, "water", &OpticalMaterial::of_index(N), &world, 32).drawn);
     assert_eq!(one, other);
 }

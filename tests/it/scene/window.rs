@@ -7,7 +7,7 @@ use super::device;
 use super::pictured;
 use super::row;
 use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Body, Camera, Glass, Picture};
+use fresnel_gen::pictures::scene::{Body, Camera, OpticalMaterial, Picture};
 
 const N: f64 = 1.525;
 const SIZE: u32 = 128;
@@ -20,7 +20,7 @@ fn lit_by(light: f64) -> Option<Picture> {
     Some(pictured(
         &device,
         "stained_glass",
-        &Glass::of_index(N),
+        &OpticalMaterial::of_index(N),
         &world,
         SIZE,
     ))

@@ -1,11 +1,19 @@
-//! The plot itself: grid, guide lines, curves and axis labels.
+//! A line chart as SVG: titles, legend, grid, guide lines, curves and axis labels.
 
-use crate::pictures::plot::axes::{
-    Area, Axes, PanelFrame, Scale, TICK_GAP, Tick, paragraph_height,
-};
+use crate::pictures::plot::axes::{Area, Axes, Scale, TICK_GAP};
+use crate::pictures::plot::layout::{Layout, PanelFrame, paragraph_height};
 use crate::pictures::plot::line_chart::{LineChart, Mark, Series};
 use crate::pictures::plot::palette::Style;
-use crate::pictures::plot::text::{AXIS, FOOT, MARK, TICK};
+use crate::pictures::plot::text::{AXIS, FOOT, Font, LEGEND, MARK, PANEL, SUBTITLE, TICK, TITLE};
+
+/// The frame of a chart that stands alone.
+const ALONE: PanelFrame = PanelFrame {
+    width: 720.0,
+    height: 440.0,
+    margin: 24.0,
+    upper: 20.0,
+    lower: 18.0,
+};
 
 /// The least height of the plot; the picture grows rather than go below it.
 const LEAST_HEIGHT: f64 = 210.0;
@@ -16,20 +24,10 @@ const SLANT: f64 = 11.0;
 const LABEL_GAP: f64 = 10.0;
 /// Half of the widest line, so that a curve along the edge stays whole.
 const EDGE: f64 = 1.5;
-
-/// The area of the plot, and the text around it broken into lines.
-pub(super) struct Plot<'a> {
-    chart: &'a LineChart,
-    frame: PanelFrame,
-    /// The name of the clip path. A document may hold several.
-    clip: &'a str,
-    labels: Vec<Label>,
-    x_label: Vec<String>,
-    y_label: Vec<String>,
-    x_ticks: Vec<Tick>,
-    y_ticks: Vec<Tick>,
-    axes: Axes,
-}
+/// The length of a line sample: two periods of the longest dash pattern.
+const SAMPLE: f64 = 38.0;
+const SAMPLE_GAP: f64 = 8.0;
+const ENTRY_GAP: f64 = 24.0;
 
 /// The label of a guide line: `at` is where it points, `centre` where it stands.
 struct Label {
@@ -38,156 +36,148 @@ struct Label {
     centre: f64,
 }
 
-impl<'a> Plot<'a> {
-    /// Lays out the plot from `head` down, leaving room for the foot.
-    pub(super) fn below(
-        chart: &'a LineChart,
-        frame: PanelFrame,
-        clip: &'a str,
-        head: f64,
-    ) -> Plot<'a> {
-        let (x_ticks, y_ticks) = (chart.x.labelled_ticks(), chart.y.labelled_ticks());
-        let y_label = AXIS.wrap(&chart.y.label, LEAST_HEIGHT + 20.0);
-        let left = frame.margin + left_of_plot(&y_ticks, AXIS.height(&y_label));
+impl LineChart {
+    /// The chart as a complete SVG document that ends with a line feed.
+    ///
+    /// It is 720 wide and 440 high, or higher when long text would otherwise
+    /// leave too little room for the plot.
+    pub fn svg(&self) -> String {
+        let layout = self.set(ALONE, &TITLE, "plot-area");
+        layout.document(&self.title, &self.description())
+    }
+
+    /// The chart as a panel of a larger picture; `clip` is a name that no other
+    /// part of the document has.
+    pub fn panel(&self, frame: PanelFrame, clip: &str) -> Layout {
+        self.set(frame, &PANEL, clip)
+    }
+
+    fn set(&self, frame: PanelFrame, title: &Font, clip: &str) -> Layout {
+        let mut layout = Layout::new(frame);
+        layout.paragraph(title, &self.title);
+        layout.paragraph(&SUBTITLE, &self.subtitle);
+        set_legend(&mut layout, &self.series);
+        self.set_plot(&mut layout, clip);
+        layout.paragraph(&FOOT, &self.foot);
+        layout
+    }
+
+    /// Sets the plot and its axes, leaving room for the foot. Elements go from the back to the front.
+    fn set_plot(&self, layout: &mut Layout, clip: &str) {
+        let frame = layout.frame;
+        let (x_ticks, y_ticks) = (self.x.labelled_ticks(), self.y.labelled_ticks());
+        let y_label = AXIS.wrap(&self.y.label, LEAST_HEIGHT + 20.0);
+        let y_labels = TICK.widest(y_ticks.iter().map(|tick| &tick.label));
+        let left = frame.margin + (AXIS.height(&y_label) + y_labels + TICK_GAP);
         let right = frame.right() - RIGHT_GAP;
-        let x_label = AXIS.wrap(&chart.x.label, right - left);
-        let x = chart.x.scale([left, right]);
-        let labels = place_labels(&chart.marks, x, left, right);
-        let top = head + 12.0 + labels_height(&labels);
-        let foot = paragraph_height(&FOOT, &chart.foot, frame.room());
-        let below = height_below(&x_label) + foot + frame.lower;
-        let bottom = (frame.height - below).max(top + LEAST_HEIGHT);
-        Plot {
-            chart,
-            frame,
-            clip,
-            labels,
-            x_label,
-            y_label,
-            x_ticks,
-            y_ticks,
-            axes: Axes {
-                area: Area {
-                    left,
-                    top,
-                    right,
-                    bottom,
-                },
-                x,
-                y: chart.y.scale([bottom, top]),
+        let x_label = AXIS.wrap(&self.x.label, right - left);
+        let x = self.x.scale([left, right]);
+        let labels = place_labels(&self.marks, x, left, right);
+        let heights = labels.iter().map(|label| MARK.height(&label.lines) + SLANT);
+        let top = layout.bottom + 12.0 + heights.fold(0.0, f64::max);
+        let to_title = TICK_GAP + TICK.leading;
+        let below = to_title + AXIS.height(&x_label) + 8.0;
+        let foot = paragraph_height(&FOOT, &FOOT.wrap(&self.foot, frame.room()));
+        let bottom = (frame.height - (below + foot + frame.lower)).max(top + LEAST_HEIGHT);
+        let axes = Axes {
+            area: Area {
+                left,
+                top,
+                right,
+                bottom,
             },
+            x,
+            y: self.y.scale([bottom, top]),
+        };
+        let mut elements = axes.grid(&x_ticks, &y_ticks);
+        elements.extend(axes.tick_labels(&x_ticks, &y_ticks));
+        elements.extend(axes.titles(&x_label, to_title, &y_label, frame.margin - 4.0));
+        elements.extend(guides(&labels, &axes.area));
+        elements.extend(curves(&self.series, &axes, clip));
+        layout.extend(elements, bottom + below);
+    }
+}
+
+/// Sets a line sample and a name for each curve, in as many rows as needed.
+fn set_legend(layout: &mut Layout, series: &[Series]) {
+    let (margin, room) = (layout.frame.margin, layout.frame.room());
+    let (mut left, mut top) = (margin, layout.bottom + 7.0);
+    for Series { name, style, .. } in series {
+        let lines = LEGEND.wrap(name, room - SAMPLE - SAMPLE_GAP);
+        let width = SAMPLE + SAMPLE_GAP + LEGEND.widest(&lines);
+        if left > margin && left + width > margin + room {
+            (left, top) = (margin, layout.bottom);
         }
+        let (middle, attributes) = (top + LEGEND.leading / 2.0, style.attributes());
+        let end = left + SAMPLE;
+        let mut elements = vec![format!(
+            "<path {attributes} d=\"M{left:.2} {middle:.2}H{end:.2}\"/>"
+        )];
+        elements.extend(style.dot(left + SAMPLE / 2.0, middle));
+        elements.extend(LEGEND.draw(&lines, left + SAMPLE + SAMPLE_GAP, top, "start"));
+        layout.extend(elements, layout.bottom.max(top + LEGEND.height(&lines)));
+        left += width + ENTRY_GAP;
     }
+}
 
-    /// The lower edge of everything that belongs to the plot.
-    pub(super) fn end(&self) -> f64 {
-        self.axes.area.bottom + height_below(&self.x_label)
+fn guides(labels: &[Label], area: &Area) -> Vec<String> {
+    let Area { top, bottom, .. } = *area;
+    let lines_end = top - SLANT;
+    let mut elements = Vec::new();
+    for label in labels {
+        elements.push(format!(
+            "<path fill=\"none\" stroke=\"#8b95a3\" \
+             d=\"M{:.2} {lines_end:.2}L{:.2} {:.2}V{:.2}\"/>",
+            label.centre, label.at, top, bottom
+        ));
+        let top = lines_end - 1.0 - MARK.height(&label.lines);
+        elements.extend(MARK.draw(&label.lines, label.centre, top, "middle"));
     }
+    elements
+}
 
-    /// All elements, from the back to the front.
-    pub(super) fn draw(&self) -> Vec<String> {
-        let (axes, below) = (&self.axes, TICK_GAP + TICK.leading);
-        let left = self.frame.margin - 4.0;
-        let parts = [
-            axes.grid(&self.x_ticks, &self.y_ticks),
-            axes.tick_labels(&self.x_ticks, &self.y_ticks),
-            axes.titles(&self.x_label, below, &self.y_label, left),
-            self.guides(),
-            self.curves(),
-        ];
-        parts.concat()
-    }
-
-    fn guides(&self) -> Vec<String> {
-        let Area { top, bottom, .. } = self.axes.area;
-        let lines_end = top - SLANT;
-        let mut elements = Vec::new();
-        for label in &self.labels {
-            elements.push(format!(
-                "<path fill=\"none\" stroke=\"#8b95a3\" \
-                 d=\"M{:.2} {lines_end:.2}L{:.2} {:.2}V{:.2}\"/>",
-                label.centre, label.at, top, bottom
-            ));
-            let top = lines_end - 1.0 - MARK.height(&label.lines);
-            elements.extend(MARK.draw(&label.lines, label.centre, top, "middle"));
-        }
-        elements
-    }
-
-    fn curves(&self) -> Vec<String> {
-        let mut series: Vec<&Series> = self.chart.series.iter().collect();
-        // Dashes over the solid line show where the curves coincide.
-        series.sort_by_key(|one| one.style != Style::Exact);
-        let mut elements = vec![
-            self.clip_path(),
-            format!(
-                "<g clip-path=\"url(#{})\" stroke-linejoin=\"round\">",
-                self.clip
-            ),
-        ];
-        elements.extend(series.iter().map(|one| self.curve(one)));
-        elements.push("</g>".into());
-        elements.extend(series.iter().flat_map(|one| self.dots(one)));
-        elements
-    }
-
-    fn clip_path(&self) -> String {
-        let area = &self.axes.area;
+/// The curves, clipped to the area, and the dots of those that have any. Only dots whose point lies on both axes are drawn.
+fn curves(series: &[Series], Axes { area, x, y }: &Axes, clip: &str) -> Vec<String> {
+    let mut series: Vec<&Series> = series.iter().collect();
+    // Dashes over the solid line show where the curves coincide.
+    series.sort_by_key(|one| one.style != Style::Exact);
+    let mut elements = vec![
         format!(
-            "<clipPath id=\"{}\"><rect x=\"{:.2}\" y=\"{:.2}\" \
+            "<clipPath id=\"{clip}\"><rect x=\"{:.2}\" y=\"{:.2}\" \
              width=\"{:.2}\" height=\"{:.2}\"/></clipPath>",
-            self.clip,
             area.left - EDGE,
             area.top - EDGE,
             area.right - area.left + 2.0 * EDGE,
             area.bottom - area.top + 2.0 * EDGE
-        )
-    }
-
-    fn curve(&self, series: &Series) -> String {
-        let mut data = String::new();
-        let mut joined = false;
-        for &(x, y) in &series.points {
-            let finite = x.is_finite() && y.is_finite();
-            if finite {
-                let command = if joined { 'L' } else { 'M' };
-                data += &format!("{command}{:.2} {:.2}", self.axes.x.at(x), self.axes.y.at(y));
+        ),
+        format!("<g clip-path=\"url(#{clip})\" stroke-linejoin=\"round\">"),
+    ];
+    for one in &series {
+        let (mut data, mut is_joined) = (String::new(), false);
+        for (at, value) in &one.points {
+            let is_finite = at.is_finite() && value.is_finite();
+            if is_finite {
+                let command = if is_joined { 'L' } else { 'M' };
+                data += &format!("{command}{:.2} {:.2}", x.at(*at), y.at(*value));
             }
-            joined = finite;
+            is_joined = is_finite;
         }
-        format!("<path {} d=\"{data}\"/>", series.style.attributes())
+        elements.push(format!("<path {} d=\"{data}\"/>", one.style.attributes()));
     }
-
-    /// The dots of a curve, where its style has any. Only dots whose point lies on both axes are drawn.
-    fn dots(&self, series: &Series) -> Vec<String> {
-        let Axes { x, y, .. } = &self.axes;
-        let points = series.points.iter();
-        let inside = points.filter(|point| x.holds(point.0) && y.holds(point.1));
-        inside
-            .filter_map(|point| series.style.dot(x.at(point.0), y.at(point.1)))
-            .collect()
+    elements.push("</g>".into());
+    for one in series {
+        let inside = one
+            .points
+            .iter()
+            .filter(|(at, value)| x.holds(*at) && y.holds(*value));
+        elements.extend(inside.filter_map(|(at, value)| one.style.dot(x.at(*at), y.at(*value))));
     }
-}
-
-/// The room that an axis and its labels take on the left.
-fn left_of_plot(ticks: &[Tick], label_width: f64) -> f64 {
-    let labels: Vec<String> = ticks.iter().map(|tick| tick.label.clone()).collect();
-    label_width + TICK.widest(&labels) + TICK_GAP
-}
-
-fn height_below(x_label: &[String]) -> f64 {
-    TICK_GAP + TICK.leading + AXIS.height(x_label) + 8.0
-}
-
-fn labels_height(labels: &[Label]) -> f64 {
-    let heights = labels.iter().map(|label| MARK.height(&label.lines) + SLANT);
-    heights.fold(0.0, f64::max)
+    elements
 }
 
 /// The labels of the guide lines in one row, in order and clear of each other.
 fn place_labels(marks: &[Mark], x: Scale, left: f64, right: f64) -> Vec<Label> {
-    let shown = marks.iter().filter(|mark| x.holds(mark.at));
-    let mut shown: Vec<&Mark> = shown.collect();
+    let mut shown: Vec<&Mark> = marks.iter().filter(|mark| x.holds(mark.at)).collect();
     shown.sort_by(|one, other| x.fraction(one.at).total_cmp(&x.fraction(other.at)));
     // With no more than an equal share each, the labels fit side by side.
     let share = (right - left) / shown.len().max(1) as f64 - LABEL_GAP;
@@ -237,6 +227,26 @@ mod tests {
     fn edges(label: &Label) -> (f64, f64) {
         let half = MARK.widest(&label.lines) / 2.0;
         (label.centre - half, label.centre + half)
+    }
+
+    #[test]
+    fn legend_rows_follow_the_length_of_the_names() {
+        let rows = |names: &[&str]| {
+            let mut layout = Layout::new(ALONE);
+            let start = layout.bottom;
+            let named = |name: &&str| Series {
+                name: (*name).to_owned(),
+                style: Style::Exact,
+                points: vec![],
+            };
+            set_legend(&mut layout, &names.iter().map(named).collect::<Vec<_>>());
+            ((layout.bottom - start) / LEGEND.leading).floor()
+        };
+        let (half, long) = ("word ".repeat(12), "word ".repeat(40));
+        assert_eq!(rows(&[]), 0.0);
+        assert_eq!(rows(&["a", "b", "c"]), 1.0);
+        assert_eq!(rows(&[&half, &half, "c"]), 2.0);
+        assert_eq!(rows(&["a", &long, "c"]), 5.0);
     }
 
     #[test]

@@ -2,11 +2,9 @@
 
 mod drawing;
 
-use crate::pictures::plot::axes::{ALONE, Layout, PanelFrame, Scale, Tick};
+use crate::pictures::plot::axes::{Scale, Tick, labelled};
 use crate::pictures::plot::palette::Style;
-use crate::pictures::plot::text::{FOOT, Font, PANEL, SUBTITLE, TITLE};
 use crate::pictures::plot::ticks::{decimals, label, ticks};
-use drawing::Plot;
 
 /// A line chart: the curves, and the words that say what they are.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,34 +61,8 @@ pub struct Mark {
 }
 
 impl LineChart {
-    /// The chart as a complete SVG document that ends with a line feed.
-    ///
-    /// It is 720 wide and 440 high, or higher when long text would otherwise
-    /// leave too little room for the plot.
-    pub fn svg(&self) -> String {
-        let layout = self.set(ALONE, &TITLE, "plot-area");
-        layout.document(&self.title, &self.description())
-    }
-
-    /// The chart as a panel of a larger picture; `clip` is a name that no other
-    /// part of the document has.
-    pub(crate) fn panel(&self, frame: PanelFrame, clip: &str) -> Layout {
-        self.set(frame, &PANEL, clip)
-    }
-
-    fn set(&self, frame: PanelFrame, title: &Font, clip: &str) -> Layout {
-        let mut layout = Layout::new(frame);
-        layout.paragraph(title, &self.title);
-        layout.paragraph(&SUBTITLE, &self.subtitle);
-        layout.legend(&self.series);
-        let plot = Plot::below(self, frame, clip, layout.bottom());
-        layout.extend(plot.draw(), plot.end());
-        layout.paragraph(&FOOT, &self.foot);
-        layout
-    }
-
     /// What a reader who does not see the chart should hear.
-    pub(crate) fn description(&self) -> String {
+    pub fn description(&self) -> String {
         let names: Vec<&str> = self.series.iter().map(|one| one.name.as_str()).collect();
         let marks: Vec<&str> = self.marks.iter().map(|one| one.label.as_str()).collect();
         let mut parts = vec![
@@ -108,15 +80,20 @@ impl LineChart {
 }
 
 impl ChartAxis {
+    /// An axis with ticks at round values, at about so many intervals.
+    pub fn new(label: &str, [low, high]: [f64; 2], about: usize, unit: &'static str) -> ChartAxis {
+        ChartAxis {
+            label: label.to_owned(),
+            low,
+            high,
+            ticks: ticks(low, high, about),
+            unit,
+        }
+    }
+
     /// The angle of incidence, in degrees.
     pub fn angle_of_incidence() -> ChartAxis {
-        ChartAxis {
-            label: "angle of incidence".to_owned(),
-            low: 0.0,
-            high: 90.0,
-            ticks: ticks(0.0, 90.0, 9),
-            unit: "°",
-        }
+        ChartAxis::new("angle of incidence", [0.0, 90.0], 9, "°")
     }
 
     /// Where its values lie between two coordinates.
@@ -130,11 +107,7 @@ impl ChartAxis {
         let mut shown = self.ticks.clone();
         shown.retain(|&tick| scale.holds(tick));
         let decimals = decimals(&shown);
-        let tick = |value| Tick {
-            value,
-            label: label(value, decimals, self.unit),
-        };
-        shown.into_iter().map(tick).collect()
+        labelled(shown, |value| label(value, decimals, self.unit))
     }
 
     fn description(&self) -> String {
@@ -146,16 +119,6 @@ impl ChartAxis {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn axis(label: &str, high: f64, unit: &'static str) -> ChartAxis {
-        ChartAxis {
-            label: label.into(),
-            low: 0.0,
-            high,
-            ticks: ticks(0.0, high, 5),
-            unit,
-        }
-    }
 
     fn series(name: &str, style: Style, points: &[(f64, f64)]) -> Series {
         Series {
@@ -169,8 +132,8 @@ mod tests {
         LineChart {
             title: "Water & <air>".into(),
             subtitle: "Two points".into(),
-            x: axis("Angle", 90.0, "°"),
-            y: axis("Reflectance", 100.0, "%"),
+            x: ChartAxis::new("Angle", [0.0, 90.0], 5, "°"),
+            y: ChartAxis::new("Reflectance", [0.0, 100.0], 5, "%"),
             series: vec![
                 series("fit", Style::Approximate(0), &[(0.0, 5.0), (90.0, 400.0)]),
                 series("exact", Style::Exact, &[(0.0, 2.0), (90.0, 100.0)]),

@@ -91,7 +91,7 @@ fn albedo(part: Part, at: DVec2, place: DVec3) -> DVec3 {
     }
 }
 
-/// Glass tiles in their grout. A dark band lies at a distance from the edge.
+/// OpticalMaterial tiles in their grout. A dark band lies at a distance from the edge.
 fn tile(place: DVec2, to_edge: f64) -> DVec3 {
     let number = (place / TILE).floor();
     let within = place - TILE * number;

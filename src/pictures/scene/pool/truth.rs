@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::solids::{Hit, hit};
 use super::{BASIN_MAX, BASIN_MIN, Pool};
 use crate::physics::optics;
-use crate::pictures::scene::glass::Glass;
+use crate::pictures::scene::material::OpticalMaterial;
 use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
 
 /// How many places are tried along a ray between the highest crest and the lowest trough, and the steps of the search between two
@@ -39,7 +39,13 @@ struct Light<'a> {
 
 impl Pool {
     /// What a ray from the eye shows: by the waves' heights, and by their normals alone.
-    pub fn seen(&self, water: &Glass, around: Around, eye: DVec3, direction: DVec3) -> Traced {
+    pub fn seen(
+        &self,
+        water: &OpticalMaterial,
+        around: Around,
+        eye: DVec3,
+        direction: DVec3,
+    ) -> Traced {
         let light = Light {
             pool: self,
             n: water.n.y,

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::{WALL, Window, outward, right};
 use crate::physics::optics;
-use crate::pictures::scene::glass::Glass;
+use crate::pictures::scene::material::OpticalMaterial;
 use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
 
 /// The thickness of the glass.
@@ -19,7 +19,13 @@ const LEAST: f64 = 1e-5;
 impl Window {
     /// What a ray from the eye shows: with all reflections between both surfaces, and by refraction alone in glass without
     /// thickness.
-    pub fn seen(&self, glass: &Glass, around: Around, eye: DVec3, direction: DVec3) -> Traced {
+    pub fn seen(
+        &self,
+        glass: &OpticalMaterial,
+        around: Around,
+        eye: DVec3,
+        direction: DVec3,
+    ) -> Traced {
         let distance = -eye.dot(outward()) / direction.dot(outward());
         let place = eye + distance * direction;
         let at = DVec2::new(place.dot(right()), place.y);

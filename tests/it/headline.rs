@@ -4,10 +4,13 @@
 //! A sphere is seen from afar in a room that is white everywhere, so a pixel's colour is the reflectance at its angle:
 //! at r of the radius sin θ = r. The right half of a sphere shows the error instead of the colour.
 
-use crate::lab::chart::exact_and_approximated;
-use crate::pictures::plot::{
+use fresnel_gen::generator::emit::{Bounds, Naming, specialised_function};
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::optics::cosine;
+use fresnel_gen::pictures::plot::{
     ChartAxis, FOOT, HEADING, Layout, LineChart, PANEL, PanelFrame, SUBTITLE, Series, Style, TICK,
-    hex_colour, ticks,
+    hex_colour,
 };
 
 /// The materials, each with the lowest reflectance on its axis.
@@ -50,10 +53,7 @@ struct Curve {
 }
 
 /// The picture as SVG text. `command` makes it again and stands at its foot.
-///
-/// # Errors
-/// A material or a method does not exist, or the material cannot be viewed.
-pub fn headline(command: &str) -> Result<String, String> {
+pub fn headline(command: &str) -> String {
     let mut layout = Layout::new(PICTURE);
     let title = "Schlick's approximation, fitted, and the exact law";
     layout.paragraph(&HEADING, title);
@@ -63,7 +63,7 @@ pub fn headline(command: &str) -> Result<String, String> {
     );
     layout.paragraph(&SUBTITLE, &words);
     for (material, low) in MATERIALS {
-        let curves = curves(material)?;
+        let curves = curves(material);
         let (spheres, chart) = (spheres(material, &curves), chart(material, &curves, low));
         layout.side_by_side(
             PICTURE.margin - SPHERES.margin,
@@ -71,21 +71,32 @@ pub fn headline(command: &str) -> Result<String, String> {
         );
     }
     layout.paragraph(&FOOT, command);
-    Ok(layout.document(title, &words))
+    layout.document(title, &words)
 }
 
 fn degrees() -> impl Iterator<Item = f64> {
     (0..ANGLES).map(|i| 90.0 * f64::from(i) / f64::from(ANGLES - 1))
 }
 
-/// The reflectance by each method, and last by the whole spectrum.
-fn curves(material: &str) -> Result<Vec<Curve>, String> {
-    let degrees: Vec<f64> = degrees().collect();
-    let found = exact_and_approximated(material, &METHODS.map(|(method, _)| method), &degrees)?;
-    let names = METHODS.map(|(_, shown)| shown).into_iter().chain([EXACT]);
-    let colours = found.by_methods.into_iter().chain([found.exact]);
-    let curve = |(name, colours)| Curve { name, colours };
-    Ok(names.zip(colours).map(curve).collect())
+/// The reflectance in air by each method, and last by the whole spectrum.
+fn curves(material: &str) -> Vec<Curve> {
+    let subject = &crate::subjects(&[material])[0];
+    let cosines: Vec<f64> = degrees().map(cosine).collect();
+    let mut curves = Vec::new();
+    for (method, name) in METHODS {
+        let method = methods::find(method).unwrap();
+        let emitted =
+            specialised_function(method, subject, &Naming::default(), &Bounds::recorded());
+        let values = evaluate(&emitted.unwrap().function, &[Value::each(cosines.clone())]);
+        let colours = (0..cosines.len()).map(|i| values.at(i)).collect();
+        curves.push(Curve { name, colours });
+    }
+    let exact = cosines.iter().map(|c| subject.reference.at(*c)).collect();
+    curves.push(Curve {
+        name: EXACT,
+        colours: exact,
+    });
+    curves
 }
 
 /// The spheres of a material side by side.
@@ -93,7 +104,7 @@ fn spheres(material: &str, curves: &[Curve]) -> Layout {
     let mut layout = Layout::new(SPHERES);
     layout.paragraph(&PANEL, material);
     let exact = &curves[curves.len() - 1];
-    let (top, mut elements) = (layout.bottom() + 18.0, Vec::new());
+    let (top, mut elements) = (layout.bottom + 18.0, Vec::new());
     let step = SPHERES.room() / curves.len() as f64;
     for (i, curve) in curves.iter().enumerate() {
         let centre = [SPHERES.margin + step * (i as f64 + 0.5), top + RADIUS];
@@ -165,13 +176,7 @@ fn chart(material: &str, curves: &[Curve], low: f64) -> LineChart {
         title: format!("{material}: mean of the channels"),
         subtitle: String::new(),
         x: ChartAxis::angle_of_incidence(),
-        y: ChartAxis {
-            label: "reflectance".to_owned(),
-            low,
-            high: 1.0,
-            ticks: ticks(low, 1.0, 6),
-            unit: "",
-        },
+        y: ChartAxis::new("reflectance", [low, 1.0], 6, ""),
         series: series.collect(),
         marks: Vec::new(),
         foot: String::new(),

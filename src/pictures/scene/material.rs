@@ -8,9 +8,9 @@ use crate::physics::optics::{COS_82, index_from_f0_f82};
 
 /// A material as a tracer takes it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Glass {
+pub struct OpticalMaterial {
     /// From red to blue or the reverse; the weights sum to (1, 1, 1).
-    pub rays: Vec<Ray>,
+    pub samples: Vec<SpectralSample>,
     /// The index of each channel: the mean over its weights.
     pub n: DVec3,
     /// The extinction coefficient of each channel.
@@ -19,7 +19,7 @@ pub struct Glass {
 
 /// A wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
+pub struct SpectralSample {
     /// Its index.
     pub index: Index,
     /// Its share of red, green and blue.
@@ -29,11 +29,11 @@ pub struct Ray {
 /// A medium with less extinction than this is transparent.
 const TRANSPARENT_K: f64 = 0.1;
 
-impl Glass {
+impl OpticalMaterial {
     /// Without dispersion.
-    pub fn of_index(n: f64) -> Glass {
-        Glass {
-            rays: vec![Ray {
+    pub fn of_index(n: f64) -> OpticalMaterial {
+        OpticalMaterial {
+            samples: vec![SpectralSample {
                 index: Index { n, k: 0.0 },
                 weight: DVec3::ONE,
             }],
@@ -44,7 +44,7 @@ impl Glass {
 
     /// A material under viewing conditions: a ray for each wavelength of the integrator, since the law at a mean index is not the
     /// mean of the laws.
-    pub fn of_surface(surface: &Surface) -> Glass {
+    pub fn of_surface(surface: &Surface) -> OpticalMaterial {
         let weights = &surface.integrator.weights;
         let sum: DVec3 = weights.iter().sum();
         let mean = |of: fn(&Index) -> f64| -> DVec3 {
@@ -53,13 +53,13 @@ impl Glass {
                 .map(|(index, weight)| of(index) * *weight / sum)
                 .sum()
         };
-        let rays = surface.indices.iter().zip(weights);
-        let rays = rays.map(|(index, weight)| Ray {
+        let samples = surface.indices.iter().zip(weights);
+        let samples = samples.map(|(index, weight)| SpectralSample {
             index: *index,
             weight: *weight / sum,
         });
-        let mut glass = Glass {
-            rays: rays.collect(),
+        let mut material = OpticalMaterial {
+            samples: samples.collect(),
             n: mean(|index| index.n),
             k: mean(|index| index.k),
         };
@@ -69,17 +69,17 @@ impl Glass {
                 .map(|cosine| surface.unpolarised(cosine).clamp(DVec3::ZERO, DVec3::ONE));
             let pairs = colours[0].to_array().into_iter().zip(colours[1].to_array());
             let found: Vec<_> = pairs.map(|(f0, f82)| index_from_f0_f82(f0, f82)).collect();
-            glass.n = DVec3::new(found[0].n, found[1].n, found[2].n);
-            glass.k = DVec3::new(found[0].k, found[1].k, found[2].k);
+            material.n = DVec3::new(found[0].n, found[1].n, found[2].n);
+            material.k = DVec3::new(found[0].k, found[1].k, found[2].k);
         }
-        glass
+        material
     }
 
     /// Without dispersion, at green's index.
-    pub fn at_one_index(&self) -> Glass {
-        Glass {
+    pub fn at_one_index(&self) -> OpticalMaterial {
+        OpticalMaterial {
             k: self.k,
-            ..Glass::of_index(self.n.y)
+            ..OpticalMaterial::of_index(self.n.y)
         }
     }
 
