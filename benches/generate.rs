@@ -8,6 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::output::tree;
 use fresnel_gen::generator::request::Request;
+use fresnel_gen::language::targets::Target;
 
 fn everything(c: &mut Criterion) {
     c.bench_function("generate everything that is committed", |b| {
@@ -16,12 +17,12 @@ fn everything(c: &mut Criterion) {
 }
 
 fn one_target(c: &mut Criterion) {
-    for target in ["gles", "spirv"] {
+    for target in [Target::GLES, Target::SPIRV] {
         let request = Request {
-            targets: vec![target.to_owned()],
+            targets: vec![target],
             ..Request::default()
         };
-        c.bench_function(&format!("generate {target}"), |b| {
+        c.bench_function(&format!("generate {}", target.name), |b| {
             b.iter(|| generate(&request))
         });
     }

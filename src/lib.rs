@@ -63,7 +63,7 @@ pub use generator::flavours::Flavour;
 pub use generator::generate::{Generated, generate, generate_single};
 pub use generator::output::artifact::Artifact;
 pub use generator::output::write::write_file;
-pub use generator::request::{Materials, Request, Source};
+pub use generator::request::{Materials, Methods, Request, Source};
 pub use language::effects::Effect;
 pub use language::methods::Method;
 pub use language::targets::Target;

@@ -13,7 +13,7 @@ use crate::cli::flags::choice::{
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{TreeFlags, file_only};
 use crate::cli::flags::viewing::GamutFlags;
-use crate::cli::lists::target_words;
+use crate::cli::lists::requested_targets;
 use crate::cli::output::Output;
 use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
 use crate::cli::plan_file::{material_paths, planned};
@@ -25,14 +25,14 @@ use crate::generator::flavours::Flavour;
 use crate::generator::generate::catalogue::add_catalogue;
 use crate::generator::generate::kept;
 use crate::generator::generate::tables::add_tables;
-use crate::generator::generate::{Generated, Kept, generate_beside, generate_single};
+use crate::generator::generate::{Generated, KeptMethods, generate_beside, generate_single};
 use crate::generator::output::artifact::Artifact;
 use crate::generator::output::depfile;
 use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::tree::{self, ChangedRows, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
 use crate::generator::reference::MaterialInMedium;
-use crate::generator::request::{Materials, Request};
+use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::budget::{
     Budget, BudgetCandidate, BudgetRow, Spread, choose_within, rounded_error,
 };
@@ -147,12 +147,12 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
     let mut lock = (!changes_nothing).then(|| Lock::take(out_dir, announce));
     // Only a run that names methods adds to the methods of a material's file.
     let kept = if flags.method.is_empty() && request.chosen.is_empty() {
-        Kept::new()
+        KeptMethods::new()
     } else {
         kept(out_dir, request.precision)?
     };
     let mut generated = generate_beside(request, &kept)?;
-    if request.names_nothing() {
+    if request.selects_nothing() {
         add_catalogue(&mut generated, request)?;
     }
     if generated.scope.whole {
@@ -213,13 +213,16 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
         ..request
     };
     let subjects = request.subjects()?.materials();
-    let methods = request.resolved_methods()?;
-    let methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
+    let named = request.methods.named();
+    let methods = named.unwrap_or_else(|| methods::ALL.to_vec());
     let rows = choose_within(budget, methods, &subjects, &request.viewing)?;
-    let chosen = |row: &BudgetRow| (row.material.clone(), row.choice.chosen.method);
+    let chosen = |row: &BudgetRow| {
+        let method = methods::find(row.choice.chosen.method);
+        Some((row.material.clone(), method?))
+    };
     let request = Request {
-        chosen: rows.iter().map(chosen).collect(),
-        methods: Vec::new(),
+        chosen: rows.iter().filter_map(chosen).collect(),
+        methods: Methods::Default,
         ..request
     };
     Ok((request, rows.iter().flat_map(budget_remarks).collect()))
@@ -230,12 +233,10 @@ const USUAL_GPU: &str = "rdna2";
 
 fn request(flags: &GenerateFlags) -> Result<Request, Error> {
     Ok(Request {
-        targets: target_words(&flags.target, flags.output.as_deref())?,
-        methods: flags.method.iter().map(ToString::to_string).collect(),
-        effects: flags.effect.iter().map(ToString::to_string).collect(),
-        flavours: (flags.flavour.iter())
-            .map(|flavour| flavour.name.to_owned())
-            .collect(),
+        targets: requested_targets(&flags.target, flags.output.as_deref())?,
+        methods: Choice::requested(&flags.method),
+        effects: Choice::effects(&flags.effect),
+        flavours: flags.flavour.clone(),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
         prefix: flags.prefix.clone(),
@@ -539,11 +540,8 @@ const FAR: f64 = 2.0;
 /// # Errors
 /// The request names something that does not exist, or a material's file has a fault.
 pub fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
-    let named = request.resolved_methods()?.unwrap_or_default();
-    let named: Vec<&Method> = named
-        .into_iter()
-        .filter(|method| method.is_fitted() && !method.claims.by_class.is_empty())
-        .collect();
+    let mut named = request.methods.named().unwrap_or_default();
+    named.retain(|method| method.is_fitted() && !method.claims.by_class.is_empty());
     let is_of_materials = !matches!(request.materials, Materials::None | Materials::Default);
     if named.is_empty() || !is_of_materials || !request.effects.is_empty() {
         return Ok(Vec::new());

@@ -402,32 +402,32 @@ impl TargetSheet {
     }
 }
 
-/// The targets as a request names them: those of `--target`, or the one of the file's extension. `None` where neither names one.
+/// The targets of a request: those of `--target`, or the one of the file's extension. Empty where neither names one.
 ///
 /// # Errors
 /// No language's files have this extension, or the extension is of another language than `--target`.
-pub fn target_words(
-    named: &[Choice<&'static Target>],
+pub fn requested_targets(
+    words: &[Choice<&'static Target>],
     file: Option<&Path>,
-) -> Result<Vec<String>, Error> {
-    let words: Vec<String> = named.iter().map(ToString::to_string).collect();
+) -> Result<Vec<&'static Target>, Error> {
+    let named = Choice::targets(words);
     let Some(file) = file.filter(|file| *file != Path::new("-")) else {
-        return Ok(words);
+        return Ok(named);
     };
     let ending = file.extension().and_then(|ending| ending.to_str());
     let ending = ending.map(str::to_lowercase);
     let of_ending = of_ending(ending.as_deref().unwrap_or_default());
     // If two languages share the extension, the default one.
     let usual = of_ending.iter().find(|target| target.by_default);
-    match (usual.or(of_ending.first()), words.as_slice()) {
-        (Some(first), []) => Ok(vec![first.name.to_owned()]),
+    match (usual.or(of_ending.first()), words) {
+        (Some(first), []) => Ok(vec![*first]),
         (None, []) if ending.is_some() => Err(no_language(file).into()),
-        (Some(first), [one]) if one != "all" && of_ending.iter().all(|it| it.name != one) => {
+        (Some(first), [Choice::One(one, _)]) if of_ending.iter().all(|it| it.name != one) => {
             let (file, language) = (crate::physics::foreign::path(&file), first.name);
             let why = format!("`{file}` ends as a file of {language}, and --target is {one}");
             Err(RequestFault::conflict(why).into())
         }
-        _ => Ok(words),
+        _ => Ok(named),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Reads back a plan that `plan --json` wrote, as the request for exactly its functions.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::cli::error::Error;
@@ -9,7 +9,7 @@ use crate::generator::emit::FunctionForm;
 use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::generator::error::unknown;
 use crate::generator::request::source::{self, load};
-use crate::generator::request::{Materials, Request};
+use crate::generator::request::{Materials, Methods, Request};
 use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{self, FileFault};
@@ -28,7 +28,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
     let plan = read(file)?;
     let mut sources = Vec::new();
     let mut chosen = BTreeMap::new();
-    let mut library = BTreeSet::new();
+    let mut library = Vec::new();
     for (place, row) in plan.rows.iter().enumerate() {
         let at_row = |error: Error| {
             Error::usage(format!(
@@ -40,7 +40,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
         };
         let method = method(row).map_err(at_row)?;
         if row.form != FunctionForm::Specialised {
-            library.insert(row.method.clone());
+            library.push(method);
             continue;
         }
         let material = MaterialName::parse(&row.material).map_err(Error::from);
@@ -49,7 +49,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
         let source = name.source().map_err(at_row)?;
         let loaded = load(&source).map_err(|fault| at_row(fault.into()))?;
         let name = loaded.material.name;
-        if chosen.insert(name, method.name).is_some() {
+        if chosen.insert(name, method).is_some() {
             let what =
                 "another row gives this material a function; a plan has one for each".to_owned();
             return Err(at_row(Error::usage(what)));
@@ -59,7 +59,11 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
     let mut viewing = request.viewing.clone();
     viewing.integration.space = space(&plan)?;
     Ok(Request {
-        methods: library.into_iter().collect(),
+        methods: if library.is_empty() {
+            Methods::Default
+        } else {
+            Methods::These(library)
+        },
         materials: if sources.is_empty() {
             Materials::None
         } else {

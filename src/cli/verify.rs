@@ -209,9 +209,9 @@ fn shard(flags: &VerifyFlags) -> Result<Option<Shard>, Error> {
 
 fn request(flags: &VerifyFlags) -> Result<Request, Error> {
     Ok(Request {
-        targets: flags.target.iter().map(ToString::to_string).collect(),
-        methods: flags.method.iter().map(ToString::to_string).collect(),
-        effects: flags.effect.iter().map(ToString::to_string).collect(),
+        targets: Choice::targets(&flags.target),
+        methods: Choice::requested(&flags.method),
+        effects: Choice::effects(&flags.effect),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
         viewing: flags.viewing.conditions()?,

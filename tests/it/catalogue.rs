@@ -30,7 +30,7 @@ fn files() -> (Value, Vec<Artifact>) {
     let mut generated = generate(&request).unwrap();
     let json = serde_json::from_slice(&shared("catalogue.json")).unwrap();
     let all = Request {
-        targets: targets::ALL.iter().map(|t| t.name.to_owned()).collect(),
+        targets: targets::ALL.to_vec(),
         ..request
     };
     generated.artifacts.clear();

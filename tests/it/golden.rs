@@ -4,7 +4,7 @@ use fresnel_gen::generator::emit::HeaderForm;
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::request::Request;
-use fresnel_gen::language::methods;
+use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::num::Precision;
 
 /// The tree as a whole. The library alone bakes no tables.
@@ -274,7 +274,7 @@ fn heads_of_effects_say_what_they_must() {
 fn in_both_precisions(header: HeaderForm) -> Vec<Artifact> {
     let one = |precision| {
         let request = Request {
-            targets: all(),
+            targets: targets::ALL.to_vec(),
             precision,
             header,
             ..Request::default()
@@ -282,11 +282,4 @@ fn in_both_precisions(header: HeaderForm) -> Vec<Artifact> {
         generate(&request).expect("it generates").artifacts
     };
     Precision::ALL.into_iter().flat_map(one).collect()
-}
-
-fn all() -> Vec<String> {
-    fresnel_gen::language::targets::ALL
-        .iter()
-        .map(|target| target.name.to_owned())
-        .collect()
 }

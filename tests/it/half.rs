@@ -9,10 +9,11 @@ use fresnel_gen::generator::emit::{Bounds, EmittedFunction, Naming, specialised_
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::reference::MaterialInMedium;
-use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
 use fresnel_gen::lab::verify::{HalfTrial, halves, library_half_error};
 use fresnel_gen::language::ir::Value;
 use fresnel_gen::language::methods::{self, Contract, HALF_AIM, InHalf, Method};
+use fresnel_gen::language::targets::Target;
 use fresnel_gen::physics::num::{Half, Num, Precision};
 
 /// Random media over which a library function's error is taken.
@@ -35,9 +36,9 @@ fn naming() -> Naming {
     }
 }
 
-fn in_half(methods: &[&str], force: bool) -> Request {
+fn in_half(methods: Methods, force: bool) -> Request {
     Request {
-        methods: methods.iter().map(|name| (*name).to_owned()).collect(),
+        methods,
         materials: Materials::None,
         precision: Precision::F16,
         force,
@@ -248,7 +249,7 @@ fn an_interface_that_is_not_there_reflects_nothing() {
 #[test]
 fn a_method_that_cannot_be_saved_is_refused_by_name_unless_forced() {
     for method in methods::ALL {
-        let result = generate(&in_half(&[method.name], false));
+        let result = generate(&in_half(Methods::These(vec![method]), false));
         let Some(why) = method.half.library_refusal() else {
             assert!(result.is_ok(), "{}", method.name);
             continue;
@@ -261,7 +262,7 @@ fn a_method_that_cannot_be_saved_is_refused_by_name_unless_forced() {
         for part in [method.name, why, "--force"] {
             assert!(words.contains(part), "{words}");
         }
-        let forced = generate(&in_half(&[method.name], true)).expect("it is forced");
+        let forced = generate(&in_half(Methods::These(vec![method]), true)).expect("it is forced");
         let text = &forced.artifacts[0].bytes;
         let text = String::from_utf8_lossy(text);
         assert!(text.contains("nothing is promised"), "{text}");
@@ -271,7 +272,7 @@ fn a_method_that_cannot_be_saved_is_refused_by_name_unless_forced() {
 
 #[test]
 fn without_a_name_such_methods_are_left_out_with_a_remark() {
-    let generated = generate(&in_half(&[], false)).expect("it generates");
+    let generated = generate(&in_half(Methods::Default, false)).expect("it generates");
     let refused: Vec<&&Method> = methods::ALL
         .iter()
         .filter(|method| method.half.library_refusal().is_some())
@@ -296,7 +297,7 @@ fn what_is_solved_in_f64_is_written_for_materials() {
     for method in solved {
         let request = Request {
             materials: Materials::These(vec![Source::Named("gold".to_owned())]),
-            ..in_half(&[method.name], false)
+            ..in_half(Methods::These(vec![method]), false)
         };
         let generated = generate(&request).expect("it generates");
         let name = format!("fresnel_gold_{}_f16", method.name);
@@ -310,7 +311,7 @@ fn what_is_solved_in_f64_is_written_for_materials() {
 #[test]
 fn half_precision_stands_beside_single_precision() {
     let request = |precision| Request {
-        targets: vec!["wgsl".to_owned()],
+        targets: vec![Target::WGSL],
         precision,
         ..Request::default()
     };

@@ -13,16 +13,17 @@ use crate::tables::markdown::{
     targets_table,
 };
 use fresnel_gen::generator::generate::generate_single;
-use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
+use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Methods, Request, Source};
 use fresnel_gen::lab::cost::records;
-use fresnel_gen::language::methods;
+use fresnel_gen::language::methods::{self, Method};
+use fresnel_gen::language::targets::Target;
 use fresnel_gen::physics::materials::{self, ViewingConditions};
 use fresnel_gen::pictures::material_sheet::material_sheet;
 
 fn example() -> String {
     let request = Request {
-        targets: vec!["hlsl".to_owned()],
-        methods: vec!["fitted".to_owned()],
+        targets: vec![Target::HLSL],
+        methods: Methods::These(vec![Method::FITTED]),
         materials: Materials::These(vec![Source::Named("gold".to_owned())]),
         ..Request::default()
     };

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::generator::error::RequestFault;
 use crate::generator::flavours::{self, Flavour};
+use crate::generator::request::Methods;
 use crate::lab::cost::{FAMILIES, Family};
 use crate::language::effects::{self, Effect};
 use crate::language::methods::{self, Method};
@@ -68,7 +69,43 @@ impl<T> Choice<T> {
     }
 }
 
+impl<T: Copy> Choice<T> {
+    /// The items that these words name, in their order; for `all`, these.
+    pub fn items(words: &[Choice<T>], all: impl Iterator<Item = T> + Clone) -> Vec<T> {
+        let item = |word: &Choice<T>| match word {
+            Choice::All => all.clone().collect(),
+            Choice::None => Vec::new(),
+            Choice::One(_, item) => vec![*item],
+        };
+        words.iter().flat_map(item).collect()
+    }
+}
+
+impl Choice<&'static Target> {
+    /// The targets that these words name. `all` means those written by default.
+    pub fn targets(words: &[Choice<&'static Target>]) -> Vec<&'static Target> {
+        let all = targets::ALL.iter().copied();
+        Choice::items(words, all.filter(|target| target.by_default))
+    }
+}
+
+impl Choice<&'static Effect> {
+    /// The effects that these words name.
+    pub fn effects(words: &[Choice<&'static Effect>]) -> Vec<&'static Effect> {
+        Choice::items(words, effects::ALL.iter().copied())
+    }
+}
+
 impl Choice<&'static Method> {
+    /// The choice of methods for a request.
+    pub fn requested(words: &[Choice<&'static Method>]) -> Methods {
+        match words {
+            [] => Methods::Default,
+            words if Choice::is_all(words) => Methods::All,
+            words => Methods::These(words.iter().filter_map(Choice::named).copied().collect()),
+        }
+    }
+
     /// The methods that these words choose, sorted by name.
     pub fn methods(words: &[Choice<&'static Method>]) -> Vec<&'static Method> {
         Choice::chosen(words, methods::ALL.iter().copied(), |method| method.name)

@@ -31,7 +31,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
         Some(rows) => (rows, request.viewing.reference_in_words()),
         None => derived_rows(request)?,
     };
-    for target in request.resolved_targets()? {
+    for target in request.targets_or_default() {
         let command = command(request, Some(target.name))?;
         let file = emit::catalogue_array(target, &rows, &request.naming(), &reference, &command)?;
         generated.artifacts.extend(file.map(|file| {
@@ -176,39 +176,23 @@ fn artifact(path: String, bytes: Vec<u8>, target: &str, detail: Detail) -> Artif
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::generator::request::Methods;
+    use crate::language::methods::Method;
+    use crate::language::targets::Target;
+    use crate::physics::num::Precision;
 
     #[test]
-    fn a_run_that_names_nothing_writes_it() {
-        let usual = Request::default();
-        let named = |methods: &[&str]| methods.iter().map(|m| (*m).to_owned()).collect();
-        assert!(usual.names_nothing());
-        assert!(
-            Request {
-                targets: named(&["gles"]),
-                ..usual.clone()
-            }
-            .names_nothing()
-        );
-        assert!(
-            !Request {
-                methods: named(&["fitted"]),
-                ..usual.clone()
-            }
-            .names_nothing()
-        );
-        assert!(
-            !Request {
-                materials: Materials::None,
-                ..usual.clone()
-            }
-            .names_nothing()
-        );
-        assert!(
-            !Request {
-                precision: crate::physics::num::Precision::F16,
-                ..usual
-            }
-            .names_nothing()
-        );
+    fn a_run_that_selects_nothing_writes_it() {
+        let usual = Request::new;
+        assert!(usual().selects_nothing());
+        assert!(usual().target(Target::GLES).selects_nothing());
+        assert!(!usual().method(Method::FITTED).selects_nothing());
+        assert!(!usual().material("gold").selects_nothing());
+        assert!(!usual().precision(Precision::F16).selects_nothing());
+        let all = Request {
+            methods: Methods::All,
+            ..usual()
+        };
+        assert!(!all.selects_nothing());
     }
 }

@@ -4,10 +4,10 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::written::Owners;
-use crate::generator::generate::{Made, Run};
+use crate::generator::generate::{GeneratedFile, Run};
 use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::MaterialInMedium;
-use crate::generator::request::Request;
+use crate::generator::request::{Request, each_once};
 use crate::language::effects::{self, Effect, USUAL_METHOD};
 use crate::language::methods::{self, Method};
 use crate::language::targets::Target;
@@ -31,7 +31,7 @@ pub fn wanted(
 ) -> Result<WantedEffects, Error> {
     if request.effects.is_empty() {
         return Ok(WantedEffects {
-            effects: if request.names_nothing() {
+            effects: if request.selects_nothing() {
                 effects::ALL.to_vec()
             } else {
                 Vec::new()
@@ -55,7 +55,7 @@ pub fn wanted(
         }
     };
     Ok(WantedEffects {
-        effects: request.resolved_effects()?,
+        effects: each_once(request.effects.clone(), |effect| effect.name),
         method,
     })
 }
@@ -92,7 +92,7 @@ impl Run<'_> {
     }
 
     /// All files of effects.
-    pub fn effect_files(&self, owners: &mut Owners) -> Result<Vec<Made>, Error> {
+    pub fn effect_files(&self, owners: &mut Owners) -> Result<Vec<GeneratedFile>, Error> {
         let mut files = Vec::new();
         for (request, functions) in self.effect_functions()? {
             let stem = request.stem();
@@ -103,7 +103,7 @@ impl Run<'_> {
                 let command = self.effect_command(target, &request);
                 let naming = &self.naming;
                 let file = emit::effect_file(target, &request, &functions, naming, &command)?;
-                files.push(Made {
+                files.push(GeneratedFile {
                     artifact: Artifact {
                         path: format!("{}/{}", target.name, file.name),
                         bytes: file.bytes,
@@ -136,8 +136,8 @@ impl Run<'_> {
         }
         all.retain(|(_, functions)| !functions.is_empty());
         if all.is_empty() && self.is_of_effects() {
-            let names = self.request.effects.join(", ");
-            let why = format!("{}; leave the flag out", self.unchanged(&names));
+            let names: Vec<&str> = self.request.effects.iter().map(|one| one.name).collect();
+            let why = format!("{}; leave the flag out", self.unchanged(&names.join(", ")));
             return Err(RequestFault::conflict(why).into());
         }
         Ok(all)

@@ -21,8 +21,8 @@ use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::Subjects;
-use crate::generator::request::{Materials, Request};
-use crate::language::methods::{self, Method};
+use crate::generator::request::{Materials, Request, each_once};
+use crate::language::methods::Method;
 use crate::language::targets::Target;
 use crate::physics::materials::SurfaceError;
 use effects::WantedEffects;
@@ -49,7 +49,7 @@ pub struct Generated {
 
 /// Methods that a material's file holds besides those of the request, by target and material. Earlier runs put them there by
 /// name. A run that names methods adds to a file and removes nothing from it.
-pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
+pub type KeptMethods = BTreeMap<(String, String), Vec<&'static Method>>;
 
 /// Generates everything that the request asks for.
 ///
@@ -66,7 +66,7 @@ pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
 /// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over
 /// the whole spectrum, or two functions would have the same name.
 pub fn generate(request: &Request) -> Result<Generated, Error> {
-    let mut generated = generate_beside(request, &Kept::new())?;
+    let mut generated = generate_beside(request, &KeptMethods::new())?;
     if request.tables {
         let materials = request.materials.clone();
         let viewing = as_tables_are_seen(&request.viewing, false);
@@ -101,7 +101,7 @@ impl Generated {
 ///
 /// # Errors
 /// As [`generate()`].
-pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Error> {
+pub fn generate_beside(request: &Request, kept: &KeptMethods) -> Result<Generated, Error> {
     let run = Run::new(request)?;
     let mut artifacts: Vec<Artifact> = made(&run, kept)?
         .into_iter()
@@ -125,7 +125,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
 
 /// A file, and the functions in it.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct GeneratedFile {
     /// The file.
     pub artifact: Artifact,
     /// Its functions in order.
@@ -136,9 +136,9 @@ pub struct Made {
 
 /// The result of a request, with the graphs of its functions.
 #[derive(Clone, Debug)]
-pub struct Meant {
+pub struct GeneratedWithGraphs {
     /// The files.
-    pub files: Vec<Made>,
+    pub files: Vec<GeneratedFile>,
     /// The materials.
     pub subjects: Vec<MaterialInMedium>,
     /// Why some materials that `all` includes are left out.
@@ -147,26 +147,26 @@ pub struct Meant {
 
 /// What the files of a folder hold.
 #[derive(Clone, Debug, Default)]
-pub struct Held {
+pub struct ExistingContents {
     /// The methods of material files, which hold exactly these.
-    pub methods: Kept,
+    pub methods: KeptMethods,
     /// The files whose comments have the full form, with their folder and without their extension.
     pub full_headers: BTreeSet<String>,
 }
 
-/// Generates everything that the request asks for, and keeps the graphs. For a file in `held`, the methods and the form of
+/// Generates everything that the request asks for, and keeps the graphs. For a file in `existing`, the methods and the form of
 /// comments are taken from there.
 ///
 /// # Errors
 /// As [`generate()`].
-pub fn generate_meant<'r>(
+pub fn generate_with_graphs<'r>(
     request: &'r Request,
-    kept: &Kept,
-    held: &'r Held,
-) -> Result<Meant, Error> {
+    kept: &KeptMethods,
+    existing: &'r ExistingContents,
+) -> Result<GeneratedWithGraphs, Error> {
     let mut run = Run::new(request)?;
-    run.held = Some(held);
-    Ok(Meant {
+    run.existing = Some(existing);
+    Ok(GeneratedWithGraphs {
         files: made(&run, kept)?,
         subjects: run
             .subjects
@@ -177,7 +177,7 @@ pub fn generate_meant<'r>(
     })
 }
 
-fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
+fn made(run: &Run, kept: &KeptMethods) -> Result<Vec<GeneratedFile>, Error> {
     let mut owners = Owners::default();
     if run.targets.is_empty() {
         return Ok(Vec::new());
@@ -209,18 +209,19 @@ struct Run<'r> {
     naming: Naming,
     bounds: Bounds,
     /// The contents of existing files that are compared with what would be written.
-    held: Option<&'r Held>,
+    existing: Option<&'r ExistingContents>,
 }
 
 impl<'r> Run<'r> {
     fn new(request: &'r Request) -> Result<Run<'r>, Error> {
-        let named = request.resolved_methods()?;
+        let named = request.methods.named();
         request.derivation()?;
         let names_others = named.is_some() || !request.effects.is_empty();
         let no_materials = names_others && request.materials == Materials::Default
             || request.materials == Materials::None;
         written::check(request, named.as_deref(), no_materials)?;
-        let (targets, flavours) = (request.resolved_targets()?, request.resolved_flavours()?);
+        let targets = request.targets_or_default();
+        let flavours = each_once(request.flavours.clone(), |flavour| flavour.name);
         flavours::check(request, &flavours, &targets, named.as_deref())?;
         let subjects = if no_materials {
             Subjects::default()
@@ -237,7 +238,7 @@ impl<'r> Run<'r> {
             named,
             naming: request.naming(),
             bounds: Bounds::recorded(),
-            held: None,
+            existing: None,
         })
     }
 
@@ -248,7 +249,11 @@ impl<'r> Run<'r> {
         Ok(functions)
     }
 
-    fn library(&self, method: &'static Method, owners: &mut Owners) -> Result<Vec<Made>, Error> {
+    fn library(
+        &self,
+        method: &'static Method,
+        owners: &mut Owners,
+    ) -> Result<Vec<GeneratedFile>, Error> {
         let functions = self.library_functions(method)?;
         for emitted in &functions {
             owners.claim(&emitted.name, "the library")?;
@@ -256,13 +261,13 @@ impl<'r> Run<'r> {
         let mut files = Vec::new();
         for target in &self.targets {
             let form = self.form(target, &functions[0].name);
-            let command = self.command(target, Some(&[method.name]), None, form);
+            let command = self.command(target, Some(&[method]), None, form);
             let heading = Heading {
                 form,
                 command: &command,
             };
             for file in emit::library(target, method, &functions, heading)? {
-                files.push(Made {
+                files.push(GeneratedFile {
                     artifact: artifact(target, file, Some(method.name), None),
                     functions: emit::written_for(target, functions.clone()).collect(),
                     subject: None,
@@ -276,16 +281,20 @@ impl<'r> Run<'r> {
         &self,
         index: usize,
         subject: &MaterialInMedium,
-        kept: &Kept,
+        kept: &KeptMethods,
         owners: &mut Owners,
-    ) -> Result<Vec<Made>, Error> {
-        let mut ready: BTreeMap<&str, EmittedFunction> = BTreeMap::new();
+    ) -> Result<Vec<GeneratedFile>, Error> {
+        let mut ready = BTreeMap::new();
         let mut files = Vec::new();
         for target in &self.targets {
             let methods = written::methods_of(self, target, subject, kept);
             let functions = self.specialised(&methods, subject, &mut ready)?;
-            let usual = methods == written::usual(self.request, subject);
-            let (named, of) = ((!usual).then_some(&methods[..]), Some(subject));
+            let usual = written::usual(self.request, subject);
+            let is_usual = methods
+                .iter()
+                .map(|m| m.name)
+                .eq(usual.iter().map(|m| m.name));
+            let (named, of) = ((!is_usual).then_some(&methods[..]), Some(subject));
             let form = self.form(
                 target,
                 &format!("materials/{}", self.naming.material(subject)),
@@ -296,7 +305,7 @@ impl<'r> Run<'r> {
                 command: &command,
             };
             for file in emit::material(target, subject, &functions, &self.naming, heading)? {
-                files.push(Made {
+                files.push(GeneratedFile {
                     artifact: artifact(target, file, None, Some(&subject.name)),
                     functions: functions.clone(),
                     subject: Some(index),
@@ -309,21 +318,21 @@ impl<'r> Run<'r> {
         Ok(files)
     }
 
-    fn specialised<'a>(
+    /// The functions of these methods for a material. Those that are ready by the method's name are taken.
+    fn specialised(
         &self,
-        methods: &[&'a str],
+        methods: &[&'static Method],
         subject: &MaterialInMedium,
-        ready: &mut BTreeMap<&'a str, EmittedFunction>,
+        ready: &mut BTreeMap<&'static str, EmittedFunction>,
     ) -> Result<Vec<EmittedFunction>, Error> {
         let mut functions = Vec::new();
-        for name in methods {
-            if !ready.contains_key(name) {
-                let method = methods::find(name).expect("resolved names are names of methods");
+        for method in methods {
+            if !ready.contains_key(method.name) {
                 let emitted =
                     emit::specialised_function(method, subject, &self.naming, &self.bounds)?;
-                ready.insert(name, emitted);
+                ready.insert(method.name, emitted);
             }
-            functions.push(ready[name].clone());
+            functions.push(ready[method.name].clone());
         }
         Ok(functions)
     }
@@ -361,7 +370,7 @@ impl<'r> Run<'r> {
             alone: false,
             whole: request.targets.is_empty()
                 && request.flavours.is_empty()
-                && request.names_nothing(),
+                && request.selects_nothing(),
         }
     }
 

@@ -5,12 +5,12 @@
 //! functions that `-o` writes.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, HeaderForm, Heading, Naming, PlaceInFile};
 use crate::generator::error::{Error, RequestFault};
-use crate::generator::generate::{Kept, Run};
+use crate::generator::generate::{KeptMethods, Run};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Manifest};
 use crate::generator::reference::MaterialInMedium;
@@ -48,20 +48,25 @@ pub fn refused(request: &Request, named: Named) -> Vec<String> {
 }
 
 /// The default methods of a material's file.
-pub fn usual(request: &Request, subject: &MaterialInMedium) -> Vec<&'static str> {
-    let mut usual = subject.default_methods();
-    usual.retain(|name| is_written(request, name));
-    usual
+pub fn usual(request: &Request, subject: &MaterialInMedium) -> Vec<&'static Method> {
+    let names = subject.default_methods().into_iter();
+    names
+        .map(registered)
+        .filter(|method| is_written(request, method))
+        .collect()
+}
+
+/// The method of a name that stands in this program.
+fn registered(name: &str) -> &'static Method {
+    methods::find(name).expect("a material's methods are registered")
 }
 
 /// The methods for a material: the one that a budget chose, those named, or the default ones.
-pub fn named_or(run: &Run, material: &str, usual: &[&'static str]) -> Vec<&'static str> {
-    if let Some(chosen) = run.request.chosen.get(material) {
-        return vec![*chosen];
-    }
-    match &run.named {
-        Some(named) => named.iter().map(|method| method.name).collect(),
-        None => usual.to_vec(),
+pub fn named_or(run: &Run, material: &str, usual: &[&'static Method]) -> Vec<&'static Method> {
+    match (run.request.chosen.get(material), &run.named) {
+        (Some(chosen), _) => vec![*chosen],
+        (None, Some(named)) => named.clone(),
+        (None, None) => usual.to_vec(),
     }
 }
 
@@ -70,31 +75,31 @@ pub fn methods_of(
     run: &Run,
     target: &Target,
     subject: &MaterialInMedium,
-    kept: &Kept,
-) -> Vec<&'static str> {
+    kept: &KeptMethods,
+) -> Vec<&'static Method> {
     let usual = usual(run.request, subject);
     let file = (target.name.to_owned(), subject.name.clone());
-    let exactly = run.held.and_then(|held| held.methods.get(&file));
+    let exactly = run
+        .existing
+        .and_then(|existing| existing.methods.get(&file));
     let mut chosen = match exactly {
         Some(_) => Vec::new(),
         None => named_or(run, &subject.name, &usual),
     };
-    chosen.retain(|name| is_written(run.request, name));
-    let kept = exactly.or_else(|| kept.get(&file)).into_iter().flatten();
-    chosen.extend(kept.filter_map(|name| methods::find(name)).map(|m| m.name));
-    let rank = |name: &str| {
-        let place = usual.iter().position(|other| *other == name);
+    chosen.retain(|method| is_written(run.request, method));
+    chosen.extend(exactly.or_else(|| kept.get(&file)).into_iter().flatten());
+    let rank = |method: &Method| {
+        let place = usual.iter().position(|other| other.name == method.name);
         place.unwrap_or(usual.len())
     };
-    chosen.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.cmp(b)));
-    chosen.dedup();
+    chosen.sort_by_key(|method| (rank(method), method.name));
+    chosen.dedup_by_key(|method| method.name);
     chosen
 }
 
 /// Whether a method is written for materials in the request's precision.
-pub fn is_written(request: &Request, name: &str) -> bool {
-    let method = methods::find(name);
-    method.is_none_or(|method| request.refusal(method, false).is_none())
+fn is_written(request: &Request, method: &Method) -> bool {
+    request.refusal(method, false).is_none()
 }
 
 /// Refuses named methods that cannot be written in the request's precision.
@@ -136,21 +141,20 @@ impl Owners {
 ///
 /// # Errors
 /// The manifest cannot be read, or is not ours.
-pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
-    let path: PathBuf = out_dir.join(manifest::FILE);
+pub fn kept(out_dir: &Path, precision: Precision) -> Result<KeptMethods, Error> {
+    let path = out_dir.join(manifest::FILE);
     let Some(text) = folder::read(&path)? else {
-        return Ok(Kept::new());
+        return Ok(KeptMethods::new());
     };
-    let mut kept = Kept::new();
+    let mut kept = KeptMethods::new();
     let mut entries = Manifest::parse(&path, &text)?.files;
     entries.retain(|entry| entry.effect.is_none() && entry.precision() == precision.name());
     for entry in entries {
-        let Some(material) = &entry.material else {
-            continue;
-        };
-        kept.entry((entry.target.clone(), material.clone()))
-            .or_default()
-            .extend(entry.function_methods().map(str::to_owned));
+        let methods = entry.function_methods().filter_map(methods::find);
+        if let Some(material) = &entry.material {
+            let file = (entry.target.clone(), material.clone());
+            kept.entry(file).or_default().extend(methods);
+        }
     }
     Ok(kept)
 }
@@ -158,8 +162,8 @@ pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
 impl Run<'_> {
     /// The form of comments in a file, named without its extension. Modules have no comments.
     pub(super) fn form(&self, target: &Target, stem: &str) -> HeaderForm {
-        let held = self.held.map(|held| &held.full_headers);
-        let is_full = held.is_some_and(|full| full.contains(&format!("{}/{stem}", target.name)));
+        let stem = format!("{}/{stem}", target.name);
+        let is_full = (self.existing).is_some_and(|existing| existing.full_headers.contains(&stem));
         match target.finish {
             Finish::Spirv => HeaderForm::Short,
             _ if is_full => HeaderForm::Full,
@@ -171,7 +175,7 @@ impl Run<'_> {
     pub(super) fn command(
         &self,
         target: &Target,
-        methods: Option<&[&str]>,
+        methods: Option<&[&Method]>,
         subject: Option<&MaterialInMedium>,
         form: HeaderForm,
     ) -> String {
@@ -187,7 +191,7 @@ impl Run<'_> {
         });
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])
-            .list("method", methods.into_iter().flatten())
+            .list("method", methods.into_iter().flatten().map(|one| one.name))
             .list("material", subject.map(|subject| &subject.argument))
             .list("medium", medium.map(|(argument, _)| argument))
             .list("prefix", Naming::flag_of_prefix(&request.prefix))
@@ -206,10 +210,10 @@ impl Run<'_> {
 /// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
 ///
 /// ```
-/// use fresnel_gen::{Materials, Request, Source, generate_single};
+/// use fresnel_gen::{Materials, Request, Source, Target, generate_single};
 ///
 /// let request = Request {
-///     targets: vec!["gles".into()],
+///     targets: vec![Target::GLES],
 ///     materials: Materials::These(vec![Source::Named("gold".into())]),
 ///     ..Request::default()
 /// };
@@ -223,7 +227,7 @@ impl Run<'_> {
 pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     let mut request = request.clone();
     if request.targets.is_empty() {
-        request.targets = vec!["wgsl".to_owned()];
+        request.targets = vec![Target::WGSL];
     }
     if request.materials == Materials::Default {
         request.materials = Materials::None;
@@ -237,12 +241,12 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     let (mut pages, mut owners) = (Vec::new(), Owners::default());
     for (subject, _) in &run.subjects {
-        let methods = named_or(&run, &subject.name, &[subject.exact_method()]);
+        let methods = named_or(&run, &subject.name, &[registered(subject.exact_method())]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
             let (place, of) = (PlaceInFile::behind(&pages), Some(subject));
             let form = run.form(target, "");
-            let command = run.command(target, Some(&[emitted.method.name]), of, form) + " -o -";
+            let command = run.command(target, Some(&[emitted.method]), of, form) + " -o -";
             let heading = Heading {
                 form,
                 command: &command,
@@ -259,7 +263,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
             };
             for emitted in emit::written_for(target, functions) {
                 let form = run.form(target, "");
-                let command = run.command(target, Some(&[method.name]), None, form) + " -o -";
+                let command = run.command(target, Some(&[method]), None, form) + " -o -";
                 let (place, heading) = (
                     PlaceInFile::behind(&pages),
                     Heading {

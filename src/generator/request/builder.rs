@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::source::read;
-use super::{Materials, Request, Source};
+use super::{Materials, Methods, Request, Source};
 use crate::generator::emit::HeaderForm;
 use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
@@ -22,29 +22,32 @@ impl Request {
 
     /// Adds a target. Without any, the default ones are written.
     #[must_use]
-    pub fn target(mut self, target: &Target) -> Request {
-        self.targets.push(target.name.to_owned());
+    pub fn target(mut self, target: &'static Target) -> Request {
+        self.targets.push(target);
         self
     }
 
     /// Adds a method. Without any, the library has all, and a material gets its four default ones.
     #[must_use]
-    pub fn method(mut self, method: &Method) -> Request {
-        self.methods.push(method.name.to_owned());
+    pub fn method(mut self, method: &'static Method) -> Request {
+        match &mut self.methods {
+            Methods::These(methods) => methods.push(method),
+            other => *other = Methods::These(vec![method]),
+        }
         self
     }
 
     /// Adds an effect.
     #[must_use]
-    pub fn effect(mut self, effect: &Effect) -> Request {
-        self.effects.push(effect.name.to_owned());
+    pub fn effect(mut self, effect: &'static Effect) -> Request {
+        self.effects.push(effect);
         self
     }
 
     /// Adds an adapter for an engine.
     #[must_use]
-    pub fn flavour(mut self, flavour: &Flavour) -> Request {
-        self.flavours.push(flavour.name.to_owned());
+    pub fn flavour(mut self, flavour: &'static Flavour) -> Request {
+        self.flavours.push(flavour);
         self
     }
 
@@ -135,13 +138,12 @@ mod tests {
 
     #[test]
     fn names_and_files_are_added_one_by_one() {
-        let target: &Target = "wgsl".parse().unwrap();
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/data/materials/gold.toml");
-        let request = Request::new().target(target).method(Method::FITTED);
+        let request = Request::new().target(Target::WGSL).method(Method::FITTED);
         let request = request.material("water").material_file(file).unwrap();
         let request = request.space(Space::DisplayP3).medium("1.5");
-        assert_eq!(request.targets, ["wgsl"]);
-        assert_eq!(request.methods, ["fitted"]);
+        assert_eq!(request.targets[0].name, "wgsl");
+        assert_eq!(request.methods.named().unwrap()[0].name, "fitted");
         assert_eq!(request.inputs(), [file]);
         assert_eq!(request.materials.sources().len(), 2);
         assert!(Request::new().material_file("none.toml").is_err());

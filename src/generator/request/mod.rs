@@ -6,31 +6,30 @@ pub mod source;
 use std::collections::BTreeMap;
 
 use crate::generator::emit::{HeaderForm, Naming};
-use crate::generator::error::{Error, RequestFault, unknown};
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::flavours::Flavour;
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::generator::request::source::{Loaded, Subjects, load};
-use crate::language::effects::{self, Effect};
+use crate::language::effects::Effect;
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
-use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
 
 /// What to generate. `Request::default()` is a run without flags.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Names of targets, or `all` for those written by default. Empty: the same as `all`.
-    pub targets: Vec<String>,
-    /// Names of methods, or `all`. Empty: all, and each material gets its four default ones.
-    pub methods: Vec<String>,
-    /// Names of effects, or `all`. If any are named, only files of effects are written, with R by the one method that is named,
-    /// and specialised to the materials that are named. If none are named, all are written in their default form where neither
-    /// methods nor materials are named, otherwise none.
-    pub effects: Vec<String>,
-    /// Names of flavours: adapters for hosts, written beside the named targets. Without named targets nothing else is written.
-    pub flavours: Vec<String>,
+    /// The targets. If none are named: those written by default, or none beside flavours.
+    pub targets: Vec<&'static Target>,
+    /// The methods.
+    pub methods: Methods,
+    /// The effects. If any are named, only files of effects are written, with R by the one method that is named, and specialised
+    /// to the materials that are named. If none are named, all are written in their default form where neither methods nor
+    /// materials are named, otherwise none.
+    pub effects: Vec<&'static Effect>,
+    /// Flavours: adapters for hosts, written beside the named targets. Without named targets nothing else is written.
+    pub flavours: Vec<&'static Flavour>,
     /// The materials that functions are specialised to.
     pub materials: Materials,
     /// The medium that the light comes from; none for air.
@@ -45,7 +44,7 @@ pub struct Request {
     pub force: bool,
     /// The one method of each material, by the material's name, where a budget chose them; otherwise empty.
     #[doc(hidden)]
-    pub chosen: BTreeMap<String, &'static str>,
+    pub chosen: BTreeMap<String, &'static Method>,
     /// The viewing conditions of materials. Default: the whole spectrum in linear sRGB under D65.
     pub viewing: ViewingConditions,
     /// How much the comments of files say.
@@ -59,7 +58,7 @@ impl Default for Request {
     fn default() -> Request {
         Request {
             targets: Vec::new(),
-            methods: Vec::new(),
+            methods: Methods::Default,
             effects: Vec::new(),
             flavours: Vec::new(),
             materials: Materials::Default,
@@ -74,6 +73,39 @@ impl Default for Request {
             tables: false,
         }
     }
+}
+
+/// The choice of methods.
+#[derive(Clone, Debug, Default)]
+pub enum Methods {
+    /// All in the library, and four for each material.
+    #[default]
+    Default,
+    /// The same, and neither effects nor the catalogue beside them.
+    All,
+    /// The listed methods.
+    These(Vec<&'static Method>),
+}
+
+impl Methods {
+    /// The listed methods, sorted, each once; none where all are meant.
+    #[doc(hidden)]
+    pub fn named(&self) -> Option<Vec<&'static Method>> {
+        match self {
+            Methods::Default | Methods::All => None,
+            Methods::These(methods) => Some(each_once(methods.clone(), |method| method.name)),
+        }
+    }
+}
+
+/// These items, sorted by name, each once.
+pub(in crate::generator) fn each_once<T>(
+    mut items: Vec<&'static T>,
+    name: fn(&T) -> &'static str,
+) -> Vec<&'static T> {
+    items.sort_by_key(|item| name(item));
+    items.dedup_by_key(|item| name(item));
+    items
 }
 
 /// The choice of materials.
@@ -144,93 +176,13 @@ pub const DEFAULT_MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"
 
 impl Request {
     /// The targets, sorted, each once. Those written by default if neither targets nor flavours are named.
-    ///
-    /// # Errors
-    /// A name is no target.
     #[doc(hidden)]
-    pub fn resolved_targets(&self) -> Result<Vec<&'static Target>, Error> {
-        let by_default = || {
-            targets::ALL
-                .iter()
-                .filter(|target| target.by_default)
-                .copied()
-        };
-        let all: Vec<&str> = targets::ALL
-            .iter()
-            .map(|target| target.name)
-            .chain(["all"])
-            .collect();
-        let mut chosen: Vec<&Target> = Vec::new();
-        for name in &self.targets {
-            match targets::find(name) {
-                Some(target) => chosen.push(target),
-                None if name == "all" => chosen.extend(by_default()),
-                None => return Err(unknown("target", name, &all)),
-            }
-        }
+    pub fn targets_or_default(&self) -> Vec<&'static Target> {
         if self.targets.is_empty() && self.flavours.is_empty() {
-            chosen.extend(by_default());
+            let by_default = targets::ALL.iter().copied();
+            return by_default.filter(|target| target.by_default).collect();
         }
-        chosen.sort_by_key(|target| target.name);
-        chosen.dedup_by_key(|target| target.name);
-        Ok(chosen)
-    }
-
-    /// The methods asked for by name, sorted, each once; none where all are meant.
-    ///
-    /// # Errors
-    /// A name is no method.
-    #[doc(hidden)]
-    pub fn resolved_methods(&self) -> Result<Option<Vec<&'static Method>>, Error> {
-        let all: Vec<&str> = methods::ALL
-            .iter()
-            .map(|method| method.name)
-            .chain(["all"])
-            .collect();
-        let mut chosen: Vec<&Method> = Vec::new();
-        for name in self.methods.iter().filter(|name| *name != "all") {
-            chosen.push(methods::find(name).ok_or_else(|| unknown("method", name, &all))?);
-        }
-        chosen.sort_by_key(|method| method.name);
-        chosen.dedup_by_key(|method| method.name);
-        Ok(
-            (!self.methods.is_empty() && !self.methods.iter().any(|name| name == "all"))
-                .then_some(chosen),
-        )
-    }
-
-    /// The effects asked for by name, sorted, each once.
-    ///
-    /// # Errors
-    /// A name is no effect.
-    #[doc(hidden)]
-    pub fn resolved_effects(&self) -> Result<Vec<&'static Effect>, Error> {
-        let names = effects::ALL.iter().map(|effect| effect.name);
-        let all: Vec<&str> = names.chain(["all"]).collect();
-        let mut chosen: Vec<&Effect> = Vec::new();
-        for name in &self.effects {
-            match effects::find(name) {
-                Some(effect) => chosen.push(effect),
-                None if name == "all" => chosen.extend(effects::ALL),
-                None => return Err(unknown("effect", name, &all)),
-            }
-        }
-        chosen.sort_by_key(|effect| effect.name);
-        chosen.dedup_by_key(|effect| effect.name);
-        Ok(chosen)
-    }
-
-    /// The flavours, sorted, each once.
-    ///
-    /// # Errors
-    /// A name is no flavour.
-    #[doc(hidden)]
-    pub fn resolved_flavours(&self) -> Result<Vec<&'static Flavour>, Error> {
-        let parsed = self.flavours.iter().map(|name| name.parse());
-        let mut chosen: Vec<&'static Flavour> = parsed.collect::<Result<_, UnknownName>>()?;
-        chosen.sort_by_key(|flavour| flavour.name);
-        chosen.dedup_by_key(|flavour| flavour.name);
-        Ok(chosen)
+        each_once(self.targets.clone(), |target| target.name)
     }
 
     /// The materials, each read and set in the medium, with the text of both files.
@@ -274,11 +226,11 @@ impl Request {
         }
     }
 
-    /// Whether it names neither methods nor effects nor materials, in single precision. Such a run also writes effects and the
+    /// Whether it selects neither methods nor effects nor materials, in single precision. Such a run also writes effects and the
     /// catalogue, and if it names no targets either (a whole tree), tables.
     #[doc(hidden)]
-    pub fn names_nothing(&self) -> bool {
-        self.methods.is_empty()
+    pub fn selects_nothing(&self) -> bool {
+        matches!(self.methods, Methods::Default)
             && self.effects.is_empty()
             && self.materials == Materials::Default
             && !self.precision.is_half()

@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use crate::generator::emit::{EmittedFunction, HeaderForm};
 use crate::generator::error::Error;
 use crate::generator::generate::kept;
-use crate::generator::generate::{Held, Kept, Made, Meant, generate_meant};
+use crate::generator::generate::{
+    ExistingContents, GeneratedFile, GeneratedWithGraphs, KeptMethods, generate_with_graphs,
+};
 use crate::generator::reference::MaterialInMedium;
-use crate::generator::request::{Materials, Request};
+use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::verify::shipped::{Folder, replace_with_today};
-use crate::language::methods;
+use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::num::Precision;
 
@@ -22,16 +24,16 @@ use crate::physics::num::Precision;
 pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, Error> {
     // Functions that earlier runs put into a material's file belong to it: they would be written again.
     let kept = kept(folder, request.precision)?;
-    let meant = generate_meant(request, &kept, &Held::default())?;
+    let meant = generate_with_graphs(request, &kept, &ExistingContents::default())?;
     let shipped = Folder::new(folder)?;
-    let held = Held {
+    let held = ExistingContents {
         methods: held_methods(request, &meant, &shipped, &kept)?,
         full_headers: full_headers(&meant, &shipped)?,
     };
     let exact = if is_as_meant(&meant, &held) {
         meant.files.clone()
     } else {
-        generate_meant(request, &kept, &held)?.files
+        generate_with_graphs(request, &kept, &held)?.files
     };
     let mut files: Vec<PlannedFile> = Vec::new();
     for (meant, exact) in meant.files.into_iter().zip(exact) {
@@ -53,7 +55,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
         .collect();
     let mut places = shipped.files();
     places.extend(pages.iter().map(|page| folder.join(page)));
-    let unasked = if request.names_nothing() {
+    let unasked = if request.selects_nothing() {
         shipped.others(&request.targets, &pages)
     } else {
         Vec::new()
@@ -76,12 +78,12 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
 /// with one of exactly these methods.
 fn held_methods(
     request: &Request,
-    meant: &Meant,
+    meant: &GeneratedWithGraphs,
     shipped: &Folder,
-    kept: &Kept,
-) -> Result<Kept, Error> {
+    kept: &KeptMethods,
+) -> Result<KeptMethods, Error> {
     let naming = request.naming();
-    let mut held = Kept::new();
+    let mut held = KeptMethods::new();
     for made in &meant.files {
         let Some((file, subject)) = material_file(meant, made) else {
             continue;
@@ -89,10 +91,10 @@ fn held_methods(
         let names = shipped.functions_in(&made.artifact.path)?;
         let in_text = methods::ALL
             .iter()
+            .copied()
             .filter(|method| names.contains(&naming.specialised(method, subject)));
         let mut all = kept.get(&file).cloned().unwrap_or_default();
-        all.extend(in_text.map(|method| method.name.to_owned()));
-        all.retain(|name| methods::find(name).is_some());
+        all.extend(in_text);
         if !all.is_empty() {
             held.entry(file).or_default().extend(all);
         }
@@ -101,7 +103,7 @@ fn held_methods(
 }
 
 /// The files of the folder whose comments have the full form, without their extension. They are compared with files of that form.
-fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Error> {
+fn full_headers(meant: &GeneratedWithGraphs, shipped: &Folder) -> Result<BTreeSet<String>, Error> {
     let mut full = BTreeSet::new();
     for made in &meant.files {
         let path = &made.artifact.path;
@@ -117,8 +119,8 @@ fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Err
 
 /// The key of a material's file, which is its target and material, and the material itself.
 fn material_file<'a>(
-    meant: &'a Meant,
-    made: &Made,
+    meant: &'a GeneratedWithGraphs,
+    made: &GeneratedFile,
 ) -> Option<((String, String), &'a MaterialInMedium)> {
     let subject = &meant.subjects[made.subject?];
     let file = (made.artifact.target.clone(), subject.name.clone());
@@ -127,13 +129,16 @@ fn material_file<'a>(
 
 /// Whether all files that hold functions hold exactly the methods that would be written, in the usual form. Then nothing need be
 /// generated again.
-fn is_as_meant(meant: &Meant, held: &Held) -> bool {
+fn is_as_meant(meant: &GeneratedWithGraphs, held: &ExistingContents) -> bool {
     held.full_headers.is_empty()
         && meant.files.iter().all(|made| {
             let file = material_file(meant, made);
             let held = file.and_then(|(file, _)| held.methods.get(&file));
-            let methods = || made.functions.iter().map(|one| one.method.name.to_owned());
-            held.is_none_or(|held| *held == methods().collect())
+            let names = |methods: &[&'static Method]| -> BTreeSet<&str> {
+                methods.iter().map(|method| method.name).collect()
+            };
+            let written: Vec<&Method> = made.functions.iter().map(|one| one.method).collect();
+            held.is_none_or(|held| names(held) == names(&written))
         })
 }
 
@@ -141,10 +146,10 @@ fn is_as_meant(meant: &Meant, held: &Held) -> bool {
 fn page(
     request: &Request,
     shipped: &Folder,
-    meant: Made,
-    exact: Made,
-) -> Result<(Made, ShippedPage), Error> {
-    let asked_in = |made: &Made| -> Vec<bool> {
+    meant: GeneratedFile,
+    exact: GeneratedFile,
+) -> Result<(GeneratedFile, ShippedPage), Error> {
+    let asked_in = |made: &GeneratedFile| -> Vec<bool> {
         let asked = made.functions.iter();
         asked.map(|one| is_asked_for(request, one)).collect()
     };
@@ -153,7 +158,7 @@ fn page(
     let has = |name: &str| exact.functions.iter().any(|one| one.name == name);
     let missing = meant.functions.iter().filter(|one| !has(&one.name));
     let lacks: Vec<&str> = missing.map(|one| one.name.as_str()).collect();
-    let (mut made, asked) = if request.methods.is_empty() || lacks.is_empty() {
+    let (mut made, asked) = if matches!(request.methods, Methods::Default) || lacks.is_empty() {
         (exact, asked)
     } else {
         let asked = asked_in(&meant);
@@ -167,8 +172,9 @@ fn page(
 
 /// Whether a function's method was asked for: by name, or because none was named.
 fn is_asked_for(request: &Request, emitted: &EmittedFunction) -> bool {
-    let named = |name: &String| name == "all" || name == emitted.method.name;
-    emitted.effect.is_some() || request.methods.is_empty() || request.methods.iter().any(named)
+    let is_named =
+        |methods: &Vec<&Method>| methods.iter().any(|one| one.name == emitted.method.name);
+    emitted.effect.is_some() || request.methods.named().as_ref().is_none_or(is_named)
 }
 
 fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
@@ -179,7 +185,7 @@ fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     Ok(usual.subjects()?.materials())
 }
 
-fn planned(made: Made, page: ShippedPage) -> Result<PlannedFile, Error> {
+fn planned(made: GeneratedFile, page: ShippedPage) -> Result<PlannedFile, Error> {
     let target = targets::find(&made.artifact.target).ok_or_else(|| Error::Usage {
         what: format!("there is no target `{}`", made.artifact.target),
     })?;

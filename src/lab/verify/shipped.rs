@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use crate::generator::emit::HeaderForm;
 use crate::generator::error::Error;
-use crate::generator::generate::Made;
+use crate::generator::generate::GeneratedFile;
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Manifest};
 use crate::lab::verify::drift;
 use crate::lab::verify::listed::{self, Listed};
 use crate::lab::verify::outline::{self, Item, Outline};
 use crate::lab::verify::requested::ShippedPage;
-use crate::language::targets;
+use crate::language::targets::{self, Target};
 use crate::physics::foreign::Foreign;
 
 /// The version of this program.
@@ -28,7 +28,7 @@ fn loop_found(found: &Item) -> String {
 /// Runs what would be written today in place of the file, which lacks some of its functions.
 pub(super) fn replace_with_today(
     page: &mut ShippedPage,
-    made: &Made,
+    made: &GeneratedFile,
     asked: &[bool],
     lacks: &[&str],
 ) {
@@ -75,14 +75,14 @@ impl Folder<'_> {
     }
 
     /// The files of functions, other than these pages, that the manifest lists for these targets, or for any where none is named.
-    pub fn others(&self, targets: &[String], pages: &BTreeSet<&str>) -> Vec<String> {
+    pub fn others(&self, targets: &[&Target], pages: &BTreeSet<&str>) -> Vec<String> {
         let listed = self
             .manifest
             .iter()
             .flat_map(|(manifest, _)| &manifest.files);
         let is_wanted = |target: &str| {
             targets::find(target).is_some()
-                && (targets.is_empty() || targets.iter().any(|own| own == target))
+                && (targets.is_empty() || targets.iter().any(|own| own.name == target))
         };
         let others = listed.filter(|entry| {
             is_wanted(&entry.target)
@@ -110,7 +110,7 @@ impl Folder<'_> {
     }
 
     /// The page of a file. `asked` says which of its functions are to be run.
-    pub fn page(&self, made: &Made, asked: &[bool]) -> Result<ShippedPage, Error> {
+    pub fn page(&self, made: &GeneratedFile, asked: &[bool]) -> Result<ShippedPage, Error> {
         let path = made.artifact.path.clone();
         let lying = folder::read(&self.path.join(&path))?;
         let today = Today::new(made, asked);
@@ -161,12 +161,12 @@ impl Folder<'_> {
 
 /// What would be written today.
 struct Today<'a> {
-    made: &'a Made,
+    made: &'a GeneratedFile,
     asked: &'a [bool],
 }
 
 impl<'a> Today<'a> {
-    fn new(made: &'a Made, asked: &'a [bool]) -> Today<'a> {
+    fn new(made: &'a GeneratedFile, asked: &'a [bool]) -> Today<'a> {
         Today { made, asked }
     }
 

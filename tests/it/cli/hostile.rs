@@ -8,9 +8,10 @@ use super::OUT;
 use super::Place;
 use super::Ran;
 use fresnel_gen::generator::generate::generate;
-use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
 use fresnel_gen::generator::{exchange, flavours};
-use fresnel_gen::language::targets;
+use fresnel_gen::language::methods::Method;
+use fresnel_gen::language::targets::{self, Target};
 
 /// A material whose index is a formula.
 fn formula(class: &str, formula: &str) -> String {
@@ -207,8 +208,8 @@ fn a_field_of_one_line_has_no_break() {
 #[test]
 fn every_reserved_word_is_refused_as_a_whole_name() {
     let request = |word: &str, prefix: &str| Request {
-        targets: vec!["gles".to_owned()],
-        methods: vec!["conductor_exact".to_owned()],
+        targets: vec![Target::GLES],
+        methods: Methods::These(vec![Method::CONDUCTOR_EXACT]),
         materials: Materials::These(vec![Source::File {
             file: "m.toml".to_owned(),
             text: MY_METAL.replace("\"my_metal\"", &format!("\"{word}\"")),

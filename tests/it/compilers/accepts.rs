@@ -12,8 +12,9 @@ use super::text;
 use super::tree;
 use crate::not_checked;
 use fresnel_gen::generator::generate::generate_single;
-use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
 use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
+use fresnel_gen::language::methods::Method;
 use fresnel_gen::language::targets::{self, Finish, Target, Validator};
 use fresnel_gen::physics::num::Precision;
 
@@ -169,20 +170,18 @@ fn variant(path: &str) -> &str {
 /// stands there once.
 #[test]
 fn several_functions_in_one_file_are_accepted() {
-    let names = |names: &[&str]| {
-        names
-            .iter()
-            .map(|name| name.to_string())
-            .collect::<Vec<_>>()
-    };
     let gold = Materials::These(vec![Source::Named("gold".to_owned())]);
     for target in targets::ALL.iter().filter(|t| t.finish != Finish::Spirv) {
         for (precision, materials) in Precision::ALL.into_iter().flat_map(|precision| {
             [Materials::None, gold.clone()].map(|materials| (precision, materials))
         }) {
             let request = Request {
-                targets: names(&[target.name]),
-                methods: names(&["schlick", "fitted", "conductor_exact"]),
+                targets: vec![*target],
+                methods: Methods::These(vec![
+                    Method::SCHLICK,
+                    Method::FITTED,
+                    Method::CONDUCTOR_EXACT,
+                ]),
                 precision,
                 materials,
                 ..Request::default()

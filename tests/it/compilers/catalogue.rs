@@ -39,7 +39,7 @@ fn users(target: &str) -> String {
 /// The library functions, the array, and what uses both.
 fn program(target: &str) -> String {
     let request = Request {
-        targets: vec![target.to_owned()],
+        targets: vec![targets::find(target).unwrap()],
         materials: Materials::None,
         ..Request::default()
     };

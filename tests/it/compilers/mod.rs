@@ -17,9 +17,10 @@ use crate::not_checked;
 use fresnel_gen::generator::emit::Detail;
 use fresnel_gen::generator::lut::{self, TableAxis};
 use fresnel_gen::generator::output::artifact::Artifact;
-use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
+use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Methods, Request, Source};
 use fresnel_gen::generator::{emit, generate};
 use fresnel_gen::lab::verify::compilers::Verdict;
+use fresnel_gen::language::methods::Method;
 use fresnel_gen::language::targets::Target;
 use fresnel_gen::language::{effects, methods, targets};
 use fresnel_gen::physics::num::Precision;
@@ -206,9 +207,8 @@ fn lookup(
 
 /// What a request gives in all languages, its paths below a folder of this name.
 fn made(request: &Request, variant: &str) -> Vec<Artifact> {
-    let targets = targets::ALL.iter().map(|target| target.name.to_string());
     let request = Request {
-        targets: targets.collect(),
+        targets: targets::ALL.to_vec(),
         ..request.clone()
     };
     let mut files = generate(&request).unwrap().artifacts;
@@ -224,17 +224,17 @@ fn specialised(files: Vec<Artifact>) -> impl Iterator<Item = Artifact> {
 }
 
 /// The methods that can be specialised to the material of a request: those that generation does not refuse.
-fn methods_of(request: &Request) -> Vec<String> {
-    let is_possible = |method: &String| {
+fn methods_of(request: &Request) -> Methods {
+    let is_possible = |method: &&'static Method| {
         let alone = Request {
-            targets: vec!["hlsl".to_string()],
-            methods: vec![method.clone()],
+            targets: vec![Target::HLSL],
+            methods: Methods::These(vec![method]),
             ..request.clone()
         };
         generate(&alone).is_ok()
     };
-    let names = methods::ALL.iter().map(|method| method.name.to_string());
-    let possible: Vec<String> = names.filter(is_possible).collect();
+    let all = methods::ALL.iter().copied();
+    let possible: Vec<&Method> = all.filter(is_possible).collect();
     assert!(possible.len() > 3, "{possible:?}");
-    possible
+    Methods::These(possible)
 }

@@ -12,7 +12,7 @@ use fresnel_gen::physics::materials::{Material, Surface, ViewingConditions};
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::optics::{self, Reflectance};
-use fresnel_gen::{Materials, Request, generate_single};
+use fresnel_gen::{Effect, Materials, Method, Request, Target, generate_single};
 
 /// Two interfaces with all reflections between them, by summing them.
 fn composed(coat: f64, base: f64) -> f64 {
@@ -331,20 +331,14 @@ fn example() -> String {
 fn with_its_functions(example: &str) -> String {
     let single = |request: Request| {
         let bytes = generate_single(&Request {
-            targets: vec!["wgsl".to_owned()],
+            targets: vec![Target::WGSL],
             materials: Materials::None,
             ..request
         });
         String::from_utf8(bytes.expect("a file")).expect("text")
     };
-    let coat = single(Request {
-        effects: vec!["coat".to_owned()],
-        ..Request::default()
-    });
-    let schlick = single(Request {
-        methods: vec!["schlick".to_owned()],
-        ..Request::default()
-    });
+    let coat = single(Request::new().effect(Effect::COAT));
+    let schlick = single(Request::new().method(Method::SCHLICK));
     format!("{coat}\n{schlick}\n{example}")
 }
 

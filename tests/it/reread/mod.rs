@@ -207,10 +207,7 @@ fn specialised_functions_in_half_precision_read_as_they_were_meant() {
 #[test]
 fn every_specialised_function_reads_as_it_was_meant() {
     let request = Request {
-        targets: targets::ALL
-            .iter()
-            .map(|target| target.name.into())
-            .collect(),
+        targets: targets::ALL.to_vec(),
         materials: Materials::All,
         ..Request::default()
     };
