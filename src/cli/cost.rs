@@ -149,7 +149,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
 /// The exit code: 1 where a check found something; 3 where something that can be measured was not, and all was required.
 fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
     let is_lacking = |row: &CostRow| {
-        let cannot = row.precision.is_half() && !row.family.half;
+        let cannot = row.id.precision.is_half() && !row.family.half;
         row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
     };
     let is_lacking = !checked.whole || table.iter().flatten().any(is_lacking);
@@ -286,7 +286,7 @@ impl RecordComparison {
     }
 
     fn add(&mut self, row: &CostRow, record: &CostRecord) {
-        let key = row.key();
+        let key = row.id.to_string();
         let Some(hash) = record.functions.get(&key) else {
             self.unknown += 1;
             return;
@@ -366,7 +366,7 @@ const ALONE: [&str; 8] = [
 fn alone(rows: &[CostRow]) -> Vec<Vec<String>> {
     let cells = |row: &CostRow| match &row.figures {
         Ok(figures) => vec![
-            row.label(),
+            row.id.label(),
             short(Some(figures.cost())),
             percent(row),
             row.fetches.to_string(),
@@ -375,7 +375,7 @@ fn alone(rows: &[CostRow]) -> Vec<Vec<String>> {
             short(figures.shader.inverse_throughput),
             short(figures.registers),
         ],
-        Err(why) => vec![row.label(), why.clone()],
+        Err(why) => vec![row.id.label(), why.clone()],
     };
     rows.iter().map(cells).collect()
 }
@@ -388,7 +388,7 @@ fn beside(families: &[Vec<CostRow>]) -> String {
         .collect();
     let count = families.first().map_or(0, Vec::len);
     let line = |place: usize| -> Vec<String> {
-        let label = families[0][place].label();
+        let label = families[0][place].id.label();
         let shares = families.iter().map(|rows| percent(&rows[place]));
         [label].into_iter().chain(shares).collect()
     };

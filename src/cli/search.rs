@@ -12,7 +12,6 @@ use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::lab::cost::{
     ChoiceRow, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow, library_cost, records,
 };
-use crate::language::methods::Method;
 use crate::physics::materials::{Material, find};
 use crate::physics::num::in_parallel;
 use crate::pictures::table::{self, short_number};
@@ -37,7 +36,7 @@ pub(super) fn run(
     }));
     let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();
     let record = records(flags.gpu.name);
-    let cost = |method: &Method| library_cost(method, flags.gpu, &record);
+    let cost = |method| library_cost(method, flags.gpu, &record);
     let mut results = Vec::new();
     for class in &SEARCHED {
         let tried = tried_shapes(class, &subjects, &shapes, aim, progress);

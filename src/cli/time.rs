@@ -17,10 +17,9 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Origin;
 use crate::generator::error::RequestFault;
 use crate::lab::gpu::{Backend, Wanted};
-use crate::lab::overdraw::request::TimeRequest;
 use crate::lab::overdraw::{
-    Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Noise, Stop, TimeRow,
-    TimedFunctions, measure, serve, time_rows, usual_operations,
+    Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Noise, Stop, TimeRequest,
+    TimeRow, TimedFunctions, measure, serve, time_rows, usual_operations,
 };
 use crate::lab::process::Inbox;
 use crate::language::methods::Method;
@@ -122,12 +121,17 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         backend: flags.backend,
         name: flags.adapter.clone(),
     };
-    let mut timed = timed_functions(flags, false)?;
+    let timed = TimeRequest {
+        methods: Choice::methods(&flags.method),
+        materials: flags.materials.materials()?,
+        precisions: each_once(&flags.precision),
+    }
+    .timed_functions()?;
+    let plan = |is_software| {
+        let usual = usual_operations(is_software);
+        timed.plan(flags.operations.unwrap_or(usual))
+    };
     if let Some(inbox) = inbox {
-        let plan = |is_software| {
-            let again = timed_functions(flags, is_software);
-            again.map_or_else(|_| timed.plan.clone(), |timed| timed.plan)
-        };
         let served = serve(inbox, &plan, &wanted, flags.size);
         // The supervisor is gone.
         return Ok(Output {
@@ -139,45 +143,39 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     let limit = Duration::from_secs_f64(flags.limit);
     let mut worker = DrawingWorker::start(limit)?;
     check_device(flags, &worker.device, &wanted)?;
-    if worker.device.is_software {
-        timed = timed_functions(flags, true)?;
-    }
-    worker.takes(&timed.plan);
+    let plan = plan(worker.device.is_software);
+    worker.takes(&plan);
     let effort = DrawingEffort {
         rounds: flags.rounds,
         clock: flags.clock,
         is_software: worker.device.is_software,
         limit: limit.as_nanos() as f64,
     };
-    let measured = measure(&timed.plan, &effort, &mut worker, progress).map_err(|stop| {
+    let measured = measure(&plan, &effort, &mut worker, progress).map_err(|stop| {
         let (Stop::One(why) | Stop::All(why)) = stop;
         let what = format!("{}: {why}", worker.device.device);
         Error::lacking(what)
     })?;
-    let rows = time_rows(&timed, &worker.device, &measured);
-    let times = TimeReport::new(
-        flags.command_line().into(),
-        &timed,
-        &worker.device,
-        &measured,
-        &rows,
-    );
+    let rows = time_rows(&timed.functions, &plan, &worker.device, &measured);
+    let [heavy, empty] = measured.noise();
+    let times = TimeReport {
+        origin: Origin::new(flags.command_line()),
+        device: &worker.device.device,
+        adapter: &worker.device.name,
+        driver: &worker.device.driver,
+        software: worker.device.is_software,
+        clock: measured.clock,
+        pixels: worker.device.pixels,
+        noise: NoiseOfShaders { heavy, empty },
+        left_out: &timed.left_out,
+        rows: &rows,
+        operations: plan.operations,
+        rounds: flags.rounds,
+    };
     let mut output = report(times.text(), &times, flags.report.json())?;
     output.remarks = remarks(&timed, &measured, &rows, flags.clock);
     output.code = code(flags, &rows);
     Ok(output)
-}
-
-/// The functions to be timed. In software, chains are shorter by default.
-fn timed_functions(flags: &TimeFlags, is_software: bool) -> Result<TimedFunctions, Error> {
-    let usual = usual_operations(is_software);
-    let request = TimeRequest {
-        methods: Choice::methods(&flags.method),
-        materials: flags.materials.materials()?,
-        precisions: each_once(&flags.precision),
-        operations: flags.operations.unwrap_or(usual),
-    };
-    Ok(request.timed_functions()?)
 }
 
 fn check_device(flags: &TimeFlags, facts: &DeviceFacts, wanted: &Wanted) -> Result<(), Error> {
@@ -280,7 +278,7 @@ fn code(flags: &TimeFlags, rows: &[TimeRow]) -> u8 {
 
 /// The readings, with the facts about the measurement.
 #[derive(Serialize)]
-pub struct TimeReport<'a> {
+struct TimeReport<'a> {
     #[serde(flatten)]
     origin: Origin,
     device: &'a str,
@@ -305,34 +303,9 @@ struct NoiseOfShaders {
     empty: Noise,
 }
 
-impl<'a> TimeReport<'a> {
-    /// The report that this command writes.
-    pub fn new(
-        command: String,
-        timed: &'a TimedFunctions,
-        device: &'a DeviceFacts,
-        measured: &MeasuredDrawings,
-        rows: &'a [TimeRow],
-    ) -> TimeReport<'a> {
-        let [heavy, empty] = measured.noise();
-        TimeReport {
-            origin: Origin::new(command),
-            device: &device.device,
-            adapter: &device.name,
-            driver: &device.driver,
-            software: device.is_software,
-            clock: measured.clock,
-            pixels: device.pixels,
-            noise: NoiseOfShaders { heavy, empty },
-            left_out: &timed.left_out,
-            rows,
-            operations: timed.plan.operations,
-            rounds: measured.rounds.len(),
-        }
-    }
-
+impl TimeReport<'_> {
     /// The report as a table, the cheapest first; what was not measured stands last.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let share = |row: &TimeRow| {
             let figure = row.figure.as_ref();
             figure.map_or(f64::INFINITY, |figure| figure.share)
@@ -397,12 +370,13 @@ fn percent(share: f64) -> String {
 }
 
 fn cells(row: &TimeRow) -> Vec<String> {
+    let id = &row.id;
     let mut cells = vec![
-        row.method.to_owned(),
-        row.material.as_deref().unwrap_or("-").to_owned(),
-        row.form.name().to_owned(),
-        row.channels.to_string(),
-        row.precision.name().to_owned(),
+        id.method_name().unwrap_or_default().to_owned(),
+        id.material.as_deref().unwrap_or("-").to_owned(),
+        id.form.name().to_owned(),
+        id.channels.to_string(),
+        id.precision.name().to_owned(),
     ];
     match &row.figure {
         Ok(figure) => cells.extend([

@@ -75,7 +75,7 @@ fn line(row: &CostRow, longest: f64) -> Line {
     let figures = row.figures.as_ref().ok();
     let share = row.share.unwrap_or(0.0);
     Line {
-        label: row.label(),
+        label: row.id.label(),
         cost: short(figures.map(|figures| figures.cost())),
         share: row
             .share

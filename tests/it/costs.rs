@@ -50,19 +50,20 @@ const TOO_LONG: [(&str, &str); 1] = [("gc2000", "conductor_from_f0_f82")];
 fn the_record_is_of_todays_shaders() {
     let (mut faults, mut missing) = (Vec::new(), Vec::new());
     for row in TABLE.iter().flatten() {
-        let too_long = TOO_LONG.contains(&(row.family.name, row.method.unwrap_or_default()))
-            && row.material.is_none();
-        let cannot = row.precision.is_half() && !row.family.half;
+        let too_long = TOO_LONG
+            .contains(&(row.family.name, row.id.method_name().unwrap_or_default()))
+            && row.id.material.is_none();
+        let cannot = row.id.precision.is_half() && !row.family.half;
         let is_asked = row.family.compiler.dialect().is_some();
         if !is_asked || too_long || cannot || row.source == Some(CostSource::Record) {
             continue;
         }
         if row.source == Some(CostSource::Graph) {
-            missing.push(format!("{}, {}\n", row.family.name, row.label()));
+            missing.push(format!("{}, {}\n", row.family.name, row.id.label()));
             continue;
         }
         let why = row.figures.as_ref().err().map_or("", String::as_str);
-        let said = format!("{}, {}: {why}\n", row.family.name, row.label());
+        let said = format!("{}, {}: {why}\n", row.family.name, row.id.label());
         if why.ends_with("it is not recorded") && row.family.vendor != "AMD" {
             missing.push(said)
         } else {
@@ -94,7 +95,7 @@ fn shapes_are_those_of_todays_shaders() {
         };
         let own = |row: &CostRow| {
             let (shader, shape) = (row.shader.clone()?, row.shape.clone()?);
-            Some((format!("{},{shader}", row.key()), shape))
+            Some((format!("{},{shader}", row.id), shape))
         };
         let shapes: BTreeMap<String, String> = rows.iter().filter_map(own).collect();
         let (head, lines): (Vec<&str>, Vec<&str>) = record
@@ -126,7 +127,7 @@ fn a_shape_stands_for_functions_that_are_not_recorded() {
     let known = |material: &str, method: &str, precision: Precision| {
         let method = methods::find(method).unwrap();
         let functions = functions(&[method], &subjects(material), &[precision]).unwrap();
-        let own = |function: &&CostedFunction| function.material.is_some();
+        let own = |function: &&CostedFunction| function.id.material.is_some();
         let function = functions.iter().find(own).unwrap();
         known_cost(&function.graph, precision, family, &record)
     };
@@ -154,7 +155,7 @@ fn what_computes_nothing_costs_nothing() {
     for rows in TABLE.iter() {
         for (row, _) in rows.iter().zip(&*FUNCTIONS).filter(|(_, f)| nothing(f)) {
             let costs = row.figures.as_ref().map(CostFigures::cost);
-            assert!(costs.is_err() || costs == Ok(0.0), "{}", row.label());
+            assert!(costs.is_err() || costs == Ok(0.0), "{}", row.id.label());
         }
     }
 }
@@ -192,7 +193,12 @@ fn costs_are_in_the_order_that_formulas_suggest() {
         .filter(|family| family.compiler.dialect().is_some())
     {
         let record = records(family.name);
-        let cost = |method| record.library(method).unwrap().cost();
+        let cost = |method: &str| {
+            record
+                .library(methods::find(method).unwrap())
+                .unwrap()
+                .cost()
+        };
         // Adreno's counts include waits: Schlick's steps follow one another, and a chain has no other work to fill them.
         assert!(cost("schlick") <= cost("schlick_ior"), "{}", family.name);
         assert!(

@@ -2,10 +2,9 @@
 
 use fresnel_gen::generator::emit::validate_wgsl;
 use fresnel_gen::generator::request::Materials;
-use fresnel_gen::lab::overdraw::request::TimeRequest;
 use fresnel_gen::lab::overdraw::{
     Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop,
-    TimedFunctions, measure,
+    TimeRequest, TimedFunctions, measure,
 };
 use fresnel_gen::language::methods::{ALL, find};
 use fresnel_gen::physics::num::Precision;
@@ -17,11 +16,11 @@ const PIXELS: u64 = 1000;
 const DRAW: f64 = 1e3;
 const LINK: f64 = 10.0;
 
-fn timed_functions(methods: &[&str]) -> TimedFunctions {
-    in_chains(methods, 2000)
+fn planned(methods: &[&str]) -> DrawingPlan {
+    timed_functions(methods).plan(2000)
 }
 
-fn in_chains(methods: &[&str], operations: usize) -> TimedFunctions {
+fn timed_functions(methods: &[&str]) -> TimedFunctions {
     let named = methods.iter().filter_map(|name| find(name));
     let request = TimeRequest {
         methods: match methods {
@@ -30,15 +29,15 @@ fn in_chains(methods: &[&str], operations: usize) -> TimedFunctions {
         },
         materials: Materials::Default,
         precisions: Precision::ALL.to_vec(),
-        operations,
     };
     request.timed_functions().unwrap()
 }
 
 #[test]
 fn uniforms_are_no_longer_than_opengl_takes() {
+    let timed = timed_functions(&[]);
     for operations in [100, 2000, 20_000] {
-        for drawing in in_chains(&[], operations).plan.drawings {
+        for drawing in timed.plan(operations).drawings {
             let bytes = drawing.uniforms.len();
             assert!(bytes <= 16_384, "{}, {operations}: {bytes}", drawing.name);
         }
@@ -132,7 +131,8 @@ fn measured(
 #[test]
 fn everything_that_is_drawn_is_valid() {
     let timed = timed_functions(&[]);
-    for drawing in &timed.plan.drawings {
+    let plan = timed.plan(2000);
+    for drawing in &plan.drawings {
         validate_wgsl(&drawing.text)
             .unwrap_or_else(|fault| panic!("{}: {fault}\n{}", drawing.name, drawing.text));
         let blocks = drawing.text.contains("var<uniform>");
@@ -144,13 +144,12 @@ fn everything_that_is_drawn_is_valid() {
             drawing.name
         );
     }
-    assert_eq!(timed.plan.chains().len(), timed.functions.len());
+    assert_eq!(plan.chains().len(), timed.functions.len());
 }
 
 #[test]
 fn shares_are_found_again_through_noise() {
-    let timed = timed_functions(&["schlick", "dielectric_exact", "table"]);
-    let plan = &timed.plan;
+    let plan = &planned(&["schlick", "dielectric_exact", "table"]);
     for clock in Clock::ALL {
         let measured = measured(plan, &mut MadeUp::new(plan), Some(clock)).unwrap();
         assert_eq!(measured.clock, clock);
@@ -181,8 +180,7 @@ fn shares_are_found_again_through_noise() {
 /// A card rasterises and blends while it computes: what is computed in less time takes none.
 #[test]
 fn a_draw_that_hides_its_evaluations_gives_no_figure() {
-    let timed = in_chains(&["schlick", "conductor_from_f0_f82"], 100);
-    let plan = &timed.plan;
+    let plan = &timed_functions(&["schlick", "conductor_from_f0_f82"]).plan(100);
     let measured = measured(plan, &mut MadeUp::new(plan), None).unwrap();
     let figures = measured.figures(plan, PIXELS);
     assert!(!figures.is_empty());
@@ -193,20 +191,19 @@ fn a_draw_that_hides_its_evaluations_gives_no_figure() {
 
 #[test]
 fn a_clock_that_stands_still_is_not_taken() {
-    let timed = timed_functions(&["schlick"]);
-    let mut device = MadeUp::new(&timed.plan);
+    let plan = &planned(&["schlick"]);
+    let mut device = MadeUp::new(plan);
     device.has_clock = false;
-    let found = measured(&timed.plan, &mut device, None).unwrap();
+    let found = measured(plan, &mut device, None).unwrap();
     assert!(found.clock == Clock::Wall && !found.advances);
-    assert!(found.figures(&timed.plan, PIXELS)[0].is_ok());
-    let refused = measured(&timed.plan, &mut device, Some(Clock::Gpu));
+    assert!(found.figures(plan, PIXELS)[0].is_ok());
+    let refused = measured(plan, &mut device, Some(Clock::Gpu));
     assert!(matches!(refused, Err(Stop::All(why)) if why.contains("do not advance")));
 }
 
 #[test]
 fn a_shader_that_hangs_takes_only_what_needs_it_along() {
-    let timed = timed_functions(&["schlick", "schlick_ior"]);
-    let plan = &timed.plan;
+    let plan = &planned(&["schlick", "schlick_ior"]);
     let failing = |hangs: usize| {
         let mut device = MadeUp::new(plan);
         device.hangs = Some(hangs);

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use fresnel_gen::generator::emit::FunctionForm;
-use fresnel_gen::lab::cost::{FAMILIES, FunctionKey, records};
+use fresnel_gen::lab::cost::{FAMILIES, FunctionId, records};
+use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::Precision;
 
 /// Families with a compiler: the count of operations has none, and none of PowerVR's is available.
@@ -47,7 +48,7 @@ pub fn own(gpu: &str, ours: &str, channels: usize) -> f64 {
         1 => FunctionForm::Scalar,
         _ => FunctionForm::Library,
     };
-    let key = FunctionKey::library(ours, form, Precision::F32);
+    let key = FunctionId::library(methods::find(ours).unwrap(), form, Precision::F32);
     records(gpu).of(&key).expect("it is recorded").cost()
 }
 

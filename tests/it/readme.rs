@@ -276,7 +276,12 @@ fn published_work_is_cited_beside_our_own_figures() {
     let words: Vec<&str> = text.split_whitespace().collect();
     let section = words.join(" ");
     let record = records("rdna2");
-    let units = |method: &str| record.library(method).expect("a cost").cost();
+    let units = |method: &str| {
+        record
+            .library(methods::find(method).unwrap())
+            .expect("a cost")
+            .cost()
+    };
     let costs = format!(
         "one of `dielectric_exact` takes {} units on RDNA 2, one of `schlick` {}.",
         units("dielectric_exact"),

@@ -14,7 +14,7 @@ use super::readme::replaced;
 use fresnel_gen::generator::emit::FunctionForm;
 use fresnel_gen::generator::fit::{FitCurve, InputChoice, MethodErrors, colour_errors};
 use fresnel_gen::generator::reference::{MaterialClass, MaterialInMedium};
-use fresnel_gen::lab::cost::{FunctionKey, records};
+use fresnel_gen::lab::cost::{FunctionId, records};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{ConstantIndex, MaterialKind, Surface, ViewingConditions};
 use fresnel_gen::physics::num::Precision;
@@ -101,14 +101,18 @@ pub fn short(value: f64, digits: usize) -> String {
 }
 
 fn units(name: &str, gpu: &str) -> f64 {
-    records(gpu).library(name).expect("a cost").cost()
+    records(gpu)
+        .library(methods::find(name).unwrap())
+        .expect("a cost")
+        .cost()
 }
 
 /// What a function of gold costs on RDNA 2, its constants in the code.
 fn units_of_gold(name: &str) -> f64 {
-    let key = FunctionKey {
-        material: "gold".to_owned(),
-        ..FunctionKey::library(name, FunctionForm::Specialised, Precision::F32)
+    let method = methods::find(name).expect("it is a method");
+    let key = FunctionId {
+        material: Some("gold".to_owned()),
+        ..FunctionId::library(method, FunctionForm::Specialised, Precision::F32)
     };
     records("rdna2").of(&key).expect("a cost").cost()
 }

@@ -6,8 +6,8 @@ use crate::generator::emit::FunctionForm;
 use crate::generator::fit::{error_of, values_for_material};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{
-    CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, ask_compilers, cost_rows,
-    functions, input_numbers, records,
+    CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, FunctionId, ask_compilers,
+    cost_rows, functions, input_numbers, records,
 };
 use crate::lab::process::{Pool, Surroundings};
 use crate::language::ir::{Checked, Column, Value, evaluate};
@@ -70,7 +70,7 @@ impl CostedMethods {
         };
         let mut all = functions(&methods, subjects, &[Precision::F32])?;
         all.retain(|function| {
-            function.is_asked && function.form == form || function.is_reference()
+            function.is_asked && function.id.form == form || function.is_reference()
         });
         let answers = ask_compilers(families, &all, pool, surroundings, progress)?;
         let each = families.iter().zip(&answers);
@@ -87,30 +87,33 @@ impl CostedMethods {
 
     /// The methods for a material that take at most so many numbers.
     pub fn for_material(&self, subject: &MaterialInMedium, max_inputs: Option<usize>) -> Vec<Ours> {
-        let is_of = |function: &CostedFunction| match &function.material {
+        let is_of = |id: &FunctionId, method: &Method| match &id.material {
             Some(material) => *material == subject.argument,
-            None => subject.is_described_by(function.method),
+            None => subject.is_described_by(method),
         };
         let is_allowed = |inputs: usize| max_inputs.is_none_or(|most| inputs <= most);
         let each = self.functions.iter().enumerate();
-        each.filter(|(_, function)| function.form == self.form && is_of(function))
-            .filter(|(_, function)| is_allowed(inputs(function)))
-            .map(|(place, function)| Ours {
-                method: function.method.name,
+        let ours = |(place, function): (usize, &CostedFunction)| {
+            let method = function.id.method?;
+            let inputs = inputs(self.form, method);
+            let is_one = function.id.form == self.form && is_of(&function.id, method);
+            (is_one && is_allowed(inputs)).then(|| Ours {
+                method: method.name,
                 form: self.form.name(),
-                inputs: inputs(function),
-                error: error(function, subject),
+                inputs,
+                error: error(function, method, subject),
                 costs: self.costs.iter().map(|column| column[place]).collect(),
             })
-            .collect()
+        };
+        each.filter_map(ours).collect()
     }
 }
 
 /// How many numbers a call takes. A specialised function takes none.
-fn inputs(function: &CostedFunction) -> usize {
-    match function.form {
+fn inputs(form: FunctionForm, method: &Method) -> usize {
+    match form {
         FunctionForm::Specialised => 0,
-        _ => input_numbers(function.method),
+        _ => input_numbers(method),
     }
 }
 
@@ -130,9 +133,8 @@ fn costs(
 }
 
 /// The largest error in single precision, measured as for a user's function. A form of one channel is evaluated for each channel.
-fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
-    let method = function.method;
-    let (graph, others): (Checked, Vec<Value<f32>>) = match function.form {
+fn error(function: &CostedFunction, method: &Method, subject: &MaterialInMedium) -> f64 {
+    let (graph, others): (Checked, Vec<Value<f32>>) = match function.id.form {
         FunctionForm::Specialised => (function.graph.clone(), Vec::new()),
         _ => (
             method.function(false).expect("a test builds every method"),

@@ -17,13 +17,12 @@ use super::{
     ChartData, ChartEntry, ChartView, CostAxis, FunctionOrigin, MaterialSet, STATISTICS, set_name,
     sets,
 };
-use crate::generator::emit::FunctionForm;
 use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
-use crate::lab::overdraw::times;
+use crate::lab::overdraw::library_times;
 use crate::language::methods::{ALL, Light, Method};
-use crate::physics::num::{Precision, in_parallel};
+use crate::physics::num::in_parallel;
 use crate::physics::records::rows;
 use crate::physics::spectra::Space;
 
@@ -238,15 +237,12 @@ fn title(family: &Family) -> String {
 
 /// The axis of times, as shares on the device of the record.
 fn timed(entries: &[ChartEntry]) -> Option<CostAxis> {
-    let all: Vec<_> = times()
-        .into_iter()
-        .filter(|time| time.form == FunctionForm::Library && time.precision == Precision::F32)
-        .collect();
+    let all = library_times();
     let device = all.first()?.device.clone();
     let share = |entry: &ChartEntry| {
         let own = all
             .iter()
-            .find(|time| time.method == entry.name() && time.device == device);
+            .find(|time| time.method.name == entry.name() && time.device == device);
         own.map(|time| 100.0 * time.share)
     };
     Some(CostAxis {

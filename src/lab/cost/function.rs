@@ -3,13 +3,16 @@
 
 use std::sync::OnceLock;
 
+use super::REFERENCE;
+use super::family::Dialect;
+use super::function_id::FunctionId;
+use super::probe::Probe;
 use crate::generator::emit::{
     Bounds, EffectRequest, EmittedFunction, Error, FunctionForm, Naming, library_functions,
     specialised_graph,
 };
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::cost::{Dialect, Probe, REFERENCE};
-use crate::language::effects::{Effect, EffectFunction};
+use crate::language::effects::Effect;
 use crate::language::ir::{Checked, Ty};
 use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
@@ -19,16 +22,8 @@ use crate::physics::num::Precision;
 pub struct CostedFunction {
     /// Whether it was requested, or is measured only as the reference.
     pub is_asked: bool,
-    /// The effect's function, if it is one.
-    pub effect: Option<&'static EffectFunction>,
-    /// The material that it is specialised to.
-    pub material: Option<String>,
-    /// Its method. For a function of an effect, the one that computes R.
-    pub method: &'static Method,
-    /// Its form.
-    pub form: FunctionForm,
-    /// The precision that it computes in.
-    pub precision: Precision,
+    /// Which function it is.
+    pub id: FunctionId,
     /// Its graph.
     pub graph: Checked,
     probe: Probe,
@@ -64,21 +59,14 @@ pub fn functions(
                 let refused = precision.is_half() && method.half.refusal().is_some();
                 if subject.is_described_by(method) && !refused {
                     let made = specialised_graph(method, subject, precision, &bounds)?;
-                    found.push(CostedFunction {
-                        material: Some(subject.argument.clone()),
-                        ..CostedFunction::new(
-                            method,
-                            FunctionForm::Specialised,
-                            precision,
-                            made.function,
-                        )
-                    });
+                    let id = FunctionId::specialised(method, subject, precision);
+                    found.push(CostedFunction::new(id, made.function));
                 }
             }
         }
     }
     if !found.iter().any(CostedFunction::is_reference) {
-        found.push(reference()?);
+        found.push(reference());
     }
     Ok(found)
 }
@@ -97,86 +85,47 @@ pub fn functions_of_effect(
         subject: None,
     };
     let functions = request.functions(&Naming::default())?;
-    let costed = |emitted: EmittedFunction| CostedFunction {
-        effect: emitted.effect.map(|part| part.function),
-        ..CostedFunction::library(emitted)
-    };
-    Ok(functions.into_iter().map(costed).collect())
+    Ok(functions.into_iter().map(CostedFunction::library).collect())
 }
 
 /// The reference function, where it was not requested.
-fn reference() -> Result<CostedFunction, Error> {
+fn reference() -> CostedFunction {
     let method = methods::find(REFERENCE).expect("a test asks for its cost");
-    let functions = library_functions(method, &Naming::default())?;
-    let emitted = functions
-        .into_iter()
-        .next()
-        .expect("it has a form of three channels");
-    Ok(CostedFunction {
+    let graph = method.function(false).expect("a test builds every method");
+    let id = FunctionId::library(method, FunctionForm::Library, Precision::F32);
+    CostedFunction {
         is_asked: false,
-        ..CostedFunction::library(emitted)
-    })
+        ..CostedFunction::new(id, graph)
+    }
 }
 
 impl CostedFunction {
     fn library(emitted: EmittedFunction) -> CostedFunction {
-        CostedFunction::new(
-            emitted.method,
-            emitted.form,
-            emitted.precision,
-            emitted.function,
-        )
+        CostedFunction::new(FunctionId::of_library_file(&emitted), emitted.function)
     }
 
-    fn new(
-        method: &'static Method,
-        form: FunctionForm,
-        precision: Precision,
-        graph: Checked,
-    ) -> CostedFunction {
+    fn new(id: FunctionId, graph: Checked) -> CostedFunction {
         CostedFunction {
             is_asked: true,
-            effect: None,
-            material: None,
-            probe: Probe::new(&graph, precision),
+            probe: Probe::new(&graph, id.precision),
             hashes: Default::default(),
-            method,
-            form,
-            precision,
+            id,
             graph,
         }
     }
 
     /// Whether it is the reference that others are compared with: the exact law for dielectrics, with arguments from uniforms.
     pub fn is_reference(&self) -> bool {
-        self.effect.is_none()
-            && self.method.name == REFERENCE
-            && self.form == FunctionForm::Library
-            && !self.precision.is_half()
-    }
-
-    /// How many channels it returns.
-    pub fn channels(&self) -> usize {
-        if self.is_scalar() { 1 } else { 3 }
-    }
-
-    /// Whether it returns one channel.
-    pub fn is_scalar(&self) -> bool {
-        self.graph.ty() == Ty::Scalar
+        self.id.effect.is_none()
+            && self.id.method_name() == Some(REFERENCE)
+            && self.id.form == FunctionForm::Library
+            && !self.id.precision.is_half()
     }
 
     /// The types of its first argument and of its result.
     pub fn ends(&self) -> (Ty, Ty) {
         let first = self.graph.params.first();
         (first.map_or(Ty::Scalar, |param| param.ty), self.graph.ty())
-    }
-
-    /// The method, where it is part of the function.
-    pub fn method_by_name(&self) -> Option<&'static str> {
-        let has_method = self
-            .effect
-            .is_none_or(|effect| effect.reflectance.is_used());
-        has_method.then_some(self.method.name)
     }
 
     /// The hash of the shader with the longer chain, which is the key of a record.
@@ -199,7 +148,7 @@ impl CostedFunction {
     /// The fragment shaders of both chains of the empty function.
     pub fn empty_chains(&self, dialect: Dialect) -> [String; 2] {
         let (first, result) = self.ends();
-        let probe = Probe::empty(first, result, self.precision);
+        let probe = Probe::empty(first, result, self.id.precision);
         dialect
             .chains()
             .map(|evaluations| probe.text(evaluations, dialect))

@@ -6,6 +6,7 @@ mod family;
 mod figures;
 pub mod foreign;
 mod function;
+mod function_id;
 mod pareto;
 mod probe;
 mod record;
@@ -14,19 +15,18 @@ mod session;
 mod shapes;
 pub use compilers::{FamilyAnswers, ask_compilers};
 pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
-pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
+pub use figures::{CostFigures, Counts};
 pub use function::{CostedFunction, functions, functions_of_effect, input_numbers};
+pub use function_id::FunctionId;
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
-pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
+pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX};
 pub use record::{
-    CostBasis, CostRecord, FunctionKey, KnownCost, function_cost, known_cost, known_library_cost,
-    library_cost, records,
+    CostBasis, CostRecord, KnownCost, function_cost, known_cost, known_library_cost, library_cost,
+    records,
 };
 pub use row::{CostRow, CostSource, cost_rows};
 pub use session::{CompilerSession, FragmentShader, launch, serve, told};
-pub use shapes::{
-    ChoiceRow, ChosenShape, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow,
-};
+pub use shapes::{ChoiceRow, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow};
 
 /// The method, in its library form of three channels, to which other costs and times are relative.
 pub const REFERENCE: &str = "dielectric_exact";

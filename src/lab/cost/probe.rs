@@ -103,11 +103,6 @@ impl Probe {
         uniforms(&self.params)
     }
 
-    /// Whether it reads a texture.
-    pub fn is_textured(&self) -> bool {
-        self.params.iter().any(|param| param.ty == Ty::Texture)
-    }
-
     /// The fragment shader in a compiler's language.
     pub fn text(&self, evaluations: usize, dialect: Dialect) -> String {
         match dialect {

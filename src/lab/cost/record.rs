@@ -1,7 +1,6 @@
 //! Recorded costs, and the cost of a function as it is known without a compiler: by its record, by its shape, or because it
 //! computes nothing. Records lie in `data/records/costs/`, a file for each family, keyed by the hash of the shader.
 
-use core::fmt;
 use std::collections::BTreeMap;
 
 use include_dir::{Dir, include_dir};
@@ -9,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
+use super::function_id::FunctionId;
 use super::probe::Probe;
 use crate::generator::emit::FunctionForm;
-use crate::language::effects::USUAL_METHOD;
 use crate::language::ir::Checked;
 use crate::language::methods::Method;
 use crate::physics::num::Precision;
@@ -26,84 +25,24 @@ pub struct CostRecord {
     pub compiler: String,
     /// The figures of each shader by its hash.
     pub figures: BTreeMap<String, CostFigures>,
-    /// The hash of each function's shader. It distinguishes a shader that changed from one that was never measured.
-    pub functions: BTreeMap<FunctionKey, String>,
+    /// The hash of each function's shader, by the text of its [`FunctionId`]. It distinguishes a shader that changed from one that
+    /// was never measured.
+    pub functions: BTreeMap<String, String>,
     /// The largest cost among functions whose shaders differ in numbers alone, by the hash of the shader without its numbers.
     pub shapes: BTreeMap<String, f64>,
 }
 
-/// The function of a row of a record.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FunctionKey {
-    /// The function of an effect, by its name after the prefix. Empty for methods.
-    pub effect: String,
-    /// The method. Empty for a function of an effect that needs no R.
-    pub method: String,
-    /// The material that it is specialised to. Empty for the library.
-    pub material: String,
-    /// Its form.
-    pub form: FunctionForm,
-    /// How many channels it returns.
-    pub channels: usize,
-    /// The precision that it computes in.
-    pub precision: Precision,
-}
-
-impl FunctionKey {
-    /// A library function of a method.
-    pub fn library(method: &str, form: FunctionForm, precision: Precision) -> FunctionKey {
-        FunctionKey {
-            effect: String::new(),
-            method: method.to_owned(),
-            material: String::new(),
-            form,
-            channels: if form == FunctionForm::Scalar { 1 } else { 3 },
-            precision,
-        }
-    }
-}
-
-impl fmt::Display for FunctionKey {
-    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
-        let FunctionKey {
-            effect,
-            method,
-            material,
-            form,
-            channels,
-            precision,
-        } = self;
-        let (form, precision) = (form.name(), precision.name());
-        write!(
-            to,
-            "{effect},{method},{material},{form},{channels},{precision}"
-        )
-    }
-}
-
 impl CostRecord {
     /// The record of a library function of three channels in single precision.
-    pub fn library(&self, method: &str) -> Option<CostFigures> {
-        self.of(&FunctionKey::library(
-            method,
-            FunctionForm::Library,
-            Precision::F32,
-        ))
+    pub fn library(&self, method: &'static Method) -> Option<CostFigures> {
+        let id = FunctionId::library(method, FunctionForm::Library, Precision::F32);
+        self.of(&id)
     }
 
     /// The record of a function.
-    pub fn of(&self, key: &FunctionKey) -> Option<CostFigures> {
-        self.figures.get(self.functions.get(key)?).copied()
-    }
-
-    /// The record of a function of an effect. Where it needs R, that has three channels and is by the usual method.
-    pub fn effect(&self, function: &str) -> Option<CostFigures> {
-        let is_it = |key: &&FunctionKey| {
-            let is_usual = key.method.is_empty() || key.method == USUAL_METHOD;
-            key.effect == function && key.form == FunctionForm::Library && is_usual
-        };
-        let key = self.functions.keys().find(is_it)?;
-        self.figures.get(&self.functions[key]).copied()
+    pub fn of(&self, function: &FunctionId) -> Option<CostFigures> {
+        let shader = self.functions.get(&function.to_string())?;
+        self.figures.get(shader).copied()
     }
 }
 
@@ -116,9 +55,9 @@ struct RecordedCost {
     effect: String,
     method: String,
     material: String,
-    form: FunctionForm,
-    channels: usize,
-    precision: Precision,
+    form: String,
+    channels: String,
+    precision: String,
     shader: String,
     shape: String,
     instructions: f64,
@@ -145,44 +84,33 @@ fn parse(text: &str) -> CostRecord {
         ..CostRecord::default()
     };
     for row in records::rows::<RecordedCost>(text) {
-        let figures = row.figures();
-        let largest = record.shapes.entry(row.shape.clone());
-        let largest = largest.or_insert(figures.cost());
+        let figures = CostFigures {
+            shader: Counts {
+                instructions: row.instructions,
+                latency: row.latency,
+                inverse_throughput: row.inverse_throughput,
+            },
+            registers: row.registers,
+            net: Counts {
+                instructions: row.net_instructions,
+                latency: row.net_latency,
+                inverse_throughput: row.net_inverse_throughput,
+            },
+        };
+        let largest = record.shapes.entry(row.shape).or_insert(figures.cost());
         *largest = largest.max(figures.cost());
         record.figures.insert(row.shader.clone(), figures);
-        let shader = row.shader.clone();
-        record.functions.insert(row.key(), shader);
+        let id = [
+            row.effect,
+            row.method,
+            row.material,
+            row.form,
+            row.channels,
+            row.precision,
+        ];
+        record.functions.insert(id.join(","), row.shader);
     }
     record
-}
-
-impl RecordedCost {
-    fn figures(&self) -> CostFigures {
-        CostFigures {
-            shader: Counts {
-                instructions: self.instructions,
-                latency: self.latency,
-                inverse_throughput: self.inverse_throughput,
-            },
-            registers: self.registers,
-            net: Counts {
-                instructions: self.net_instructions,
-                latency: self.net_latency,
-                inverse_throughput: self.net_inverse_throughput,
-            },
-        }
-    }
-
-    fn key(self) -> FunctionKey {
-        FunctionKey {
-            effect: self.effect,
-            method: self.method,
-            material: self.material,
-            form: self.form,
-            channels: self.channels,
-            precision: self.precision,
-        }
-    }
 }
 
 /// The cost of an evaluation, and how it is known.
@@ -206,18 +134,6 @@ pub enum CostBasis {
     Nothing,
     /// Its operations were counted.
     Operations,
-}
-
-impl CostBasis {
-    /// Its name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            CostBasis::Function => "function",
-            CostBasis::Shape => "shape",
-            CostBasis::Nothing => "nothing",
-            CostBasis::Operations => "operations",
-        }
-    }
 }
 
 /// The cost of a function on a family, where it is known. A function that computes nothing costs nothing. Operations are counted
@@ -268,7 +184,7 @@ pub fn function_cost(
 }
 
 /// The cost of an evaluation of a method's library function on a family, for three channels in single precision.
-pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Option<f64> {
+pub fn library_cost(method: &'static Method, family: &Family, record: &CostRecord) -> Option<f64> {
     let known = known_library_cost(
         method,
         FunctionForm::Library,
@@ -282,7 +198,7 @@ pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Op
 /// The cost of an evaluation of a library function on a family, and how it is known: its operations where those are counted or
 /// where there are none, otherwise the record. `form` is that of three channels or of one.
 pub fn known_library_cost(
-    method: &Method,
+    method: &'static Method,
     form: FunctionForm,
     precision: Precision,
     family: &Family,
@@ -294,7 +210,7 @@ pub fn known_library_cost(
     }
     let function = method.function_in(precision, is_scalar).ok()?;
     let recorded = || {
-        let figures = record.of(&FunctionKey::library(method.name, form, precision))?;
+        let figures = record.of(&FunctionId::library(method, form, precision))?;
         Some(KnownCost {
             cost: figures.cost(),
             basis: CostBasis::Function,
@@ -306,6 +222,7 @@ pub fn known_library_cost(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::methods::find;
 
     #[test]
     fn a_record_is_read() {
@@ -321,7 +238,8 @@ mod tests {
         let figures = record.figures["0123456789abcdef"];
         assert_eq!(figures.cost(), 7.0);
         assert_eq!(figures.shader.latency, None);
-        assert_eq!(record.library("schlick"), Some(figures));
+        let schlick = find("schlick").unwrap();
+        assert_eq!(record.library(schlick), Some(figures));
         assert_eq!(record.shapes["00ff"], 7.0);
         assert_eq!(record.shapes["aa"], 6.0);
     }

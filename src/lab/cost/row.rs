@@ -1,31 +1,20 @@
 //! The cost of a function on a family of GPUs as a row of reports, from the family's compiler, from the record, or from the graph.
 
-use serde::Serialize;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
 use super::compilers::FamilyAnswers;
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
 use super::function::CostedFunction;
-use super::record::{CostRecord, FunctionKey};
-use crate::generator::emit::FunctionForm;
-use crate::physics::num::Precision;
+use super::function_id::FunctionId;
+use super::record::CostRecord;
 
 /// A function on a family.
-#[derive(Clone, Debug, Serialize)]
-#[serde(into = "CostRowJson")]
+#[derive(Clone, Debug)]
 pub struct CostRow {
-    /// The function of an effect, by its name after the prefix.
-    pub effect: Option<&'static str>,
-    /// The method. None for a function of an effect that needs no R.
-    pub method: Option<&'static str>,
-    /// The material that it is specialised to.
-    pub material: Option<String>,
-    /// Its form.
-    pub form: FunctionForm,
-    /// How many channels it returns.
-    pub channels: usize,
-    /// The precision that it computes in.
-    pub precision: Precision,
+    /// The function.
+    pub id: FunctionId,
     /// The number of texture fetches.
     pub fetches: usize,
     /// The family.
@@ -56,72 +45,39 @@ pub enum CostSource {
     Graph,
 }
 
-/// The row in a report's JSON.
-#[derive(Serialize)]
-struct CostRowJson {
-    effect: Option<&'static str>,
-    method: Option<&'static str>,
-    material: Option<String>,
-    form: FunctionForm,
-    channels: usize,
-    precision: Precision,
-    constants: &'static str,
-    gpu: &'static str,
-    vendor: &'static str,
-    compiler: Option<String>,
-    measure: &'static str,
-    instructions: Option<f64>,
-    latency: Option<f64>,
-    inverse_throughput: Option<f64>,
-    registers: Option<f64>,
-    fetches: usize,
-    net_instructions: Option<f64>,
-    net_latency: Option<f64>,
-    net_inverse_throughput: Option<f64>,
-    share: Option<f64>,
-    shader: Option<String>,
-    shape: Option<String>,
-    from: Option<CostSource>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
-}
-
-impl From<CostRow> for CostRowJson {
-    fn from(row: CostRow) -> CostRowJson {
-        let figures = row.figures.as_ref().ok();
+impl Serialize for CostRow {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let is_folded = self.id.material.is_some();
+        let figures = self.figures.as_ref().ok();
         let shader = figures.map(|figures| figures.shader);
         let net = figures.map(|figures| figures.net);
         let instructions = |counts: Counts| counts.instructions;
-        CostRowJson {
-            constants: if row.material.is_some() {
-                "folded"
-            } else {
-                "uniform"
-            },
-            gpu: row.family.name,
-            vendor: row.family.vendor,
-            measure: row.family.columns.measure,
-            instructions: shader.map(instructions),
-            latency: shader.and_then(|counts| counts.latency),
-            inverse_throughput: shader.and_then(|counts| counts.inverse_throughput),
-            registers: figures.and_then(|figures| figures.registers),
-            net_instructions: net.map(instructions),
-            net_latency: net.and_then(|counts| counts.latency),
-            net_inverse_throughput: net.and_then(|counts| counts.inverse_throughput),
-            reason: row.reason(),
-            effect: row.effect,
-            method: row.method,
-            material: row.material,
-            form: row.form,
-            channels: row.channels,
-            precision: row.precision,
-            compiler: row.compiler,
-            fetches: row.fetches,
-            share: row.share,
-            shader: row.shader,
-            shape: row.shape,
-            from: row.source,
+        let latency = |counts: Counts| counts.latency;
+        let inverse_throughput = |counts: Counts| counts.inverse_throughput;
+        let mut row = to.serialize_map(None)?;
+        row.serialize_entry("effect", &self.id.effect)?;
+        self.id.serialize_columns(&mut row)?;
+        row.serialize_entry("constants", if is_folded { "folded" } else { "uniform" })?;
+        row.serialize_entry("gpu", self.family.name)?;
+        row.serialize_entry("vendor", self.family.vendor)?;
+        row.serialize_entry("compiler", &self.compiler)?;
+        row.serialize_entry("measure", self.family.columns.measure)?;
+        row.serialize_entry("instructions", &shader.map(instructions))?;
+        row.serialize_entry("latency", &shader.and_then(latency))?;
+        row.serialize_entry("inverse_throughput", &shader.and_then(inverse_throughput))?;
+        row.serialize_entry("registers", &figures.and_then(|figures| figures.registers))?;
+        row.serialize_entry("fetches", &self.fetches)?;
+        row.serialize_entry("net_instructions", &net.map(instructions))?;
+        row.serialize_entry("net_latency", &net.and_then(latency))?;
+        row.serialize_entry("net_inverse_throughput", &net.and_then(inverse_throughput))?;
+        row.serialize_entry("share", &self.share)?;
+        row.serialize_entry("shader", &self.shader)?;
+        row.serialize_entry("shape", &self.shape)?;
+        row.serialize_entry("from", &self.source)?;
+        if let Some(reason) = self.reason() {
+            row.serialize_entry("reason", &reason)?;
         }
+        row.end()
     }
 }
 
@@ -141,35 +97,6 @@ impl CostRow {
         let missing: Vec<&str> = missing.map(|(name, _)| name).collect();
         (!missing.is_empty()).then(|| format!("not told here: {}", missing.join(", ")))
     }
-
-    /// The key of the function in a record.
-    pub fn key(&self) -> FunctionKey {
-        FunctionKey {
-            effect: self.effect.unwrap_or_default().to_owned(),
-            method: self.method.unwrap_or_default().to_owned(),
-            material: self.material.clone().unwrap_or_default(),
-            form: self.form,
-            channels: self.channels,
-            precision: self.precision,
-        }
-    }
-
-    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`,
-    /// `exit_transmittance: schlick`.
-    pub fn label(&self) -> String {
-        let of = self.material.as_deref().or(self.effect);
-        let names: Vec<&str> = of.into_iter().chain(self.method).collect();
-        let channel = match self.channels {
-            1 if self.method.is_some() => ", one channel",
-            _ => "",
-        };
-        let half = if self.precision.is_half() {
-            ", f16"
-        } else {
-            ""
-        };
-        format!("{}{channel}{half}", names.join(": "))
-    }
 }
 
 /// The rows of a family, in the functions' order.
@@ -181,7 +108,7 @@ pub fn cost_rows(
 ) -> Vec<CostRow> {
     let about = |place: usize, function: &CostedFunction| {
         let row = bare(family, function);
-        if function.precision.is_half() && !family.half {
+        if function.id.precision.is_half() && !family.half {
             let why = "it has no 16-bit arithmetic (shaderFloat16)".to_owned();
             return CostRow {
                 figures: Err(why),
@@ -224,12 +151,7 @@ pub fn cost_rows(
 fn bare(family: &'static Family, function: &CostedFunction) -> CostRow {
     let dialect = family.compiler.dialect();
     CostRow {
-        effect: function.effect.map(|effect| effect.name),
-        method: function.method_by_name(),
-        material: function.material.clone(),
-        form: function.form,
-        channels: function.channels(),
-        precision: function.precision,
+        id: function.id.clone(),
         fetches: function.graph.fetches(),
         family,
         compiler: None,
@@ -273,7 +195,7 @@ fn recorded(row: CostRow, function: &CostedFunction, record: &CostRecord, absent
     if function.graph.computes_nothing() {
         return counted(row, function);
     }
-    let why = if record.functions.contains_key(&row.key()) {
+    let why = if record.functions.contains_key(&row.id.to_string()) {
         "what was recorded is of another shader"
     } else {
         "it is not recorded"

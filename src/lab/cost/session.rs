@@ -95,7 +95,7 @@ impl<'a> CompilerSession<'a> {
             let why = format!("not asked: the compiler hung {HANGS} times before");
             return Ok(Err(why));
         }
-        if function.precision.is_half() && !self.family.half {
+        if function.id.precision.is_half() && !self.family.half {
             return Ok(Err("it has no 16-bit arithmetic".to_owned()));
         }
         told(self.figures(function))
@@ -150,7 +150,7 @@ impl<'a> CompilerSession<'a> {
 
     fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], Unmeasured> {
         let (first, result) = function.ends();
-        let kind = (first, result, function.precision.is_half());
+        let kind = (first, result, function.id.precision.is_half());
         if let Some(known) = self.empty.get(&kind) {
             return Ok(known.clone());
         }

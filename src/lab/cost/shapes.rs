@@ -128,7 +128,7 @@ impl SearchResult {
         tried: &TriedShapes,
         terms: &[usize],
         weight: Weight,
-        cost: &dyn Fn(&Method) -> Option<f64>,
+        cost: &dyn Fn(&'static Method) -> Option<f64>,
     ) -> SearchResult {
         let choice = |terms: &usize| {
             let left_out = tried.leave_one_out(*terms);
@@ -158,7 +158,7 @@ fn best_shapes(
     class: &'static SearchedClass,
     tried: &TriedShapes,
     weight: Weight,
-    cost: &dyn Fn(&Method) -> Option<f64>,
+    cost: &dyn Fn(&'static Method) -> Option<f64>,
 ) -> Vec<ShapeRow> {
     let row = |shape: &Tried| {
         let cost = shape.candidate.method.and_then(cost);

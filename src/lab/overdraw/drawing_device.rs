@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::clock::timed;
 use super::measure::Reading;
 use super::plan::{Drawing, DrawingPlan};
+use crate::lab::cost::{ENTRY, VERTEX};
 use crate::lab::gpu::{
     AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat,
     TextureShape, Wrap,
@@ -129,8 +130,8 @@ fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, DeviceFault> {
     });
     canvas.layer(&Shader {
         text: &drawing.text,
-        vertex: Drawing::VERTEX,
-        fragment: Drawing::FRAGMENT,
+        vertex: VERTEX,
+        fragment: ENTRY,
         uniforms: &drawing.uniforms,
         texture: texture.as_ref(),
         blends: drawing.blends,

@@ -2,19 +2,20 @@
 
 use half::f16;
 
-use crate::generator::emit::EmittedFunction;
-use crate::lab::cost::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX};
-use crate::language::ir::{Param, Texels, Ty};
+use crate::lab::cost::{BLOCKS, FunctionId, Probe, WGSL_VERTEX};
+use crate::language::ir::{Checked, Param, Texels, Ty};
 use crate::language::methods::Values;
 use crate::physics::num::Precision;
 
 /// A function that is to be timed.
 #[derive(Clone, Debug)]
 pub struct TimedFunction {
-    /// The function.
-    pub emitted: EmittedFunction,
-    /// The material that it is specialised to, as a user types it.
-    pub material: Option<String>,
+    /// Which function it is.
+    pub id: FunctionId,
+    /// Its name in a text.
+    pub name: String,
+    /// Its graph.
+    pub graph: Checked,
     /// The values of its arguments. A specialised function has none.
     pub values: Values,
     /// The table that it reads, if any.
@@ -26,7 +27,7 @@ pub struct TimedFunction {
 pub struct Drawing {
     /// Its name, for messages.
     pub name: String,
-    /// The module in WGSL with both entry points, [`Drawing::VERTEX`] and [`Drawing::FRAGMENT`].
+    /// The module in WGSL with both entry points, [`VERTEX`](crate::lab::cost::VERTEX) and [`ENTRY`](crate::lab::cost::ENTRY).
     pub text: String,
     /// The bytes at binding 0.
     pub uniforms: Vec<u8>,
@@ -75,34 +76,26 @@ const MOST_ARGUMENTS: usize = 1000;
 
 impl TimedFunction {
     fn drawing(&self, evaluations: usize) -> Drawing {
-        let probe = Probe::new(&self.emitted.function, self.emitted.precision);
+        let probe = Probe::new(&self.graph, self.id.precision);
         Drawing {
-            name: self.emitted.name.clone(),
-            uniforms: uniforms(&probe, &self.values, self.emitted.precision, evaluations),
+            name: self.name.clone(),
+            uniforms: uniforms(&probe, &self.values, self.id.precision, evaluations),
             table: self.table.clone(),
-            ..drawing(&probe, self.emitted.precision, evaluations)
+            ..drawing(&probe, self.id.precision, evaluations)
         }
     }
 
     /// Evaluations in the shorter of its chains.
     fn evaluations(&self, operations: usize) -> usize {
-        let function = &self.emitted.function;
-        let arguments = Probe::new(function, self.emitted.precision)
-            .uniforms()
-            .count();
-        half_chain(operations, function.work(), arguments, self.is_scalar())
+        let probe = Probe::new(&self.graph, self.id.precision);
+        let arguments = probe.uniforms().count();
+        half_chain(
+            operations,
+            self.graph.work(),
+            arguments,
+            self.id.channels == 1,
+        )
     }
-
-    fn is_scalar(&self) -> bool {
-        self.emitted.function.ty() == Ty::Scalar
-    }
-}
-
-impl Drawing {
-    /// The entry point for vertices.
-    pub const VERTEX: &str = VERTEX;
-    /// The entry point for pixels.
-    pub const FRAGMENT: &str = ENTRY;
 }
 
 impl DrawnChain {
@@ -145,7 +138,7 @@ impl DrawingPlan {
         let own = |timed: &TimedFunction| timed.evaluations(operations);
         let reference_once = reference.drawing(1);
         let reference_chain = add(own(reference), &|n| reference.drawing(n));
-        let has_half = timed.iter().any(|timed| timed.emitted.precision.is_half());
+        let has_half = timed.iter().any(|timed| timed.id.precision.is_half());
         let precisions = if has_half { 2 } else { 1 };
         let mut empties = Vec::new();
         for precision in Precision::ALL.into_iter().take(precisions) {
@@ -156,9 +149,9 @@ impl DrawingPlan {
         }
         let fixed = empties[empties.len() - 1].long() + 1;
         let mut chain = |timed: &TimedFunction| {
-            let half = usize::from(timed.emitted.precision.is_half());
-            let empty = empties[2 * half + usize::from(timed.is_scalar())];
-            let own = if timed.emitted.function.work() == 0 {
+            let half = usize::from(timed.id.precision.is_half());
+            let empty = empties[2 * half + usize::from(timed.id.channels == 1)];
+            let own = if timed.graph.work() == 0 {
                 // A function that computes nothing costs 0: a compiler removes a chain in which nothing depends on the cosine.
                 empty
             } else if timed.drawing(1) == reference_once {

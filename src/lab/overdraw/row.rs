@@ -1,34 +1,26 @@
 //! The cost of a function by overdraw as a row of reports, the errors of a measurement, and the record of times with their devices.
 //! `fresnel-gen time` measures what is recorded, and `tests/times` writes the record.
 
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Serialize, Serializer};
 use thiserror::Error;
 
 use super::drawing_device::DeviceFacts;
 use super::figure::OverdrawFigure;
-use super::functions::TimedFunctions;
 use super::measure::{Clock, MeasuredDrawings};
-use super::plan::TimedFunction;
+use super::plan::{DrawingPlan, TimedFunction};
 use crate::generator::emit::FunctionForm;
+use crate::lab::cost::FunctionId;
 use crate::lab::process;
-use crate::language::ir::Ty;
+use crate::language::methods::{Method, find};
 use crate::physics::num::Precision;
 use crate::physics::records;
 
 /// A function and its cost.
-#[derive(Clone, Debug, Serialize)]
-#[serde(into = "TimeRowJson")]
+#[derive(Clone, Debug)]
 pub struct TimeRow {
-    /// The method.
-    pub method: &'static str,
-    /// The material that it is specialised to, as a user types it.
-    pub material: Option<String>,
-    /// Its form.
-    pub form: FunctionForm,
-    /// The number of channels, 1 or 3.
-    pub channels: u8,
-    /// The precision that it computes in.
-    pub precision: Precision,
+    /// The function.
+    pub id: FunctionId,
     /// Its cost, or why that is not known.
     pub figure: Result<OverdrawFigure, String>,
     /// Whether the machine lacks what it needs.
@@ -41,22 +33,17 @@ pub struct TimeRow {
 
 /// The rows of functions that were measured on a device, in the order of the plan.
 pub fn time_rows(
-    timed: &TimedFunctions,
+    functions: &[TimedFunction],
+    plan: &DrawingPlan,
     device: &DeviceFacts,
     measured: &MeasuredDrawings,
 ) -> Vec<TimeRow> {
-    let figures = measured.figures(&timed.plan, device.pixels);
-    let functions = timed.functions.iter().zip(figures);
+    let figures = measured.figures(plan, device.pixels);
+    let functions = functions.iter().zip(figures);
     let time_row = |(function, figure): (&TimedFunction, _)| {
-        let emitted = &function.emitted;
-        let is_lacking = emitted.precision.is_half() && !device.has_half;
-        let is_scalar = emitted.function.ty() == Ty::Scalar;
+        let is_lacking = function.id.precision.is_half() && !device.has_half;
         TimeRow {
-            method: emitted.method.name,
-            material: function.material.clone(),
-            form: emitted.form,
-            channels: if is_scalar { 1 } else { 3 },
-            precision: emitted.precision,
+            id: function.id.clone(),
             figure: if is_lacking {
                 Err(device.no_half())
             } else {
@@ -70,57 +57,29 @@ pub fn time_rows(
     functions.map(time_row).collect()
 }
 
-/// The row in a report's JSON.
-#[derive(Serialize)]
-struct TimeRowJson {
-    method: &'static str,
-    material: Option<String>,
-    form: FunctionForm,
-    channels: u8,
-    precision: Precision,
-    ns_per_pixel: Option<f64>,
-    share: Option<f64>,
-    spread: Option<f64>,
-    low: Option<f64>,
-    high: Option<f64>,
-    net_ns_per_pixel: Option<f64>,
-    empty_ns_per_pixel: Option<f64>,
-    gpu_ns_per_pixel: Option<f64>,
-    wall_ns_per_pixel: Option<f64>,
-    clock: Clock,
-    draws: Option<u32>,
-    evaluations: Option<usize>,
-    rounds: usize,
-    reason: Option<String>,
-}
-
-impl From<TimeRow> for TimeRowJson {
-    fn from(row: TimeRow) -> TimeRowJson {
-        let figure = row.figure.as_ref().ok();
+impl Serialize for TimeRow {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let figure = self.figure.as_ref().ok();
         let number =
             |one: fn(&OverdrawFigure) -> f64| figure.map(one).filter(|value| value.is_finite());
-        let interval = figure.and_then(|figure| figure.interval);
-        TimeRowJson {
-            ns_per_pixel: number(|f| f.ns_per_pixel),
-            share: number(|f| f.share),
-            spread: number(|f| f.spread),
-            low: interval.map(|(low, _)| low),
-            high: interval.map(|(_, high)| high),
-            net_ns_per_pixel: number(|f| f.net_ns_per_pixel),
-            empty_ns_per_pixel: number(|f| f.empty_ns_per_pixel),
-            gpu_ns_per_pixel: number(|f| f.gpu_ns_per_pixel),
-            wall_ns_per_pixel: number(|f| f.wall_ns_per_pixel),
-            clock: row.clock,
-            draws: figure.map(|f| f.draws),
-            evaluations: figure.map(|f| f.evaluations),
-            rounds: row.rounds,
-            reason: row.reason(),
-            method: row.method,
-            material: row.material,
-            form: row.form,
-            channels: row.channels,
-            precision: row.precision,
-        }
+        let (low, high) = figure.and_then(|figure| figure.interval).unzip();
+        let mut row = to.serialize_map(None)?;
+        self.id.serialize_columns(&mut row)?;
+        row.serialize_entry("ns_per_pixel", &number(|f| f.ns_per_pixel))?;
+        row.serialize_entry("share", &number(|f| f.share))?;
+        row.serialize_entry("spread", &number(|f| f.spread))?;
+        row.serialize_entry("low", &low)?;
+        row.serialize_entry("high", &high)?;
+        row.serialize_entry("net_ns_per_pixel", &number(|f| f.net_ns_per_pixel))?;
+        row.serialize_entry("empty_ns_per_pixel", &number(|f| f.empty_ns_per_pixel))?;
+        row.serialize_entry("gpu_ns_per_pixel", &number(|f| f.gpu_ns_per_pixel))?;
+        row.serialize_entry("wall_ns_per_pixel", &number(|f| f.wall_ns_per_pixel))?;
+        row.serialize_entry("clock", &self.clock)?;
+        row.serialize_entry("draws", &figure.map(|f| f.draws))?;
+        row.serialize_entry("evaluations", &figure.map(|f| f.evaluations))?;
+        row.serialize_entry("rounds", &self.rounds)?;
+        row.serialize_entry("reason", &self.reason())?;
+        row.end()
     }
 }
 
@@ -170,50 +129,54 @@ impl Error {
 static RECORD: &str = include_str!("../../../data/records/times.csv");
 
 /// A line of the record.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Time {
-    /// The method.
-    pub method: String,
-    /// The material that it is specialised to. Empty for the library.
-    pub material: String,
-    /// Its form.
-    pub form: FunctionForm,
-    /// The number of channels, 1 or 3.
-    pub channels: u8,
-    /// The precision that it computes in.
-    pub precision: Precision,
-    /// Nanoseconds per pixel of a draw that evaluates it once.
-    pub ns_per_pixel: f64,
-    /// Its net cost divided by that of `dielectric_exact`.
-    pub share: f64,
-    /// The interquartile range of single rounds' shares, divided by their median.
-    pub spread: f64,
-    /// The device.
-    pub device: String,
-    /// Its driver.
-    pub driver: String,
+#[derive(Debug, Deserialize)]
+struct RecordedTime {
+    method: String,
+    form: FunctionForm,
+    precision: Precision,
+    share: f64,
+    device: String,
 }
 
-/// All lines, in the record's order.
-pub fn times() -> Vec<Time> {
-    records::rows(RECORD)
+/// The recorded time of a library function of three channels in single precision.
+#[derive(Clone, Debug)]
+pub struct LibraryTime {
+    /// The method.
+    pub method: &'static Method,
+    /// Its net cost divided by that of `dielectric_exact`.
+    pub share: f64,
+    /// The device.
+    pub device: String,
+}
+
+/// The recorded times of library functions, in the record's order.
+pub fn library_times() -> Vec<LibraryTime> {
+    let rows: Vec<RecordedTime> = records::rows(RECORD);
+    let plain = rows
+        .into_iter()
+        .filter(|row| row.form == FunctionForm::Library && row.precision == Precision::F32);
+    let time = |row: RecordedTime| {
+        Some(LibraryTime {
+            method: find(&row.method)?,
+            share: row.share,
+            device: row.device,
+        })
+    };
+    plain.filter_map(time).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::methods;
 
     #[test]
     fn every_line_of_the_record_is_read() {
-        for time in times() {
-            assert!(methods::find(&time.method).is_some(), "{time:?}");
-            assert_eq!(
-                time.channels == 1,
-                time.form == FunctionForm::Scalar,
-                "{time:?}"
-            );
-            assert!(time.share > 0.0 && time.spread >= 0.0, "{time:?}");
+        /// Method, material, form, channels, precision, nanoseconds, share, spread.
+        type Line = (String, String, FunctionForm, u8, Precision, f64, f64, f64);
+        for (method, _, form, channels, _, _, share, spread) in records::rows::<Line>(RECORD) {
+            assert!(find(&method).is_some(), "{method}");
+            assert_eq!(channels == 1, form == FunctionForm::Scalar, "{method}");
+            assert!(share > 0.0 && spread >= 0.0, "{method}");
         }
     }
 }

@@ -7,11 +7,9 @@ use serde::Deserialize;
 
 use super::ThesisSection;
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use crate::generator::emit::FunctionForm;
 use crate::lab::cost::{self, GpuCompiler, find};
-use crate::lab::overdraw::{Time, times};
+use crate::lab::overdraw::{LibraryTime, library_times};
 use crate::language::methods;
-use crate::physics::num::Precision;
 use crate::physics::num::statistics::{least_squares, rank_correlation};
 use crate::physics::records;
 
@@ -87,7 +85,7 @@ fn printed(family: &str, method: &str) -> Option<f64> {
 impl Pairs {
     fn recorded(device: &str, family: &str) -> Option<Pairs> {
         let record = cost::records(family);
-        let count = |method: &&str| Some(record.library(method)?.net.instructions);
+        let count = |method: &&str| Some(record.library(methods::find(method)?)?.net.instructions);
         let counts: Option<Vec<f64>> = METHODS.iter().map(count).collect();
         let counts = counts?;
         let share = |count: f64| 100.0 * count / counts[0];
@@ -219,7 +217,7 @@ fn statistics(device: &str, pairs: &Pairs) -> Vec<ComparisonRow> {
 /// Rows of the devices that were timed by `fresnel-gen time`: the rank correlation of times with operations of the same
 /// functions. No GPU was both timed here and counted by its own compiler.
 fn timed_here() -> Vec<ComparisonRow> {
-    let times = times();
+    let times = library_times();
     let mut devices: Vec<&str> = times.iter().map(|time| time.device.as_str()).collect();
     devices.sort_unstable();
     devices.dedup();
@@ -229,12 +227,14 @@ fn timed_here() -> Vec<ComparisonRow> {
         .collect()
 }
 
-fn correlated(device: &str, times: &[Time]) -> ComparisonRow {
-    let library = times.iter().filter(|time| {
-        let is_plain = time.form == FunctionForm::Library && time.precision == Precision::F32;
-        is_plain && time.device == device && time.method != "table"
+fn correlated(device: &str, times: &[LibraryTime]) -> ComparisonRow {
+    let own = times
+        .iter()
+        .filter(|time| time.device == device && !time.method.is_textured());
+    let pairs = own.filter_map(|time| {
+        let function = time.method.function(false).ok()?;
+        Some((function.work() as f64, time.share))
     });
-    let pairs = library.filter_map(|time| Some((operations(&time.method)?, time.share)));
     let (counts, shares): (Vec<f64>, Vec<f64>) = pairs.unzip();
     ComparisonRow::new("table6", device, "rank correlation")
         .ours(Figure::Number(rank_correlation(&counts, &shares), 2, ""))
@@ -242,10 +242,4 @@ fn correlated(device: &str, times: &[Time]) -> ComparisonRow {
             "of operations and times (data/records/times.csv) of {} library functions, without the table",
             counts.len()
         ))
-}
-
-/// Operations of a library function of three channels.
-fn operations(method: &str) -> Option<f64> {
-    let function = methods::find(method)?.function(false).ok()?;
-    Some(function.work() as f64)
 }

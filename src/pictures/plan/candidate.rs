@@ -144,7 +144,7 @@ impl Prices<'_> {
     /// The cost of a form of a method, where it is known.
     fn cost(
         &self,
-        method: &Method,
+        method: &'static Method,
         form: FunctionForm,
         specialised: &Checked,
     ) -> Option<KnownCost> {

@@ -36,8 +36,8 @@ same of every function, specialised ones too, and asks the compilers that are he
 /// record.
 pub fn cost_document(families: &[Vec<CostRow>]) -> String {
     let library = side_by_side(families, &|row| is_shown(row) && is_library(row));
-    let materials = side_by_side(families, &|row| is_shown(row) && row.material.is_some());
-    let effects = side_by_side(families, &|row| row.effect.is_some());
+    let materials = side_by_side(families, &|row| is_shown(row) && row.id.material.is_some());
+    let effects = side_by_side(families, &|row| row.id.effect.is_some());
     let mut introduction = INTRODUCTION.to_owned();
     for method in ["schlick", "fitted", "f82_tint"] {
         let mark = format!("{{{method}}}");
@@ -55,11 +55,11 @@ pub fn cost_document(families: &[Vec<CostRow>]) -> String {
 }
 
 fn is_shown(row: &CostRow) -> bool {
-    row.precision == Precision::F32 && row.channels == 3
+    row.id.precision == Precision::F32 && row.id.channels == 3
 }
 
 fn is_library(row: &CostRow) -> bool {
-    row.material.is_none() && row.effect.is_none()
+    row.id.material.is_none() && row.id.effect.is_none()
 }
 
 /// Shares, a column for each family of which anything is known.
@@ -78,7 +78,7 @@ fn side_by_side(families: &[Vec<CostRow>], is_wanted: &dyn Fn(&CostRow) -> bool)
     {
         let cells: Vec<String> = known.iter().map(|rows| percent(&rows[place])).collect();
         // Writing to a String cannot fail.
-        let _ = writeln!(table, "| {} | {} |", row.label(), cells.join(" | "));
+        let _ = writeln!(table, "| {} | {} |", row.id.label(), cells.join(" | "));
     }
     table
 }
@@ -89,7 +89,7 @@ fn range(families: &[Vec<CostRow>], method: &str) -> String {
         .iter()
         .flatten()
         .filter(|row| row.compiler.is_some() && is_shown(row));
-    let own = rows.filter(|row| is_library(row) && row.method == Some(method));
+    let own = rows.filter(|row| is_library(row) && row.id.method_name() == Some(method));
     let shares = own.filter_map(|row| row.share);
     let ends = shares.fold((f64::MAX, f64::MIN), |(low, high), x| {
         (low.min(x), high.max(x))
@@ -109,7 +109,7 @@ fn families_table(families: &[Vec<CostRow>]) -> String {
         let family = rows[0].family;
         let compiler = rows.iter().find_map(|row| row.compiler.as_deref());
         let is_whole = |row: &&CostRow| {
-            is_shown(row) && is_library(row) && row.method == Some("dielectric_exact")
+            is_shown(row) && is_library(row) && row.id.method_name() == Some("dielectric_exact")
         };
         let whole = rows
             .iter()

@@ -1,16 +1,20 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use fresnel_gen::generator::emit::{Bounds, Naming, half_bounds, specialised_function};
+use fresnel_gen::generator::emit::{
+    Bounds, FunctionForm, Naming, half_bounds, specialised_function,
+};
 use fresnel_gen::generator::flavours;
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
-use fresnel_gen::lab::cost;
+use fresnel_gen::lab::cost::{self, FunctionId};
 use fresnel_gen::language::methods::{self, Class, Contract, Method, Origin, Spread};
 use fresnel_gen::language::{effects, targets};
 use fresnel_gen::physics::materials::{Material, SurfaceError, ViewingConditions};
+use fresnel_gen::physics::num::Precision;
 
 /// The effects with their functions; `...` stands for what the method of R takes.
 pub fn effects_table() -> String {
     let record = cost::records("rdna2");
+    let usual = methods::find(effects::USUAL_METHOD).expect("it is a method");
     let mut rows = Vec::new();
     for effect in effects::ALL {
         let mut shown = format!("`{}`", effect.name);
@@ -18,7 +22,13 @@ pub fn effects_table() -> String {
             let arguments = function.arguments.iter().map(|one| one.name);
             let more = function.reflectance.is_used().then_some("...");
             let arguments: Vec<&str> = arguments.chain(more).collect();
-            let figures = record.effect(function.name);
+            let id = |channels| FunctionId {
+                effect: Some(function.name),
+                method: function.reflectance.is_used().then_some(usual),
+                channels,
+                ..FunctionId::library(usual, FunctionForm::Library, Precision::F32)
+            };
+            let figures = record.of(&id(3)).or_else(|| record.of(&id(1)));
             rows.push(vec![
                 std::mem::take(&mut shown),
                 format!("`{}({})`", function.name, arguments.join(", ")),
