@@ -57,11 +57,10 @@ pub mod physics;
 pub mod pictures;
 
 // What build scripts use. The test `snapshots::api` lists it.
-pub use generator::emit::HeaderForm;
+pub use generator::emit::{Artifact, HeaderForm};
 pub use generator::error::Error;
 pub use generator::flavours::Flavour;
 pub use generator::generate::{Generated, generate, generate_single};
-pub use generator::output::artifact::Artifact;
 pub use generator::output::write::write_file;
 pub use generator::request::{Materials, Methods, Request, Source};
 pub use language::effects::Effect;

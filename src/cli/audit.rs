@@ -11,7 +11,7 @@ use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{CheckReportFlags, PictureFlags};
 use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::junit::audit_junit;
-use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, check_limit, report_beside};
 use crate::cli::places::try_files;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::envelope::Report;
@@ -157,7 +157,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     if let Some(file) = &flags.report.junit {
         files.push(OutputFile::named(
             file,
-            audit_junit(&rows).map_err(not_drawn)?,
+            audit_junit(&rows).map_err(Error::usage)?,
         ));
     }
     let texts: Vec<String> = rows.iter().map(audit_text).collect();
@@ -212,10 +212,9 @@ fn charted(
 fn request(flags: &AuditFlags) -> Result<Request, Error> {
     let materials = flags.materials.materials()?;
     if materials == Materials::None {
-        return Err(RequestFault::NoMaterial {
-            why: "--material is none; an audit holds a function against a material",
-        }
-        .into());
+        return Err(Error::usage(
+            "--material is none; an audit holds a function against a material",
+        ));
     }
     Ok(Request {
         materials,
@@ -236,7 +235,7 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     for (place, one) in given.iter().enumerate() {
         if given[..place].iter().any(|other| other.name == one.name) {
             let why = format!("--arg gives `{}` two values; leave one", one.name);
-            return Err(RequestFault::conflict(why).into());
+            return Err(Error::usage(why));
         }
     }
     let defines = flags.define.iter().map(|word| Define::read(word));

@@ -16,6 +16,7 @@ use crate::generator::bake::{
     split_sum_methods, usual_method, viewing_flags,
 };
 use crate::generator::command_line::CommandLine;
+use crate::generator::emit::Artifact;
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
 use crate::generator::generate::provenance;
@@ -23,7 +24,7 @@ use crate::generator::generate::tables::{WantedTables, artifacts, table_material
 use crate::generator::lut::{
     Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
 };
-use crate::generator::output::artifact::{Artifact, Scope};
+use crate::generator::output::artifact::Scope;
 use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
@@ -309,7 +310,7 @@ fn is_split_sum(name: &str) -> bool {
 fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
     if subjects.is_empty() {
         let why = "`--material none` leaves nothing to bake; name materials, or all";
-        return Err(RequestFault::NoMaterial { why }.into());
+        return Err(Error::usage(why));
     }
     let taken = |subject: &TableMaterial| match subject.name.as_str() {
         ATLAS if atlas => Some("the picture of all"),

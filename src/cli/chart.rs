@@ -8,11 +8,11 @@ use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
-use crate::cli::output::{Output, Progress, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, report_beside};
 use crate::cli::places::try_files;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
-use crate::generator::error::{RequestFault, unknown};
+use crate::generator::error::unknown;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::generator::request::{Materials, Request};
@@ -122,10 +122,9 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
 fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
     match flags.materials.materials()? {
         Materials::Default => Ok(Materials::All),
-        Materials::None => Err(RequestFault::NoMaterial {
-            why: "a chart is of materials; `none` leaves nothing to show",
-        }
-        .into()),
+        Materials::None => Err(Error::usage(
+            "a chart is of materials; `none` leaves nothing to show",
+        )),
         named => Ok(named),
     }
 }
@@ -146,9 +145,9 @@ pub(super) fn drawn_files(
     view: &ChartView,
     first: [usize; 3],
 ) -> Result<Vec<OutputFile>, Error> {
-    let page = chart_page(view.data, first).map_err(not_drawn)?;
+    let page = chart_page(view.data, first).map_err(Error::usage)?;
     let picture = chart_svg(view).ok_or_else(|| {
-        not_drawn(format!(
+        Error::usage(format!(
             "nothing is known of {} on {}: there is no picture to draw",
             view.set.title, view.cost.name
         ))

@@ -11,7 +11,7 @@ use crate::cli::flags::choice::{
 };
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
-use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, check_limit, report_beside};
 use crate::cli::places::try_places;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
@@ -216,7 +216,7 @@ fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
     }
     if functions.is_empty() {
         let why = "no function of these effects asks for R; leave --method out";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     Ok(functions)
 }
@@ -330,7 +330,7 @@ fn unasked(rows: &[CostRow]) -> String {
 
 /// The page as a file to be written.
 fn paged(flags: &CostFlags, table: &[Vec<CostRow>], file: PathBuf) -> Result<OutputFile, Error> {
-    let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
+    let page = cost_page(table, &String::from(flags.command_line())).map_err(Error::usage)?;
     Ok(OutputFile::of_report(file, page, flags.pictures.overwrite))
 }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::generator;
+use crate::generator::error::RequestFault;
 use crate::lab::{audit, budget, overdraw, process, verify};
 
 /// A fault of the request, of the files, or of the machine.
@@ -40,7 +41,7 @@ where
 impl Error {
     /// A request that contradicts itself or cannot be met.
     pub fn usage(what: impl Into<String>) -> Error {
-        Error::Generator(generator::Error::Usage { what: what.into() })
+        RequestFault::refused(what).into()
     }
 
     /// Something that the command needs is missing here.

@@ -14,7 +14,6 @@ use crate::cli::search;
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{Missed, missed};
 use crate::generator::envelope::Report;
-use crate::generator::error::RequestFault;
 use crate::generator::fit::{
     Coefficients, Exact, FitCurve, FitObjective, Follows, ModelError, Weight, error_from,
     model_error, values_at,
@@ -150,7 +149,7 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
             "--weight {} wants a space, which --f0 and --f82 have not; absolute and relative go with them",
             flags.weight.name()
         );
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     Ok(FitObjective {
         weight: flags.weight,
@@ -199,10 +198,9 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<S
         flags.materials.materials()?
     };
     if materials == Materials::None {
-        return Err(RequestFault::NoMaterial {
-            why: "a fit is of materials; `none` leaves nothing to fit",
-        }
-        .into());
+        return Err(Error::usage(
+            "a fit is of materials; `none` leaves nothing to fit",
+        ));
     }
     let request = Request {
         materials,

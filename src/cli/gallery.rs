@@ -6,10 +6,9 @@ use clap::Args;
 
 use crate::cli::error::Error;
 use crate::cli::flags::material::MaterialFlags;
-use crate::cli::output::{Output, Progress, not_drawn};
+use crate::cli::output::{Output, Progress};
 use crate::cli::places::{folder_or_current, replaced, try_files};
 use crate::generator::command_line::CommandLine;
-use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::request::{Materials, Request};
 use crate::pictures::gallery::gallery;
@@ -56,9 +55,9 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     let mut remarks = found.left_out_lines();
     let space = request.viewing.integration.space;
     let gallery = gallery(&found.materials(), space, progress);
-    let gallery = gallery.map_err(|fault| not_drawn(fault.to_string()))?;
+    let gallery = gallery.map_err(|fault| Error::usage(fault.to_string()))?;
     let command: String = flags.command_line().into();
-    let page = gallery_page(&gallery, &command).map_err(not_drawn)?;
+    let page = gallery_page(&gallery, &command).map_err(Error::usage)?;
     let old = write_outputs(&[OutputFile::of_report(&file, page, flags.overwrite)])?;
     let (rows, methods, materials) = (
         gallery.rows.len(),
@@ -80,10 +79,9 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
 fn chosen(flags: &GalleryFlags) -> Result<Materials, Error> {
     match flags.materials.materials()? {
         Materials::Default => Ok(Materials::All),
-        Materials::None => Err(RequestFault::NoMaterial {
-            why: "a gallery shows materials; `none` leaves nothing to show",
-        }
-        .into()),
+        Materials::None => Err(Error::usage(
+            "a gallery shows materials; `none` leaves nothing to show",
+        )),
         named => Ok(named),
     }
 }

@@ -18,15 +18,14 @@ use crate::cli::output::Output;
 use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
 use crate::cli::plan_file::{material_paths, planned};
 use crate::generator::bake::as_tables_are_seen;
+use crate::generator::emit::Artifact;
 use crate::generator::emit::{HeaderForm, fitted_error};
-use crate::generator::error::RequestFault;
 use crate::generator::fit::{ModelError, rounded_up};
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::catalogue::add_catalogue;
 use crate::generator::generate::kept;
 use crate::generator::generate::tables::add_tables;
 use crate::generator::generate::{Generated, KeptMethods, generate_beside, generate_single};
-use crate::generator::output::artifact::Artifact;
 use crate::generator::output::depfile;
 use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::tree::{self, ChangedRows, TreePlan, plan};
@@ -192,11 +191,11 @@ fn chosen(flags: &GenerateFlags, request: Request) -> Result<(Request, Vec<Strin
     let budget = Budget::new(most, flags.gpu.unwrap_or_else(usual))?;
     if request.precision.is_half() {
         let why = "--budget is of functions in single precision; leave --precision f16 out";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     if request.materials == Materials::None {
         let why = "--budget chooses for materials; `none` leaves none to choose for";
-        return Err(RequestFault::NoMaterial { why }.into());
+        return Err(Error::usage(why));
     }
     within(budget, request)
 }
@@ -447,7 +446,7 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
     let outputs = if named.is_empty() { outputs } else { &named };
     if outputs == ["-"] {
         let why = "--depfile with `-o -` has no file that its rule is for; name one with --depfile-target";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     let paths = flags.materials.paths().chain(flags.medium.path());
     let paths = paths.chain(flags.viewing.viewing.path());
@@ -458,7 +457,7 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
     }
     if let Some(own) = outputs.iter().find(|output| inputs.contains(output)) {
         let why = format!("--depfile-target {own} is a file that the run reads");
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     inputs.extend(depfile::own_program());
     let rule = depfile::depfile(outputs, &inputs)?;

@@ -6,7 +6,6 @@ use crate::cli::error::Error;
 use crate::cli::materials::{ImportFlags, material_record};
 use crate::cli::output::{Output, report};
 use crate::cli::places::try_places;
-use crate::generator::error::RequestFault;
 use crate::generator::output::folder;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::generator::request::source::read;
@@ -23,7 +22,7 @@ pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
         .filter(|file| *file != Path::new("-"));
     if file.is_none() && json == Some(Path::new("-")) {
         let why = "the material file and the JSON both go to stdout; write one of them to a file, with -o or --json";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     try_places(json, file)?;
     let fault = |name: &String| {

@@ -425,7 +425,7 @@ pub fn requested_targets(
         (Some(first), [Choice::One(one, _)]) if of_ending.iter().all(|it| it.name != one) => {
             let (file, language) = (crate::physics::foreign::path(&file), first.name);
             let why = format!("`{file}` ends as a file of {language}, and --target is {one}");
-            Err(RequestFault::conflict(why).into())
+            Err(Error::usage(why))
         }
         _ => Ok(named),
     }
@@ -441,7 +441,7 @@ fn of_ending(ending: &str) -> Vec<&'static Target> {
 fn no_language(file: &Path) -> RequestFault {
     let endings: BTreeSet<&str> = targets::ALL.iter().flat_map(|it| it.endings()).collect();
     let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
-    RequestFault::conflict(format!(
+    RequestFault::refused(format!(
         "`{}` says no language by its ending; name one with --target, or end the file in {}",
         crate::physics::foreign::path(&file),
         endings.join(", ")

@@ -10,11 +10,11 @@ use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::{MaterialName, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
-use crate::cli::output::{Output, Progress, not_drawn, png, report, reported};
+use crate::cli::output::{Output, Progress, png, report, reported};
 use crate::cli::{import, params, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};
-use crate::generator::error::{RequestFault, unknown};
+use crate::generator::error::unknown;
 use crate::generator::exchange::{self, Format};
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::generator::request::check_transparent;
@@ -345,7 +345,7 @@ fn drawn<'a>(flags: &'a ShowFlags, loaded: &Loaded) -> Result<Vec<(&'a Path, Vec
     let around = medium.as_ref().map(|medium| &medium.material);
     let sheet = |picture| {
         let command = command(loaded, medium.as_ref(), &viewing, picture);
-        material_sheet(&loaded.material, around, &viewing, &command).map_err(not_drawn)
+        material_sheet(&loaded.material, around, &viewing, &command).map_err(Error::usage)
     };
     let svg = flags.svg.as_ref().map(|_| sheet("svg")).transpose()?;
     let bytes = flags
@@ -373,11 +373,10 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
         .find(|(i, place)| given[..*i].contains(place));
     match twice {
         None => Ok(()),
-        Some((_, place)) => Err(RequestFault::conflict(format!(
+        Some((_, place)) => Err(Error::usage(format!(
             "--svg, --png and --json want different places, and `{}` is named twice",
             crate::physics::foreign::path(&place)
-        ))
-        .into()),
+        ))),
     }
 }
 

@@ -44,14 +44,9 @@ pub fn check_limit(seconds: u64) -> Result<(), Error> {
     .into())
 }
 
-/// The fault of a picture that cannot be drawn, with the reason.
-pub fn not_drawn(reason: String) -> Error {
-    RequestFault::NotDrawn { reason }.into()
-}
-
 /// An SVG document as PNG.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
-    crate::pictures::png::png(svg, scale).map_err(not_drawn)
+    crate::pictures::png::png(svg, scale).map_err(Error::usage)
 }
 
 /// A report as text, or as JSON where that was requested. JSON on stdout stands there alone.

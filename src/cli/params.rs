@@ -36,10 +36,9 @@ struct ParamsReport<'a> {
 pub fn run(flags: &ParamsFlags, json: Option<&Path>) -> Result<Output, Error> {
     match flags.format {
         None => reported(&flags.of, json),
-        Some(_) if json.is_some() => Err(RequestFault::conflict(
+        Some(_) if json.is_some() => Err(Error::usage(
             "--as writes a format of its own in place of the report; leave --json out",
-        )
-        .into()),
+        )),
         Some(format) => exported(flags, format),
     }
 }
@@ -82,9 +81,8 @@ fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
         &viewing,
         Derivation::default(),
     )?;
-    let fault = |fault: crate::generator::exchange::ExchangeFault| {
-        RequestFault::conflict(fault.to_string())
-    };
+    let fault =
+        |fault: crate::generator::exchange::ExchangeFault| RequestFault::refused(fault.to_string());
     let material = EngineMaterial::new(&subject, &viewing).map_err(fault)?;
     let exported = format
         .export(&material, &String::from(command))

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, family, in_any_case, method_or_all, one_of, precision};
 use crate::cli::flags::output::{PictureFlags, ReportFlags, file_only};
-use crate::cli::output::{Output, Progress, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, report_beside};
 use crate::cli::places::{refuse_read, try_places};
 use crate::cli::plan_input::{PlanInput, plan_input};
 use crate::cli::scene_error::size;
@@ -276,7 +276,7 @@ fn paged(
         let pixels = frame(material.chosen().worst_frame)?;
         views.push(material_view(request, material, i, &pixels));
     }
-    let text = plan_page(made, &views).map_err(not_drawn)?;
+    let text = plan_page(made, &views).map_err(Error::usage)?;
     Ok(OutputFile::of_report(page, text, flags.pictures.overwrite))
 }
 

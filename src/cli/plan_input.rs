@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use crate::cli::error::Error;
 use crate::cli::flags::material::MaterialName;
 use crate::cli::plan::PlanFlags;
-use crate::generator::error::RequestFault;
 use crate::generator::output::folder::is_same_file;
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::generator::request::source::{self, same_name};
@@ -56,7 +55,7 @@ pub fn plan_input<'a>(
     let is_gltf = matches!(ending, Some("glb" | "gltf"));
     if !is_gltf && (flags.environment.is_some() || flags.size.is_some()) {
         let why = "--environment and --size are of glTF scenes; a scene file says both itself";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     match ending {
         Some("toml") => of_scene_file(flags, scene, viewing),
@@ -66,7 +65,7 @@ pub fn plan_input<'a>(
             let why = format!(
                 "`{file}` is no scene by its ending: .toml, .glb or .gltf; frames of a renderer go with --gbuffer"
             );
-            Err(RequestFault::conflict(why).into())
+            Err(Error::usage(why))
         }
     }
 }

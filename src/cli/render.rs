@@ -9,7 +9,7 @@ use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::MaterialName;
 use crate::cli::flags::output::{ReportFlags, file_only};
-use crate::cli::output::{Output, Progress, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, report_beside};
 use crate::cli::places::try_files;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
@@ -120,7 +120,7 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
             "{} lies here, and this program did not write it; name the picture's file with -o",
             crate::physics::foreign::path(&file)
         );
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     let named = flags.report.json.iter().chain([&file]);
     try_files(&named.map(|file| file.as_path()).collect::<Vec<_>>())?;
@@ -148,7 +148,7 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     } else {
         panels_png(&picture, &display, &command)
     };
-    let drawn = vec![OutputFile::named(&file, bytes.map_err(not_drawn)?)];
+    let drawn = vec![OutputFile::named(&file, bytes.map_err(Error::usage)?)];
     let adapter = device.adapter.to_string();
     let text = render_text(&picture.row, &adapter);
     let json = Report::new(command, vec![picture.row]).with_device(Some(adapter));
@@ -179,7 +179,7 @@ fn check(flags: &RenderFlags) -> Result<(), Error> {
             "{} has no environment to clamp; leave --ldr out",
             flags.name.name
         );
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use crate::cli::flags::choice::{Choice, method_or_all, one_of};
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{PictureFlags, ReportFlags, file_only};
 use crate::cli::flags::viewing::{GamutFlags, numbers};
-use crate::cli::output::{Output, Progress, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, report_beside};
 use crate::cli::places::try_places;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
@@ -179,7 +179,7 @@ pub fn run(flags: &SceneErrorFlags, progress: Progress) -> Result<Output, Error>
     });
     if shown.pixels == 0 {
         let why = "no pixel shows the object: a larger --size or a nearer --eye would";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     let rows = rows(flags, &viewing, &shown, &pairs, progress);
     let command: String = flags.command_line(&viewing).into();
@@ -231,10 +231,9 @@ fn subjects(
 ) -> Result<Vec<MaterialInMedium>, Error> {
     let materials = flags.materials.materials()?;
     if materials == Materials::None {
-        return Err(RequestFault::NoMaterial {
-            why: "an error in a picture is of materials; `none` leaves nothing to draw",
-        }
-        .into());
+        return Err(Error::usage(
+            "an error in a picture is of materials; `none` leaves nothing to draw",
+        ));
     }
     let request = Request {
         materials,
@@ -389,7 +388,7 @@ fn pictures(
         }
     }
     let made = made.into_iter().collect::<Result<Vec<_>, String>>();
-    let made = made.map_err(not_drawn)?;
+    let made = made.map_err(Error::usage)?;
     let places = places(flags, pairs).into_iter().zip(made);
     let overwrite = flags.pictures.overwrite;
     let file = |(path, bytes)| OutputFile::of_report(path, bytes, overwrite);

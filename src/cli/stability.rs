@@ -8,7 +8,7 @@ use crate::cli::error::Error;
 use crate::cli::flags::choice::{Choice, one_or_all, precision};
 use crate::cli::flags::material::MaterialFlags;
 use crate::cli::flags::output::{PictureFlags, ReportFlags};
-use crate::cli::output::{Output, Progress, not_drawn, png, report_beside};
+use crate::cli::output::{Output, Progress, png, report_beside};
 use crate::cli::places::try_places;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
@@ -164,7 +164,6 @@ impl Asked<'_> {
         folder: &Path,
         progress: Progress,
     ) -> Result<(Vec<OutputFile>, Option<String>), Error> {
-        let failed = not_drawn;
         let mut pictures = Vec::new();
         for (i, method) in self.study.methods.iter().enumerate() {
             progress(i as u64, self.study.methods.len() as u64, "maps");
@@ -174,7 +173,7 @@ impl Asked<'_> {
             }
         }
         let page = stability_page(rows, &pictures, &String::from(self.flags.command_line()))
-            .map_err(failed)?;
+            .map_err(Error::usage)?;
         let suffix = self.study.precision.suffix();
         let path = |method: &str, over: &str| folder.join(format!("{method}_{over}{suffix}.png"));
         let index = index(self.study.precision);

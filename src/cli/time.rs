@@ -186,7 +186,7 @@ fn check_device(flags: &TimeFlags, facts: &DeviceFacts, wanted: &Wanted) -> Resu
         let device = &facts.device;
         let why =
             format!("--clock cpu is for software; {device} does not compute on the processor");
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     Ok(())
 }

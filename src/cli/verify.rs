@@ -15,7 +15,7 @@ use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::CheckReportFlags;
 use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::junit::verify_junit;
-use crate::cli::output::{Output, Progress, check_limit, not_drawn, report_beside};
+use crate::cli::output::{Output, Progress, check_limit, report_beside};
 use crate::cli::places::{refuse_place_of, try_places};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::Naming;
@@ -173,7 +173,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     }
     if flags.exhaustive && request.precision.is_half() {
         let why = "--exhaustive runs every f32; a run of --precision f16 tries every f16 already";
-        return Err(RequestFault::conflict(why).into());
+        return Err(Error::usage(why));
     }
     for report in flags.report.files() {
         refuse_place_of(&plan.places, report)?;
@@ -357,7 +357,7 @@ fn told<T: Serialize>(
     if let Some(file) = &files.junit {
         junit.push(OutputFile::named(
             file,
-            verify_junit(rows).map_err(not_drawn)?,
+            verify_junit(rows).map_err(Error::usage)?,
         ));
     }
     let mut output = report_beside(verify_text(rows), full, files.report.json(), junit)?;

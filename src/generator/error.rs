@@ -22,12 +22,6 @@ pub enum Error {
     /// A fault of the request that several commands share.
     #[error(transparent)]
     Request(#[from] RequestFault),
-    /// A request that contradicts itself or cannot be met.
-    #[error("{}", one_line(what))]
-    Usage {
-        /// What was wrong, and what is allowed.
-        what: String,
-    },
     /// Something that the command needs is missing.
     #[error("{}", one_line(what))]
     Lacking {
@@ -215,17 +209,11 @@ pub enum RequestFault {
         /// What is allowed: `is 1 to 1000`.
         allowed: String,
     },
-    /// Flags, or values of one, that contradict each other.
+    /// A request that contradicts itself, or that cannot be met.
     #[error("{}", one_line(why))]
-    Conflict {
-        /// Why they contradict each other, and what to leave out.
+    Refused {
+        /// What is wrong, and what is allowed or to be left out.
         why: String,
-    },
-    /// A command that needs materials, with `--material none`.
-    #[error("{why}")]
-    NoMaterial {
-        /// What the command does with materials.
-        why: &'static str,
     },
     /// Names that leave nothing to do.
     #[error("there is nothing to {work}: {why}")]
@@ -290,23 +278,17 @@ pub enum RequestFault {
         /// What is there, and the way out.
         why: &'static str,
     },
-    /// A picture, page or report that cannot be made.
-    #[error("{}", one_line(reason))]
-    NotDrawn {
-        /// The reason that its maker gives.
-        reason: String,
-    },
 }
 
 impl RequestFault {
-    /// The error for flags, or values of one, that contradict each other.
-    pub fn conflict(why: impl Into<String>) -> RequestFault {
-        RequestFault::Conflict { why: why.into() }
+    /// The error for a request that contradicts itself, or that cannot be met.
+    pub fn refused(why: impl Into<String>) -> RequestFault {
+        RequestFault::Refused { why: why.into() }
     }
 
     /// The error for a method from which an effect cannot take R.
     pub fn textured_reflectance(method: &Method) -> RequestFault {
-        RequestFault::conflict(format!(
+        RequestFault::refused(format!(
             "method `{}` reads a texture of its own, which effects do not pass on; name another --method",
             method.name
         ))

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use fresnel_gen::generator::emit::Artifact;
 use fresnel_gen::generator::emit::{catalogue_record, recorded_catalogue};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::catalogue::{add_catalogue, derived_rows};
-use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::request::Request;
 use fresnel_gen::language::ir::{Column, Value as Evaluated, evaluate};
 use fresnel_gen::language::{methods, targets};

@@ -1,8 +1,8 @@
 //! Is `shaders-generated/` what the program writes today? The set of files, orphans included.
 
+use fresnel_gen::generator::emit::Artifact;
 use fresnel_gen::generator::emit::HeaderForm;
 use fresnel_gen::generator::generate;
-use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::request::Request;
 use fresnel_gen::language::{methods, targets};
 use fresnel_gen::physics::num::Precision;

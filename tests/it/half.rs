@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fresnel_gen::generator::emit::{Bounds, EmittedFunction, Naming, specialised_function};
-use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::error::{Error, RequestFault};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
@@ -254,7 +254,7 @@ fn a_method_that_cannot_be_saved_is_refused_by_name_unless_forced() {
             assert!(result.is_ok(), "{}", method.name);
             continue;
         };
-        let Err(error @ Error::Usage { .. }) = result else {
+        let Err(error @ Error::Request(RequestFault::Refused { .. })) = result else {
             panic!("{} is written", method.name);
         };
         let words = error.to_string();

@@ -38,7 +38,7 @@ impl<T> Choice<T> {
     pub fn is_none(words: &[Choice<T>], what: &str) -> Result<bool, RequestFault> {
         let is_none = words.iter().any(|word| matches!(word, Choice::None));
         if is_none && words.len() > 1 {
-            return Err(RequestFault::conflict(format!(
+            return Err(RequestFault::refused(format!(
                 "`none` leaves all {what} out, so that no other can be named beside it"
             )));
         }

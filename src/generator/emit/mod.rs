@@ -3,6 +3,7 @@
 //! One printer ([`print`]) prints the graph with the spelling of the target, a Tera template puts the page around it, and naga
 //! generates SPIR-V from WGSL. Library files hold functions only.
 
+mod artifact;
 mod average;
 mod batch;
 mod catalogue;
@@ -19,6 +20,7 @@ pub mod shader_words;
 mod short;
 mod xml;
 
+pub use artifact::Artifact;
 pub use average::{Average, companions};
 pub use batch::{batch_entry, batch_program, places};
 pub use catalogue::{

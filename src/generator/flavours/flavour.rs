@@ -1,7 +1,7 @@
 //! The record of a flavour, and its files in memory.
 
 use super::view::{AdapterView, view};
-use crate::generator::emit::{self, CatalogueRow};
+use crate::generator::emit::{self, AdapterDetail, Artifact, CatalogueRow, Detail, OUTPUT_LICENCE};
 use crate::generator::lut::{self, SplitSumAxis};
 
 /// A target adapted to one host.
@@ -66,19 +66,6 @@ impl Flavour {
     }
 }
 
-/// A file of a flavour, in memory.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FlavourFile {
-    /// The path below the flavour's folder.
-    pub name: String,
-    /// The material, if the file is written for each.
-    pub material: Option<String>,
-    /// The command that makes it again.
-    pub command: String,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
-}
-
 /// Commands that make files again.
 pub struct Commands<'a> {
     /// All files of the flavour.
@@ -117,38 +104,38 @@ pub fn files(
     materials: Fitted,
     example: Fitted,
     commands: &Commands,
-) -> Result<Vec<FlavourFile>, Error> {
+) -> Result<Vec<Artifact>, Error> {
     let shown = if flavour.is_by_material() {
         example
     } else {
         materials
     };
     let shared = view(flavour, shown.rows, shown.reference, &commands.all)?;
+    let file = |page: &FlavourPage, material: Option<&str>, view: &AdapterView, command: &str| {
+        let name = page.file_of(material.unwrap_or_default());
+        let path = format!("{}/{name}", flavour.name);
+        let bytes = emit::text_of_template(page.template, view, &path)?;
+        let detail = Detail::Adapter(AdapterDetail {
+            command: command.to_owned(),
+            host: flavour.host,
+            seen: materials.reference.to_owned(),
+            licence: OUTPUT_LICENCE,
+        });
+        Ok::<_, Error>(Artifact {
+            material: material.map(str::to_owned),
+            ..Artifact::new(flavour.name, path, bytes, detail)
+        })
+    };
     let mut files = Vec::new();
     for page in flavour.pages.iter().filter(|page| !page.is_of_material()) {
-        files.push(file(flavour, page, (None, &commands.all), &shared)?);
+        files.push(file(page, None, &shared, &commands.all)?);
     }
     for row in materials.rows.iter().filter(|_| flavour.is_by_material()) {
         let command = (commands.of_material)(&row.name);
         let own = shared.of_material(row, materials.reference, &command);
         for page in flavour.pages.iter().filter(|page| page.is_of_material()) {
-            files.push(file(flavour, page, (Some(&row.name), &command), &own)?);
+            files.push(file(page, Some(&row.name), &own, &command)?);
         }
     }
     Ok(files)
-}
-
-fn file(
-    flavour: &Flavour,
-    page: &FlavourPage,
-    (material, command): (Option<&str>, &str),
-    view: &AdapterView,
-) -> Result<FlavourFile, Error> {
-    let name = material.map_or_else(|| page.name.to_owned(), |material| page.file_of(material));
-    Ok(FlavourFile {
-        bytes: emit::text_of_template(page.template, view, &format!("{}/{name}", flavour.name))?,
-        name,
-        material: material.map(str::to_owned),
-        command: command.to_owned(),
-    })
 }

@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use crate::generator::command_line::CommandLine;
+use crate::generator::emit::Artifact;
 use crate::generator::emit::{
     self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail,
     CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
@@ -12,7 +13,6 @@ use crate::generator::envelope::{Origin, TOOL};
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
 use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
-use crate::generator::output::artifact::Artifact;
 use crate::generator::output::ours::SHARED;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, Source};
@@ -36,7 +36,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
         let file = emit::catalogue_array(target, &rows, &request.naming(), &reference, &command)?;
         generated.artifacts.extend(file.map(|file| {
             let path = format!("{}/{}", target.name, file.name);
-            artifact(path, file.bytes, target.name, file.detail)
+            Artifact::new(target.name, path, file.bytes, file.detail)
         }));
     }
     if generated.scope.whole {
@@ -140,7 +140,7 @@ fn shared(
             seen: reference.to_owned(),
             licence: OUTPUT_LICENCE,
         });
-        artifact(path.to_owned(), bytes, target, detail)
+        Artifact::new(target, path.to_owned(), bytes, detail)
     });
     Ok(files.into())
 }
@@ -159,18 +159,6 @@ fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command
         materials: CatalogueMaterial::all(rows),
     };
     serde_json::to_string_pretty(&file).expect("a report has only text keys") + "\n"
-}
-
-fn artifact(path: String, bytes: Vec<u8>, target: &str, detail: Detail) -> Artifact {
-    Artifact {
-        path,
-        bytes,
-        target: target.to_owned(),
-        effect: None,
-        method: None,
-        material: None,
-        detail,
-    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! The files of effects: in their default form, with another method, or specialised to materials.
 
 use crate::generator::command_line::CommandLine;
+use crate::generator::emit::Artifact;
 use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::written::Owners;
-use crate::generator::generate::{GeneratedFile, Run};
-use crate::generator::output::artifact::Artifact;
+use crate::generator::generate::{GeneratedFile, Run, artifact};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Request, each_once};
 use crate::language::effects::{self, Effect, USUAL_METHOD};
@@ -41,7 +41,7 @@ pub fn wanted(
     }
     if request.precision.is_half() {
         let why = "effects compute in single precision; leave --precision f16 out";
-        return Err(RequestFault::conflict(why).into());
+        return Err(RequestFault::refused(why).into());
     }
     let method = match named {
         None => None,
@@ -51,7 +51,7 @@ pub fn wanted(
         Some([method]) => Some(*method),
         Some(_) => {
             let why = "an effect takes R from one method; name one --method";
-            return Err(RequestFault::conflict(why).into());
+            return Err(RequestFault::refused(why).into());
         }
     };
     Ok(WantedEffects {
@@ -103,15 +103,12 @@ impl Run<'_> {
                 let command = self.effect_command(target, &request);
                 let naming = &self.naming;
                 let file = emit::effect_file(target, &request, &functions, naming, &command)?;
+                let method = request.unusual_method();
+                let material = request.subject.map(|subject| subject.name.as_str());
                 files.push(GeneratedFile {
                     artifact: Artifact {
-                        path: format!("{}/{}", target.name, file.name),
-                        bytes: file.bytes,
-                        target: target.name.to_owned(),
                         effect: Some(request.effect.name.to_owned()),
-                        method: request.unusual_method().map(str::to_owned),
-                        material: request.subject.map(|subject| subject.name.clone()),
-                        detail: file.detail,
+                        ..artifact(target, file, method, material)
                     },
                     functions: functions.clone(),
                     subject: None,
@@ -138,7 +135,7 @@ impl Run<'_> {
         if all.is_empty() && self.is_of_effects() {
             let names: Vec<&str> = self.request.effects.iter().map(|one| one.name).collect();
             let why = format!("{}; leave the flag out", self.unchanged(&names.join(", ")));
-            return Err(RequestFault::conflict(why).into());
+            return Err(RequestFault::refused(why).into());
         }
         Ok(all)
     }

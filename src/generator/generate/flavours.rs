@@ -1,11 +1,10 @@
 //! The files of flavours: adapters for hosts, with fitted coefficients of the run's materials.
 
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
+use crate::generator::emit::{self, Artifact, CatalogueRow};
 use crate::generator::error::{Error, RequestFault};
-use crate::generator::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
+use crate::generator::flavours::{self, Commands, Fitted, Flavour};
 use crate::generator::generate::Run;
-use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use crate::language::methods::Method;
@@ -51,7 +50,7 @@ pub fn check(
             "--flavour {names} is written in {languages}, and --target is {}; leave --target out",
             target.name
         );
-        return Err(RequestFault::conflict(why).into());
+        return Err(RequestFault::refused(why).into());
     }
     let why = if methods.is_some() || !request.chosen.is_empty() {
         "takes the fitted method of each material; leave --method, --budget and --plan out"
@@ -66,7 +65,7 @@ pub fn check(
     } else {
         return Ok(());
     };
-    Err(RequestFault::conflict(format!("--flavour {names} {why}")).into())
+    Err(RequestFault::refused(format!("--flavour {names} {why}")).into())
 }
 
 /// The row of the example, fitted under the default request.
@@ -102,7 +101,7 @@ impl Run<'_> {
             .iter()
             .find(|subject| !self.is_brought_along(subject))
         {
-            return Err(RequestFault::conflict(format!("{}; leave it out", without(named))).into());
+            return Err(RequestFault::refused(format!("{}; leave it out", without(named))).into());
         }
         self.refuse_names_of_pages(&subjects)?;
         let rows = emit::catalogue_rows(&subjects, &self.naming)?;
@@ -121,9 +120,7 @@ impl Run<'_> {
         };
         let mut artifacts = Vec::new();
         for flavour in &self.flavours {
-            for file in self.adapter(flavour, materials, example)? {
-                artifacts.push(artifact(flavour, file, &reference));
-            }
+            artifacts.extend(self.adapter(flavour, materials, example)?);
         }
         Ok((artifacts, others.iter().map(without).collect()))
     }
@@ -133,7 +130,7 @@ impl Run<'_> {
         flavour: &'static Flavour,
         materials: Fitted,
         example: Fitted,
-    ) -> Result<Vec<FlavourFile>, Error> {
+    ) -> Result<Vec<Artifact>, Error> {
         let commands = Commands {
             all: if flavour.is_by_material() {
                 CommandLine::new("fresnel-gen")
@@ -156,7 +153,7 @@ impl Run<'_> {
             };
             if let Some(subject) = subjects.iter().find(clash) {
                 let (name, flavour) = (&subject.name, flavour.name);
-                return Err(RequestFault::conflict(format!(
+                return Err(RequestFault::refused(format!(
                     "material `{name}`: the flavour {flavour} has a file of this name for all materials; give the material another name"
                 )));
             }
@@ -203,22 +200,5 @@ impl Run<'_> {
             .list("medium", medium.map(|(argument, _)| argument))
             .with(&seen.unwrap_or_default())
             .into()
-    }
-}
-
-fn artifact(flavour: &Flavour, file: FlavourFile, reference: &str) -> Artifact {
-    Artifact {
-        path: format!("{}/{}", flavour.name, file.name),
-        bytes: file.bytes,
-        target: flavour.name.to_owned(),
-        effect: None,
-        method: None,
-        material: file.material,
-        detail: Detail::Adapter(AdapterDetail {
-            command: file.command,
-            host: flavour.host,
-            seen: reference.to_owned(),
-            licence: OUTPUT_LICENCE,
-        }),
     }
 }

@@ -10,11 +10,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::generator::bake::as_tables_are_seen;
+use crate::generator::emit::Artifact;
 use crate::generator::emit::{self, Bounds, EmittedFunction, File, Heading, NAGA_VERSION, Naming};
 use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::tables::add_tables;
-use crate::generator::output::artifact::{Artifact, Scope, sha256};
+use crate::generator::output::artifact::{Scope, sha256};
 use crate::generator::output::lock::Lock;
 use crate::generator::output::manifest::{Input, Provenance};
 use crate::generator::output::tree::plan;
@@ -393,13 +394,10 @@ pub fn provenance(inputs: Vec<Input>) -> Provenance {
 }
 
 fn artifact(target: &Target, file: File, method: Option<&str>, material: Option<&str>) -> Artifact {
+    let path = format!("{}/{}", target.name, file.name);
     Artifact {
-        path: format!("{}/{}", target.name, file.name),
-        bytes: file.bytes,
-        target: target.name.to_owned(),
-        effect: None,
         method: method.map(str::to_owned),
         material: material.map(str::to_owned),
-        detail: file.detail,
+        ..Artifact::new(target.name, path, file.bytes, file.detail)
     }
 }

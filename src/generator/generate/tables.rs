@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::generator::bake::{self, Baked, TableMaterial, usual_request};
+use crate::generator::emit::Artifact;
 use crate::generator::emit::{Detail, OUTPUT_LICENCE, TableDetail};
 use crate::generator::envelope::Report;
-use crate::generator::error::Error;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::Generated;
 use crate::generator::lut::TABLES;
-use crate::generator::output::artifact::Artifact;
 use crate::generator::reference::Typed;
 use crate::generator::request::source::{Loaded, load, same_name};
 use crate::generator::request::{Materials, Source, check_transparent};
@@ -59,7 +59,7 @@ pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec
         }
     }
     if let (true, Some(why)) = (ready.is_empty(), left_out.first()) {
-        return Err(Error::Usage { what: why.clone() });
+        return Err(RequestFault::refused(why).into());
     }
     Ok((
         ready.into_values().map(|(found, _)| found).collect(),
@@ -100,19 +100,16 @@ pub fn artifacts(baked: Baked) -> Vec<Artifact> {
     let text = pretty(&Report::new(&baked.command, baked.rows));
     let mut files = baked.files;
     files.push((description.clone(), text.into_bytes()));
+    let detail = Detail::Table(TableDetail {
+        command: baked.command,
+        row_materials,
+        description,
+        licence: OUTPUT_LICENCE,
+    });
     let listed = |(path, bytes)| Artifact {
-        path,
-        bytes,
-        target: TABLES.to_owned(),
-        effect: None,
         method: Some(baked.method.to_owned()),
         material: baked.material.clone(),
-        detail: Detail::Table(TableDetail {
-            command: baked.command.clone(),
-            row_materials: row_materials.clone(),
-            description: description.clone(),
-            licence: OUTPUT_LICENCE,
-        }),
+        ..Artifact::new(TABLES, path, bytes, detail.clone())
     };
     files.into_iter().map(listed).collect()
 }

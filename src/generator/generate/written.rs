@@ -114,7 +114,7 @@ pub fn check(request: &Request, named: Named, no_materials: bool) -> Result<(), 
             };
             let (name, precision) = (method.name, request.precision.name());
             let what = format!("method `{name}` cannot be saved in {precision}: {why}; {remedy}");
-            return Err(Error::Usage { what });
+            return Err(RequestFault::refused(what).into());
         }
     }
     Ok(())
@@ -130,9 +130,11 @@ impl Owners {
         let other = self.0.insert(name.to_owned(), owner.to_owned());
         match other.filter(|other| other != owner) {
             None => Ok(()),
-            Some(other) => Err(Error::Usage {
-                what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
-            }),
+            Some(other) => {
+                let why =
+                    format!("`{name}` would stand in {other} and in {owner}; rename a material");
+                Err(RequestFault::refused(why).into())
+            }
         }
     }
 }
@@ -234,7 +236,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     let run = Run::new(&request)?;
     let [target] = run.targets.as_slice() else {
-        return Err(RequestFault::conflict("-o takes one --target").into());
+        return Err(RequestFault::refused("-o takes one --target").into());
     };
     if run.is_of_effects() {
         return effects(&run, target);
@@ -278,7 +280,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     if target.pages.len() > 1 && pages.len() > 1 {
         let target = target.name;
         let why = format!("-o takes one function for {target}: name one --method");
-        return Err(RequestFault::conflict(why).into());
+        return Err(RequestFault::refused(why).into());
     }
     Ok(pages.join(&b"\n"[..]))
 }
@@ -288,7 +290,7 @@ fn effects(run: &Run, target: &'static Target) -> Result<Vec<u8>, Error> {
     let all = run.whole_effects()?;
     if target.finish == Finish::Spirv && all.len() > 1 {
         let why = format!("-o takes one effect for {}: name one --effect", target.name);
-        return Err(RequestFault::conflict(why).into());
+        return Err(RequestFault::refused(why).into());
     }
     let mut pages = Vec::new();
     for (request, functions) in &all {

@@ -1,36 +1,16 @@
-//! An artifact, and the scope of a run.
+//! The paths of artifacts, and the scope of a run.
 //!
-//! An artifact is one output file in memory, with a path that obeys the rules of [`check_path`]. The scope says which manifest
-//! entries a run may replace or remove. A run owns only what it was asked for, so that `--material silver` after `--target gles`
+//! The path of an [`Artifact`] obeys the rules of [`check_path`]. The scope says which manifest entries a run may replace or remove. A run owns only what it was asked for, so that `--material silver` after `--target gles`
 //! gives the same tree as the other way round.
 
 use std::collections::BTreeSet;
 
-use crate::generator::emit::Detail;
+use crate::generator::emit::Artifact;
 use crate::generator::error::Error;
 use crate::generator::output::manifest::{self, Entry};
 use crate::physics::num::Precision;
 
 pub use crate::physics::digest::sha256;
-
-/// One output file, and what the manifest says about it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Artifact {
-    /// Where it goes: relative to the output folder, parts separated by `/`.
-    pub path: String,
-    /// The file's content.
-    pub bytes: Vec<u8>,
-    /// The target that it is written for.
-    pub target: String,
-    /// The effect, in a file of effects.
-    pub effect: Option<String>,
-    /// In a library file, its method. In an effect's file, the method that computes R, unless it is the default.
-    pub method: Option<String>,
-    /// The material of a specialised file.
-    pub material: Option<String>,
-    /// Functions, parameters, errors.
-    pub detail: Detail,
-}
 
 impl Artifact {
     /// The key that distinguishes a file of an effect from others in its target's folder.

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::generator::error::Error;
+use crate::generator::error::{Error, RequestFault};
 
 /// Characters that no spelling brings through both programs, measured with GNU Make 4.3 and Ninja 1.11.
 const UNREADABLE: &str = "\"%&'*;<=>?^`|\t\n\r";
@@ -20,7 +20,7 @@ const UNREADABLE: &str = "\"%&'*;<=>?^`|\t\n\r";
 /// A path holds a character that Make or Ninja cannot read in a depfile.
 pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
     if let Some(what) = outputs.iter().chain(inputs).find_map(|path| fault(path)) {
-        return Err(Error::Usage { what });
+        return Err(RequestFault::refused(what).into());
     }
     let mut inputs = inputs.to_vec();
     inputs.sort();

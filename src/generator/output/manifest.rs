@@ -9,9 +9,10 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
+use crate::generator::emit::Artifact;
 use crate::generator::envelope::TOOL;
 use crate::generator::error::Error;
-use crate::generator::output::artifact::{Artifact, Scope, check_path};
+use crate::generator::output::artifact::{Scope, check_path};
 use crate::generator::output::ours::{could_be_written, listed_hash};
 use crate::physics::num::Precision;
 use crate::physics::spectra::without_mark;

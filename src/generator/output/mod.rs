@@ -12,5 +12,3 @@ pub mod ours;
 mod stage;
 pub mod tree;
 pub mod write;
-
-pub use artifact::Artifact;

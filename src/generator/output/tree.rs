@@ -18,9 +18,10 @@ use std::path::{Path, PathBuf};
 
 use similar::TextDiff;
 
+use crate::generator::emit::Artifact;
 use crate::generator::emit::{Detail, FunctionDetail};
 use crate::generator::error::{Error, RequestFault};
-use crate::generator::output::artifact::{self, Artifact, Scope, sha256};
+use crate::generator::output::artifact::{self, Scope, sha256};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Entry, Manifest, Provenance};
 use crate::generator::output::ours::{
@@ -199,12 +200,11 @@ fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(),
     for artifact in artifacts {
         for FunctionDetail { name, .. } in artifact.detail.functions() {
             if let Some(other) = owners.get(&(artifact.target.as_str(), name.as_str())) {
-                return Err(Error::Usage {
-                    what: format!(
-                        "`{name}` would stand in {} and stands in {other}; rename a material, or choose another --prefix",
-                        artifact.path
-                    ),
-                });
+                return Err(RequestFault::refused(format!(
+                    "`{name}` would stand in {} and stands in {other}; rename a material, or choose another --prefix",
+                    artifact.path
+                ))
+                .into());
             }
         }
     }

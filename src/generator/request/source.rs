@@ -279,7 +279,7 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
 /// A medium that is a number.
 fn constant(word: &str) -> Result<Loaded, Error> {
     let index = ConstantIndex::parse(word).expect("it was found to be a number");
-    let index = index.map_err(|fault| RequestFault::conflict(fault.to_string()))?;
+    let index = index.map_err(|fault| RequestFault::refused(fault.to_string()))?;
     Ok(Loaded {
         material: index.material(),
         argument: index.to_string(),

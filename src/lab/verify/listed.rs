@@ -3,8 +3,8 @@
 
 use serde_json::{Value, json};
 
+use crate::generator::emit::Artifact;
 use crate::generator::emit::Detail;
-use crate::generator::output::artifact::Artifact;
 use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::generator::output::ours::is_listed;
 

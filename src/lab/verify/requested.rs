@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::generator::emit::{EmittedFunction, HeaderForm};
-use crate::generator::error::Error;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::kept;
 use crate::generator::generate::{
     ExistingContents, GeneratedFile, GeneratedWithGraphs, KeptMethods, generate_with_graphs,
@@ -186,8 +186,8 @@ fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
 }
 
 fn planned(made: GeneratedFile, page: ShippedPage) -> Result<PlannedFile, Error> {
-    let target = targets::find(&made.artifact.target).ok_or_else(|| Error::Usage {
-        what: format!("there is no target `{}`", made.artifact.target),
+    let target = targets::find(&made.artifact.target).ok_or_else(|| {
+        RequestFault::refused(format!("there is no target `{}`", made.artifact.target))
     })?;
     Ok(PlannedFile {
         target,

@@ -313,7 +313,7 @@ pub fn shard_of(
     };
     let found = Shard::new(index, count);
     found.map(Some).ok_or_else(|| {
-        RequestFault::conflict(format!(
+        RequestFault::refused(format!(
             "{said_by} is {index}; shards are counted from 0, so that with --shards {count} it is 0 to {}",
             count - 1
         ))
@@ -329,7 +329,7 @@ fn said(count: usize, variables: &[Variable]) -> Result<(&'static str, usize), R
         }
     }
     let Some(first) = said.first() else {
-        return Err(RequestFault::conflict(format!(
+        return Err(RequestFault::refused(format!(
             "--shards {count} does not say which shard this is. Add --shard I, where I is 0 to {}, or run it in a Slurm array or in an \
              Indexed Job of Kubernetes: those set {}",
             count - 1,
@@ -338,7 +338,7 @@ fn said(count: usize, variables: &[Variable]) -> Result<(&'static str, usize), R
     };
     match said.iter().find(|other| other.1 != first.1) {
         None => Ok(*first),
-        Some(other) => Err(RequestFault::conflict(format!(
+        Some(other) => Err(RequestFault::refused(format!(
             "{} is {} and {} is {}, so that this could be either shard; say which with --shard I",
             first.0, first.1, other.0, other.1
         ))),
@@ -349,7 +349,7 @@ fn number(name: &str, value: &str) -> Result<usize, RequestFault> {
     let digits = !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit());
     let number = digits.then(|| value.parse().ok()).flatten();
     number.ok_or_else(|| {
-        RequestFault::conflict(format!(
+        RequestFault::refused(format!(
             "{name} is `{value}`, which is not the number of a shard; unset it, or say which shard this is with --shard I"
         ))
     })

@@ -14,9 +14,9 @@ use std::sync::{LazyLock, Mutex};
 use serde_json::json;
 
 use crate::not_checked;
+use fresnel_gen::generator::emit::Artifact;
 use fresnel_gen::generator::emit::Detail;
 use fresnel_gen::generator::lut::{self, TableAxis};
-use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Methods, Request, Source};
 use fresnel_gen::generator::{emit, generate};
 use fresnel_gen::lab::verify::compilers::Verdict;

@@ -10,7 +10,7 @@ use super::accepted;
 use super::text;
 use super::tree;
 use crate::not_checked;
-use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::generator::emit::Artifact;
 use fresnel_gen::lab::verify::compilers::{
     CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv,
 };

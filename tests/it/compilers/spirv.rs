@@ -10,7 +10,7 @@ use super::Judgement;
 use super::Tool;
 use super::accepted;
 use super::files;
-use fresnel_gen::generator::output::artifact::Artifact;
+use fresnel_gen::generator::emit::Artifact;
 
 const DISASSEMBLER: Tool = Tool {
     command: "spirv-dis",

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use fresnel_gen::generator::emit::Artifact;
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::generate_single;
-use fresnel_gen::generator::output::artifact::Artifact;
 use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
 use fresnel_gen::lab::verify::outline::{function_name, outline};
 use fresnel_gen::language::methods::{self, Method};
