@@ -5,12 +5,13 @@
 //! It imports physics, language and generator, and is left out without the feature `lab`.
 //! Start with [`verify`], which runs what was generated, or with [`cost`].
 
-// Rooms: gpu, process, raster < verify, cost < overdraw, stability < audit, budget, reproduce < chart
+// Rooms: fault < gpu, process, raster < verify, cost < overdraw, stability < audit, budget, reproduce < chart
 
 pub mod audit;
 pub mod budget;
 pub mod chart;
 pub mod cost;
+pub mod fault;
 pub mod gpu;
 pub mod overdraw;
 pub mod process;

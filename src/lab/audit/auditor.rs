@@ -22,9 +22,10 @@ use super::slice::{Slice, SlicedText};
 use super::{Audit, admission, edges};
 use crate::generator::emit::FunctionForm;
 use crate::generator::reference::MaterialInMedium;
+use crate::lab::fault::Fault;
 use crate::lab::gpu::Uniform;
 use crate::lab::process::{Pool, Surroundings};
-use crate::lab::verify::compilers::{CompilerFault, Verdict};
+use crate::lab::verify::compilers::Verdict;
 use crate::physics::num::each_channel;
 
 /// An audit under way.
@@ -161,8 +162,8 @@ impl<'a> Auditor<'a> {
                     &self.surroundings,
                 )?)
             }
-            Err(CompilerFault::NotChecked(why)) => Ok(Err(Trouble::Absent(why))),
-            Err(CompilerFault::Refused(words)) => Ok(Err(Trouble::Refused(String::new(), words))),
+            Err(Fault::Absent(why)) => Ok(Err(Trouble::Absent(why))),
+            Err(Fault::Failed(words)) => Ok(Err(Trouble::Refused(String::new(), words))),
         }
     }
 
@@ -255,19 +256,19 @@ impl<'a> Auditor<'a> {
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,
             Err(Trouble::Refused(_, words)) if error::names_place(words) => {
-                Some(Verdict::No(words.clone()))
+                Some(Err(Fault::Failed(words.clone())))
             }
             // The driver or the machine may be at fault.
-            Err(Trouble::Refused(_, words)) => Some(Verdict::NotChecked(words.clone())),
+            Err(Trouble::Refused(_, words)) => Some(Err(Fault::Absent(words.clone()))),
             Err(Trouble::Absent(why) | Trouble::Failed(why)) => {
-                Some(Verdict::NotChecked(why.clone()))
+                Some(Err(Fault::Absent(why.clone())))
             }
-            Ok(_) => Some(Verdict::Yes),
+            Ok(_) => Some(Ok(())),
         };
         verdicts.extend(verdict.map(|verdict| (own.to_owned(), verdict)));
         let lines = self.audit.text.lines().count();
         for (_, verdict) in verdicts {
-            if let Verdict::No(words) = verdict {
+            if let Err(Fault::Failed(words)) = verdict {
                 *words = error::placed(&self.audit.file, lines, words);
             }
         }

@@ -8,9 +8,8 @@ use super::condition::Language;
 use super::error::Error;
 use super::runner::ProgramCode;
 use super::scan::{FoundFunction, NumberShape, Parameter};
-use crate::lab::verify::compilers::{
-    CompilerFault, HlslVersion, Verdict, compiled, hlsl_to_spirv_in,
-};
+use crate::lab::fault::Fault;
+use crate::lab::verify::compilers::{HlslVersion, Verdict, compiled, hlsl_to_spirv_in};
 use crate::lab::verify::harness::ENTRY;
 use crate::language::targets::{Compiler, DXC, GLSLANG, WGSL};
 use crate::physics::names::UnknownName;
@@ -143,7 +142,7 @@ pub struct Accepted {
     /// Each compiler with its verdict.
     pub verdicts: Vec<(String, Verdict)>,
     /// The code to run, or why there is none.
-    pub code: Result<ProgramCode, CompilerFault>,
+    pub code: Result<ProgramCode, Fault>,
 }
 
 /// Asks the compilers about a whole program.
@@ -156,14 +155,14 @@ pub fn accepted(language: Language, precision: Precision, program: String) -> Ac
         Language::Gles => {
             let made = compiled(&GLSLANG, "-S vert FILE", "shader.vert", &program);
             Accepted {
-                verdicts: vec![(GLSLANG.name.to_owned(), made.into())],
+                verdicts: vec![(GLSLANG.name.to_owned(), made.map(drop))],
                 code: Ok(ProgramCode::Gles(program)),
             }
         }
         Language::Glsl => {
             let made = compiled(&GLSLANG, &desktop_options(), "shader.comp", &program);
             Accepted {
-                verdicts: vec![(GLSLANG.name.to_owned(), made.clone().into())],
+                verdicts: vec![(GLSLANG.name.to_owned(), made.clone().map(drop))],
                 code: made.map(ProgramCode::Spirv),
             }
         }
@@ -171,7 +170,7 @@ pub fn accepted(language: Language, precision: Precision, program: String) -> Ac
         Language::Slang => {
             let made = slang(&program, "compute");
             Accepted {
-                verdicts: vec![(SLANGC.name.to_owned(), made.clone().into())],
+                verdicts: vec![(SLANGC.name.to_owned(), made.clone().map(drop))],
                 code: made.map(ProgramCode::Spirv),
             }
         }
@@ -186,20 +185,20 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
         .find(|one| one.compiler.command.is_some())?;
     let compiler: &Compiler = tint.compiler;
     let made = compiled(compiler, tint.options, "shader.wgsl", program);
-    Some((compiler.name.to_owned(), made.into()))
+    Some((compiler.name.to_owned(), made.map(drop)))
 }
 
 /// The verdict of DXC with both versions of HLSL. A text may be for either one. If both accept it, the older one is run.
 fn hlsl(precision: Precision, program: &str) -> Accepted {
     let made = |version| hlsl_to_spirv_in(precision, program, ENTRY, version);
     let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
-    let verdicts: &[(&str, &Result<Vec<u8>, CompilerFault>)] = match (&old, &new) {
-        (Ok(_), Err(CompilerFault::Refused(_))) => &[("dxc -HV 2018 (2021 refuses it)", &old)],
-        (Err(CompilerFault::Refused(_)), Ok(_)) => &[("dxc -HV 2021 (2018 refuses it)", &new)],
+    let verdicts: &[(&str, &Result<Vec<u8>, Fault>)] = match (&old, &new) {
+        (Ok(_), Err(Fault::Failed(_))) => &[("dxc -HV 2018 (2021 refuses it)", &old)],
+        (Err(Fault::Failed(_)), Ok(_)) => &[("dxc -HV 2021 (2018 refuses it)", &new)],
         _ => &[("dxc -HV 2018", &old), ("dxc -HV 2021", &new)],
     };
     let verdicts = verdicts.iter();
-    let verdicts = verdicts.map(|(name, made)| ((*name).to_owned(), (*made).clone().into()));
+    let verdicts = verdicts.map(|(name, made)| ((*name).to_owned(), (*made).clone().map(drop)));
     let verdicts = verdicts.collect();
     let code = old.or_else(|fault| new.map_err(|_| fault));
     Accepted {
@@ -212,11 +211,7 @@ fn hlsl(precision: Precision, program: &str) -> Accepted {
 ///
 /// # Errors
 /// The compiler is not here, or refuses it.
-pub fn module(
-    language: Language,
-    precision: Precision,
-    text: &str,
-) -> Result<Vec<u8>, CompilerFault> {
+pub fn module(language: Language, precision: Precision, text: &str) -> Result<Vec<u8>, Fault> {
     match language {
         Language::Hlsl => pixel(precision, text),
         Language::Slang => slang(text, "fragment"),
@@ -240,7 +235,7 @@ pub static SLANGC: Compiler = Compiler {
 ///
 /// # Errors
 /// slangc is not here, or refuses it.
-fn slang(text: &str, stage: &str) -> Result<Vec<u8>, CompilerFault> {
+fn slang(text: &str, stage: &str) -> Result<Vec<u8>, Fault> {
     let options =
         format!("FILE -target spirv -stage {stage} -entry {ENTRY} -fvk-use-entrypoint-name -o OUT");
     compiled(&SLANGC, &options, "shader.slang", text)
@@ -250,7 +245,7 @@ fn slang(text: &str, stage: &str) -> Result<Vec<u8>, CompilerFault> {
 ///
 /// # Errors
 /// DXC is not here, or refuses it.
-fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, CompilerFault> {
+fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, Fault> {
     let model = match precision {
         Precision::F32 => "ps_6_0",
         Precision::F16 => "ps_6_2 -enable-16bit-types",
@@ -268,7 +263,7 @@ fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, CompilerFault> {
 ///
 /// # Errors
 /// glslang is not here, or refuses it.
-fn fragment(text: &str) -> Result<Vec<u8>, CompilerFault> {
+fn fragment(text: &str) -> Result<Vec<u8>, Fault> {
     let options = format!("-V -S frag -e {ENTRY} --source-entrypoint main -o OUT FILE");
     compiled(&GLSLANG, &options, "shader.frag", text)
 }

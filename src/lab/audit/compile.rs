@@ -6,8 +6,8 @@ use core::time::Duration;
 use super::choose::Accepted;
 use super::condition::Language;
 use super::runner::{AuditRequest, AuditResponse};
-use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
-use crate::lab::verify::compilers::{CompilerFault, Verdict};
+use crate::lab::fault::Fault;
+use crate::lab::process::{Error, Launch, NoAnswer, Surroundings, Worker};
 use crate::physics::num::Precision;
 
 /// The process that asks them.
@@ -43,9 +43,9 @@ impl Compilers {
         let silent = |words: String| Accepted {
             verdicts: vec![(
                 language.compiler().to_owned(),
-                Verdict::NotChecked(words.clone()),
+                Err(Fault::Absent(words.clone())),
             )],
-            code: Err(CompilerFault::NotChecked(words)),
+            code: Err(Fault::Absent(words)),
         };
         Ok(match self.ask(&request, language)? {
             Ok(AuditResponse::Accepted(accepted)) => accepted,
@@ -63,9 +63,9 @@ impl Compilers {
         language: Language,
         precision: Precision,
         shader: String,
-    ) -> Result<Result<Vec<u8>, CompilerFault>, Error> {
+    ) -> Result<Result<Vec<u8>, Fault>, Error> {
         let request = AuditRequest::Module(language, precision, shader);
-        let silent = |words: String| Err(CompilerFault::NotChecked(words));
+        let silent = |words: String| Err(Fault::Absent(words));
         Ok(match self.ask(&request, language)? {
             Ok(AuditResponse::Module(made)) => made,
             Ok(_) => silent("the process answers another question".to_owned()),
@@ -84,13 +84,13 @@ impl Compilers {
     }
 }
 
-fn reason(silence: &Silence, limit: Duration, language: Language) -> String {
+fn reason(silence: &NoAnswer, limit: Duration, language: Language) -> String {
     let compiler = language.compiler();
     match silence {
-        Silence::TooLong => format!(
+        NoAnswer::TooLong => format!(
             "{compiler} did not end within {} s, which is all that --limit allows",
             limit.as_secs()
         ),
-        Silence::Ended(status) => format!("the process that asks {compiler} ended ({status})"),
+        NoAnswer::Ended(status) => format!("the process that asks {compiler} ended ({status})"),
     }
 }

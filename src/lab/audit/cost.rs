@@ -14,8 +14,8 @@ use crate::lab::cost::{
     CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe,
     launch, told,
 };
+use crate::lab::fault::Fault;
 use crate::lab::process::{Error, Surroundings, Worker};
-use crate::lab::verify::compilers::CompilerFault;
 use crate::lab::verify::naga_translation;
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;
@@ -107,10 +107,10 @@ fn ready(shader: String) -> MeasuredShader {
 }
 
 /// A module, or why there is none.
-fn module(made: Result<Vec<u8>, CompilerFault>) -> Result<FragmentShader, String> {
+fn module(made: Result<Vec<u8>, Fault>) -> Result<FragmentShader, String> {
     let module = made.map_err(|fault| match fault {
-        CompilerFault::NotChecked(why) => why,
-        CompilerFault::Refused(words) => placed("the shader that is measured", usize::MAX, &words),
+        Fault::Absent(why) => why,
+        Fault::Failed(words) => placed("the shader that is measured", usize::MAX, &words),
     })?;
     Ok(FragmentShader::Module(module))
 }

@@ -16,6 +16,7 @@ use super::slice::Slice;
 use crate::generator::fit::{ModelError, Perceived};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::CostAndError;
+use crate::lab::fault::Fault;
 use crate::lab::verify::compilers::Verdict;
 use crate::lab::verify::{Answer, Status, as_object};
 use crate::physics::foreign::Foreign;
@@ -273,7 +274,7 @@ impl Audited<'_> {
         let place = format!("{file}: {name}");
         let mut reasons: Vec<String> = Vec::new();
         for (name, verdict) in self.verdicts {
-            if let Verdict::No(words) = verdict {
+            if let Err(Fault::Failed(words)) = verdict {
                 reasons.push(format!("{words} ({name})"));
             }
         }
@@ -417,8 +418,8 @@ impl Checked {
         ran: &Result<Ran, Trouble>,
         max_error: Option<f64>,
     ) -> Checked {
-        let refuses = |(_, verdict): &(String, Verdict)| matches!(verdict, Verdict::No(_));
-        let accepts = |(_, verdict): &(String, Verdict)| *verdict == Verdict::Yes;
+        let refuses = |(_, verdict): &(String, Verdict)| matches!(verdict, Err(Fault::Failed(_)));
+        let accepts = |(_, verdict): &(String, Verdict)| verdict.is_ok();
         let accepted = if verdicts.iter().any(refuses) {
             Some(false)
         } else {

@@ -14,9 +14,9 @@ use super::loops::{MARK, TURNS};
 use crate::generator::emit::validate_wgsl;
 use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
 use crate::generator::reference::ReferenceCurve;
+use crate::lab::fault::Fault;
 use crate::lab::gpu::{self, Argument, Kernel, Program, Uniform, Wanted};
-use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker};
-use crate::lab::verify::compilers::CompilerFault;
+use crate::lab::process::{Error, Inbox, Launch, NoAnswer, Surroundings, Worker};
 use crate::lab::verify::harness::ENTRY;
 use crate::lab::verify::run::Devices;
 use crate::language::ir::{Column, Value};
@@ -49,13 +49,13 @@ pub struct Runner {
     pub points: Cell<usize>,
 }
 
-fn reason(silence: &Silence, limit: Duration) -> Trouble {
+fn reason(silence: &NoAnswer, limit: Duration) -> Trouble {
     Trouble::Failed(match silence {
-        Silence::TooLong => format!(
+        NoAnswer::TooLong => format!(
             "it did not end within {} s: a loop without end, or more work than --limit allows",
             limit.as_secs()
         ),
-        Silence::Ended(status) => {
+        NoAnswer::Ended(status) => {
             format!(
                 "the process that ran it ended ({status}): its compiler or driver fell over this text"
             )
@@ -63,13 +63,13 @@ fn reason(silence: &Silence, limit: Duration) -> Trouble {
     })
 }
 
-fn unprepared(silence: &Silence, limit: Duration) -> String {
+fn unprepared(silence: &NoAnswer, limit: Duration) -> String {
     match silence {
-        Silence::TooLong => format!(
+        NoAnswer::TooLong => format!(
             "the driver's compiler did not end within {} s, which is all that --limit allows",
             limit.as_secs()
         ),
-        Silence::Ended(status) => {
+        NoAnswer::Ended(status) => {
             format!("the process that compiles it for the driver ended ({status})")
         }
     }
@@ -218,7 +218,7 @@ pub enum AuditResponse {
     /// What the compilers say.
     Accepted(Accepted),
     /// The compiler's output, or why there is none.
-    Module(Result<Vec<u8>, CompilerFault>),
+    Module(Result<Vec<u8>, Fault>),
     /// It is compiled, for this device.
     Ready(String),
     /// Something is missing on this machine.
@@ -331,16 +331,14 @@ fn prepare(
     let name = device.adapter.to_string();
     match device.prepare(&program) {
         Ok(kernel) => Ok((kernel, name)),
-        Err(fault) => Err(refusal(&name, &fault)),
+        Err(fault) => Err(refusal(&name, fault)),
     }
 }
 
-fn refusal(who: &str, fault: &gpu::DeviceFault) -> AuditResponse {
+fn refusal(who: &str, fault: Fault) -> AuditResponse {
     match fault {
-        gpu::DeviceFault::Absent { .. } | gpu::DeviceFault::Unable { .. } => {
-            AuditResponse::Absent(fault.to_string())
-        }
-        _ => AuditResponse::Refused(who.to_owned(), fault.to_string()),
+        Fault::Absent(why) => AuditResponse::Absent(why),
+        Fault::Failed(words) => AuditResponse::Refused(who.to_owned(), words),
     }
 }
 
@@ -353,6 +351,6 @@ fn run(ready: Option<&(Kernel, Vec<Uniform>)>, bits: &[u32]) -> AuditResponse {
         Ok(results) => {
             AuditResponse::Ran(results.iter().map(|rgb| rgb.map(f32::to_bits)).collect())
         }
-        Err(fault) => refusal("the device", &fault),
+        Err(fault) => refusal("the device", fault),
     }
 }

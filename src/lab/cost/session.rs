@@ -14,8 +14,9 @@ use super::figures::{CostFigures, Statistics, figures, remarked};
 use super::function::CostedFunction;
 use super::probe::{ENTRY, VERTEX, WGSL_VERTEX, gles_vertex};
 use crate::generator::emit::wgsl_to_spirv;
-use crate::lab::gpu::{DeviceFault, GlesCompiler, ModuleEntry, VulkanCompiler};
-use crate::lab::process::{Error, Inbox, Launch, Silence, Surroundings, Worker, beside};
+use crate::lab::fault::Fault;
+use crate::lab::gpu::{GlesCompiler, ModuleEntry, VulkanCompiler};
+use crate::lab::process::{Error, Inbox, Launch, NoAnswer, Surroundings, Worker, beside};
 use crate::language::ir::Ty;
 
 /// A compiler's figures of a function, or why there are none.
@@ -23,7 +24,7 @@ pub type CompilerFigures = Result<CostFigures, String>;
 
 /// Why a compiler gave no answer.
 #[derive(Debug, thiserror::Error)]
-pub enum Unmeasured {
+pub enum CompilerError {
     /// No process can be started.
     #[error(transparent)]
     Process(#[from] Error),
@@ -36,11 +37,11 @@ pub enum Unmeasured {
 ///
 /// # Errors
 /// No process can be started.
-pub fn told<T>(asked: Result<T, Unmeasured>) -> Result<Result<T, String>, Error> {
+pub fn told<T>(asked: Result<T, CompilerError>) -> Result<Result<T, String>, Error> {
     match asked {
         Ok(told) => Ok(Ok(told)),
-        Err(Unmeasured::Compiler(why)) => Ok(Err(why)),
-        Err(Unmeasured::Process(error)) => Err(error),
+        Err(CompilerError::Compiler(why)) => Ok(Err(why)),
+        Err(CompilerError::Process(error)) => Err(error),
     }
 }
 
@@ -81,9 +82,11 @@ impl<'a> CompilerSession<'a> {
     ///
     /// # Errors
     /// It is absent.
-    pub fn compiler(&mut self) -> Result<String, Unmeasured> {
-        let response = self.ask(&CompilerRequest::Name)?;
-        response.name().map_err(Unmeasured::Compiler)
+    pub fn compiler(&mut self) -> Result<String, CompilerError> {
+        match self.ask(&CompilerRequest::Name)? {
+            CompilerResponse::Name(name) => Ok(name),
+            CompilerResponse::Statistics(_) => Err(another_question()),
+        }
     }
 
     /// The compiler's figures of a function.
@@ -108,26 +111,29 @@ impl<'a> CompilerSession<'a> {
     pub fn figures_of_shaders(
         &mut self,
         [short, long, empty_short, empty_long]: [FragmentShader; 4],
-    ) -> Result<CostFigures, Unmeasured> {
+    ) -> Result<CostFigures, CompilerError> {
         let chains = self.both([short, long])?;
         let empty = self.both([empty_short, empty_long])?;
         self.net_figures(&chains, &empty)
     }
 
-    fn statistics(&mut self, shader: FragmentShader) -> Result<Statistics, Unmeasured> {
-        let response = self.ask(&CompilerRequest::Measure(shader))?;
-        response.statistics().map_err(Unmeasured::Compiler)
+    fn statistics(&mut self, shader: FragmentShader) -> Result<Statistics, CompilerError> {
+        match self.ask(&CompilerRequest::Measure(shader))? {
+            CompilerResponse::Statistics(statistics) => Ok(statistics),
+            CompilerResponse::Name(_) => Err(another_question()),
+        }
     }
 
-    fn ask(&mut self, request: &CompilerRequest) -> Result<CompilerResponse, Unmeasured> {
-        let response = self.worker.ask(request, self.limit)?;
-        response.map_err(|silence| {
-            self.hangs += usize::from(silence == Silence::TooLong);
-            Unmeasured::Compiler(reason(&silence, self.limit))
-        })
+    fn ask(&mut self, request: &CompilerRequest) -> Result<CompilerResponse, CompilerError> {
+        let answer: Result<CompilerAnswer, NoAnswer> = self.worker.ask(request, self.limit)?;
+        let answer = answer.unwrap_or_else(|silence| {
+            self.hangs += usize::from(silence == NoAnswer::TooLong);
+            Err(reason(&silence, self.limit))
+        });
+        answer.map_err(CompilerError::Compiler)
     }
 
-    fn figures(&mut self, function: &CostedFunction) -> Result<CostFigures, Unmeasured> {
+    fn figures(&mut self, function: &CostedFunction) -> Result<CostFigures, CompilerError> {
         let empty = self.empty(function)?;
         let chains = self.both(function.chains(self.dialect).map(FragmentShader::Text))?;
         let figures = self.net_figures(&chains, &empty)?;
@@ -142,13 +148,13 @@ impl<'a> CompilerSession<'a> {
         &self,
         chains: &[Statistics; 2],
         empty: &[Statistics; 2],
-    ) -> Result<CostFigures, Unmeasured> {
+    ) -> Result<CostFigures, CompilerError> {
         let figures = figures(&self.family.columns, self.dialect.chains(), chains, empty);
         let silent = "the compiler does not tell instructions";
-        figures.ok_or_else(|| Unmeasured::Compiler(silent.to_owned()))
+        figures.ok_or_else(|| CompilerError::Compiler(silent.to_owned()))
     }
 
-    fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], Unmeasured> {
+    fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], CompilerError> {
         let (first, result) = function.ends();
         let kind = (first, result, function.id.precision.is_half());
         if let Some(known) = self.empty.get(&kind) {
@@ -160,16 +166,23 @@ impl<'a> CompilerSession<'a> {
         Ok(found)
     }
 
-    fn both(&mut self, [short, long]: [FragmentShader; 2]) -> Result<[Statistics; 2], Unmeasured> {
+    fn both(
+        &mut self,
+        [short, long]: [FragmentShader; 2],
+    ) -> Result<[Statistics; 2], CompilerError> {
         Ok([self.statistics(short)?, self.statistics(long)?])
     }
 }
 
+fn another_question() -> CompilerError {
+    CompilerError::Compiler("it answers another question".to_owned())
+}
+
 /// Why a compiler gave no answer.
-fn reason(silence: &Silence, limit: Duration) -> String {
+fn reason(silence: &NoAnswer, limit: Duration) -> String {
     match silence {
-        Silence::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
-        Silence::Ended(status) => format!("the process with the compiler ended ({status})"),
+        NoAnswer::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
+        NoAnswer::Ended(status) => format!("the process with the compiler ended ({status})"),
     }
 }
 
@@ -239,39 +252,17 @@ pub enum FragmentShader {
     Module(Vec<u8>),
 }
 
-/// The worker's answer.
+/// What the worker answers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum CompilerResponse {
     /// The compiler's name and version.
     Name(String),
-    /// The compiler is not here, and why.
-    Absent(String),
     /// Its statistics of a shader.
     Statistics(Statistics),
-    /// It refuses a shader, and why.
-    Refused(String),
 }
 
-impl CompilerResponse {
-    /// The compiler's name and version.
-    pub fn name(self) -> Result<String, String> {
-        match self {
-            CompilerResponse::Name(name) => Ok(name),
-            CompilerResponse::Absent(why) | CompilerResponse::Refused(why) => Err(why),
-            CompilerResponse::Statistics(_) => Err("it answers another question".to_owned()),
-        }
-    }
-
-    /// The statistics of a shader.
-    pub fn statistics(self) -> Result<Statistics, String> {
-        match self {
-            CompilerResponse::Statistics(statistics) => Ok(statistics),
-            CompilerResponse::Refused(why)
-            | CompilerResponse::Absent(why)
-            | CompilerResponse::Name(why) => Err(why),
-        }
-    }
-}
+/// The worker's answer, or why there is none: the compiler is not here, or refuses the shader.
+type CompilerAnswer = Result<CompilerResponse, String>;
 
 /// An opened compiler.
 enum Open {
@@ -286,17 +277,18 @@ enum Open {
 pub fn serve(family: &Family) -> io::Result<()> {
     let inbox = Inbox::open();
     let opened = open(family);
-    inbox.serve(|request| match (&opened, request) {
-        (Err(fault), _) => CompilerResponse::Absent(fault.to_string()),
-        (Ok(open), CompilerRequest::Name) => CompilerResponse::Name(open.compiler()),
-        (Ok(open), CompilerRequest::Measure(shader)) => match open.measure(&shader) {
-            Ok(statistics) => CompilerResponse::Statistics(statistics),
-            Err(why) => CompilerResponse::Refused(why),
-        },
+    inbox.serve(|request| -> CompilerAnswer {
+        let open = opened.as_ref().map_err(Fault::to_string)?;
+        match request {
+            CompilerRequest::Name => Ok(CompilerResponse::Name(open.compiler())),
+            CompilerRequest::Measure(shader) => {
+                open.measure(&shader).map(CompilerResponse::Statistics)
+            }
+        }
     })
 }
 
-fn open(family: &Family) -> Result<Open, DeviceFault> {
+fn open(family: &Family) -> Result<Open, Fault> {
     match family.compiler {
         GpuCompiler::Radv(_) => {
             let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
@@ -307,10 +299,10 @@ fn open(family: &Family) -> Result<Open, DeviceFault> {
             let major = if dialect == Dialect::Es100 { 2 } else { 3 };
             Ok(Open::Mesa(Box::new(GlesCompiler::open(major)?), dialect))
         }
-        GpuCompiler::Operations | GpuCompiler::None(_) => Err(DeviceFault::Absent {
-            what: format!("{} has no compiler", family.name),
-            get: "none is needed".to_owned(),
-        }),
+        GpuCompiler::Operations | GpuCompiler::None(_) => Err(Fault::Absent(format!(
+            "{} has no compiler; none is needed",
+            family.name
+        ))),
     }
 }
 

@@ -1,10 +1,11 @@
-//! The adapters of the machine, the choice among them, and the faults between a shader and its results.
+//! The adapters of the machine and the choice among them.
 
 use std::fmt;
 use std::sync::OnceLock;
 
 use super::egl;
 use super::quiet::hush;
+use crate::lab::fault::Fault;
 
 /// A description of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,7 +127,7 @@ fn found() -> &'static [wgpu::Adapter] {
 }
 
 /// The first adapter that fits the request.
-pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, DeviceFault> {
+pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, Fault> {
     let found = found();
     let there: Vec<String> = found.iter().map(|a| describe(a).to_string()).collect();
     let fits = |adapter: &wgpu::Adapter| wanted.fits(&describe(adapter));
@@ -151,7 +152,7 @@ impl Wanted {
     }
 }
 
-fn absent(wanted: &Wanted, there: &[String]) -> DeviceFault {
+fn absent(wanted: &Wanted, there: &[String]) -> Fault {
     let mut what = match &wanted.name {
         Some(name) => format!("no graphics adapter named `{name}`"),
         None => "no graphics adapter".to_owned(),
@@ -179,7 +180,7 @@ fn absent(wanted: &Wanted, there: &[String]) -> DeviceFault {
         _ if wanted.name.is_some() => format!("there is {listed}"),
         _ => format!("there is {listed}; {install}"),
     };
-    DeviceFault::Absent { what, get }
+    Fault::Absent(format!("{what}; {get}"))
 }
 
 /// The description of an adapter of wgpu.
@@ -211,58 +212,5 @@ fn kind(kind: wgpu::DeviceType) -> AdapterKind {
         wgpu::DeviceType::VirtualGpu => AdapterKind::Virtual,
         wgpu::DeviceType::Other => AdapterKind::Unknown,
         wgpu::DeviceType::Cpu => AdapterKind::Software,
-    }
-}
-
-/// Why a shader gave no results.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DeviceFault {
-    /// There is no device to run on.
-    #[error("{what}; {get}")]
-    Absent {
-        /// What is missing.
-        what: String,
-        /// How to get it, or what there is in its place.
-        get: String,
-    },
-    /// The device cannot do this.
-    #[error("{device} cannot do this: {what}")]
-    Unable {
-        /// The device's name.
-        device: String,
-        /// What it was asked for.
-        what: String,
-    },
-    /// The program was not accepted, or its inputs do not fit it.
-    #[error("the shader was refused: {log}")]
-    Refused {
-        /// The message of the compiler or the check.
-        log: String,
-    },
-    /// The device stopped working.
-    #[error("the device was lost: {why}")]
-    Lost {
-        /// What the driver said.
-        why: String,
-    },
-}
-
-impl DeviceFault {
-    /// A refusal with this message.
-    pub(super) fn refused(log: impl ToString) -> DeviceFault {
-        let log = log.to_string().trim_end().to_owned();
-        DeviceFault::Refused { log }
-    }
-
-    /// A loss for this reason.
-    pub(super) fn lost(why: impl ToString) -> DeviceFault {
-        let why = why.to_string();
-        DeviceFault::Lost { why }
-    }
-
-    /// Something that this device lacks.
-    pub(super) fn unable(device: &str, what: impl ToString) -> DeviceFault {
-        let (device, what) = (device.to_owned(), what.to_string());
-        DeviceFault::Unable { device, what }
     }
 }

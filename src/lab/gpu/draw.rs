@@ -7,9 +7,10 @@ use std::rc::Rc;
 
 use wgpu::{BufferUsages, Features};
 
-use super::adapter::{Adapter, DeviceFault};
+use super::adapter::Adapter;
 use super::kernel::{self, Compute};
 use super::slot::Texture;
+use crate::lab::fault::Fault;
 
 /// The format of the target. Half floats can be blended on all devices.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -56,11 +57,11 @@ struct Stamps {
 }
 
 impl Canvas {
-    pub(super) fn new(compute: &Rc<Compute>, pixels: u32) -> Result<Canvas, DeviceFault> {
+    pub(super) fn new(compute: &Rc<Compute>, pixels: u32) -> Result<Canvas, Fault> {
         let most = compute.device.limits().max_texture_dimension_2d;
         if pixels == 0 || pixels > most {
             let what = format!("a target of {pixels} pixels a side; at most {most}");
-            return Err(DeviceFault::unable(&compute.adapter.name, what));
+            return Err(Fault::unable(&compute.adapter.name, what));
         }
         let (view, stamps) = compute.guarded(|| {
             let stamps = compute.has(Features::TIMESTAMP_QUERY);
@@ -96,7 +97,7 @@ impl Canvas {
     ///
     /// # Errors
     /// It does not compile, or not for this device.
-    pub fn layer(&self, shader: &Shader) -> Result<Layer, DeviceFault> {
+    pub fn layer(&self, shader: &Shader) -> Result<Layer, Fault> {
         let compute = &*self.compute;
         let table = shader
             .texture
@@ -113,7 +114,7 @@ impl Canvas {
     ///
     /// # Errors
     /// The device does not accept it.
-    pub fn record(&self, layers: &[(&Layer, u32)]) -> Result<wgpu::CommandBuffer, DeviceFault> {
+    pub fn record(&self, layers: &[(&Layer, u32)]) -> Result<wgpu::CommandBuffer, Fault> {
         let device = &self.compute.device;
         self.compute.guarded(|| {
             let mut encoder = device.create_command_encoder(&Default::default());
@@ -129,7 +130,7 @@ impl Canvas {
     ///
     /// # Errors
     /// The device is lost.
-    pub fn draw(&self, recorded: wgpu::CommandBuffer) -> Result<(), DeviceFault> {
+    pub fn draw(&self, recorded: wgpu::CommandBuffer) -> Result<(), Fault> {
         let submission = self
             .compute
             .guarded(|| self.compute.queue.submit([recorded]))?;
@@ -140,7 +141,7 @@ impl Canvas {
     ///
     /// # Errors
     /// The device is lost.
-    pub fn nanoseconds(&self) -> Result<Option<f64>, DeviceFault> {
+    pub fn nanoseconds(&self) -> Result<Option<f64>, Fault> {
         let read = |stamps: &Stamps| stamps.read(&self.compute);
         self.stamps.as_ref().map(read).transpose()
     }
@@ -202,15 +203,15 @@ impl Stamps {
     }
 
     /// The time between both timestamps in nanoseconds. 0 where the clock stands still or runs backwards.
-    fn read(&self, compute: &Compute) -> Result<f64, DeviceFault> {
+    fn read(&self, compute: &Compute) -> Result<f64, Fault> {
         let whole = self.read.slice(..);
         compute.guarded(|| whole.map_async(wgpu::MapMode::Read, |_| {}))?;
         compute
             .device
             .poll(wgpu::PollType::Poll)
-            .map_err(DeviceFault::lost)?;
+            .map_err(Fault::lost)?;
         let ticks = {
-            let bytes = whole.get_mapped_range().map_err(DeviceFault::lost)?;
+            let bytes = whole.get_mapped_range().map_err(Fault::lost)?;
             let stamps: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
             stamps[1].saturating_sub(stamps[0])
         };

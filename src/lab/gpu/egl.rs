@@ -6,8 +6,9 @@ use std::sync::OnceLock;
 use glow::HasContext;
 use khronos_egl as egl;
 
-use super::adapter::{Adapter, AdapterKind, Backend, DeviceFault, OPENGL_PACKAGES};
+use super::adapter::{Adapter, AdapterKind, Backend, OPENGL_PACKAGES};
 use super::quiet::hush;
+use crate::lab::fault::Fault;
 
 pub(super) type Egl = egl::DynamicInstance<egl::EGL1_5>;
 
@@ -26,7 +27,7 @@ const SURFACELESS: egl::Enum = 0x31DD;
 
 impl Context {
     /// Opens a context.
-    pub fn open() -> Result<Context, DeviceFault> {
+    pub fn open() -> Result<Context, Fault> {
         hush();
         let egl = library()?;
         let display = display(egl)?;
@@ -46,11 +47,9 @@ impl Context {
     }
 
     /// Makes it current on this thread, where another may be current.
-    pub fn enter(&self) -> Result<&glow::Context, DeviceFault> {
-        self.egl
-            .bind_api(egl::OPENGL_ES_API)
-            .map_err(DeviceFault::lost)?;
-        enter(self.egl, self.display, self.context).map_err(DeviceFault::lost)?;
+    pub fn enter(&self) -> Result<&glow::Context, Fault> {
+        self.egl.bind_api(egl::OPENGL_ES_API).map_err(Fault::lost)?;
+        enter(self.egl, self.display, self.context).map_err(Fault::lost)?;
         Ok(&self.gl)
     }
 }
@@ -66,7 +65,7 @@ impl Drop for Context {
 }
 
 /// The library, loaded once and never unloaded: drivers leave handlers behind that run when the program ends.
-pub(super) fn library() -> Result<&'static Egl, DeviceFault> {
+pub(super) fn library() -> Result<&'static Egl, Fault> {
     static LIBRARY: OnceLock<Result<Egl, String>> = OnceLock::new();
     // SAFETY: a library of this name is EGL; loading it runs its initialisers.
     let load = || unsafe { Egl::load_required().map_err(|error| error.to_string()) };
@@ -74,7 +73,7 @@ pub(super) fn library() -> Result<&'static Egl, DeviceFault> {
 }
 
 /// The display without windows, or the default one.
-fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
+fn display(egl: &Egl) -> Result<egl::Display, Fault> {
     let none = [egl::ATTRIB_NONE];
     // SAFETY: these displays take no pointer; that of the platform must be the default.
     unsafe {
@@ -86,7 +85,7 @@ fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
 }
 
 /// A context of version 3.0, without a configuration, which only surfaces need, or otherwise with the first that fits.
-fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, DeviceFault> {
+fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, Fault> {
     let version = [
         egl::CONTEXT_MAJOR_VERSION,
         3,
@@ -108,11 +107,7 @@ fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, DeviceFault>
         .map_err(absent)
 }
 
-pub(super) fn enter(
-    egl: &Egl,
-    display: egl::Display,
-    context: egl::Context,
-) -> Result<(), DeviceFault> {
+pub(super) fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
     egl.make_current(display, None, None, Some(context))
         .map_err(absent)
 }
@@ -141,9 +136,9 @@ pub(super) fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
         .map_or(std::ptr::null(), |function| function as *const _)
 }
 
-pub(super) fn absent(why: impl ToString) -> DeviceFault {
-    DeviceFault::Absent {
-        what: format!("no OpenGL ES 3.0 ({})", why.to_string()),
-        get: format!("on Debian install {OPENGL_PACKAGES}"),
-    }
+pub(super) fn absent(why: impl ToString) -> Fault {
+    let why = why.to_string();
+    Fault::Absent(format!(
+        "no OpenGL ES 3.0 ({why}); on Debian install {OPENGL_PACKAGES}"
+    ))
 }

@@ -5,10 +5,10 @@ use std::rc::Rc;
 
 use glow::{HasContext, PixelUnpackData};
 
-use super::adapter::DeviceFault;
 use super::egl::Context;
 use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
 use super::slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+use crate::lab::fault::Fault;
 
 /// The number of cosines in a draw.
 const BLOCK: usize = 1 << 18;
@@ -76,21 +76,18 @@ impl Kernel {
         context: &Rc<Context>,
         program: &Program,
         inputs: PointInputs,
-    ) -> Result<Kernel, DeviceFault> {
+    ) -> Result<Kernel, Fault> {
         let attributes = match inputs {
             PointInputs::Cosines => Attributes::Cosine,
             PointInputs::Places(places) => Attributes::Places(places),
             PointInputs::Bits => {
                 let name = &context.adapter.name;
-                return Err(DeviceFault::unable(name, "a stream in OpenGL ES"));
+                return Err(Fault::unable(name, "a stream in OpenGL ES"));
             }
         };
         let ShaderCode::Gles(text) = program.code else {
             let name = &context.adapter.name;
-            return Err(DeviceFault::unable(
-                name,
-                "anything but GLSL ES in OpenGL ES",
-            ));
+            return Err(Fault::unable(name, "anything but GLSL ES in OpenGL ES"));
         };
         let gl = context.enter()?;
         Ok(Kernel {
@@ -108,12 +105,12 @@ impl Kernel {
         points: &[f32],
         uniforms: &[Uniform],
         texture: Option<&Texture>,
-    ) -> Result<Vec<[f32; 3]>, DeviceFault> {
+    ) -> Result<Vec<[f32; 3]>, Fault> {
         check_fit(&self.uniforms, uniforms, self.texture, texture)?;
         let gl = self.context.enter()?;
         let each = self.attributes.stride() / size_of::<f32>();
         let most = (points.len() / each).min(BLOCK);
-        let objects = Objects::new(gl, most, self.attributes).map_err(DeviceFault::lost)?;
+        let objects = Objects::new(gl, most, self.attributes).map_err(Fault::lost)?;
         // SAFETY: the context is current, and so are all names below.
         unsafe {
             gl.use_program(Some(self.program));
@@ -201,7 +198,7 @@ impl<'a> Objects<'a> {
     }
 
     /// These objects with a texture in unit 0, the default unit of a sampler.
-    fn with(mut self, texture: &Texture, context: &Context) -> Result<Objects<'a>, DeviceFault> {
+    fn with(mut self, texture: &Texture, context: &Context) -> Result<Objects<'a>, Fault> {
         let gl = self.gl;
         let (internal, ty, needed) = match texture.format {
             TextureFormat::Half => (glow::RGBA16F, glow::HALF_FLOAT, None),
@@ -215,7 +212,7 @@ impl<'a> Objects<'a> {
             TextureFormat::Srgb8 => (glow::SRGB8_ALPHA8, glow::UNSIGNED_BYTE, None),
         };
         if let Some(needed) = needed.filter(|needed| !gl.supported_extensions().contains(*needed)) {
-            return Err(DeviceFault::unable(&context.adapter.name, needed));
+            return Err(Fault::unable(&context.adapter.name, needed));
         }
         let (width, rows) = (texture.width as i32, texture.height()? as i32);
         let (kind, sides, height) = match texture.shape {
@@ -233,7 +230,7 @@ impl<'a> Objects<'a> {
         };
         // SAFETY: the context is current. Rows are whole multiples of 4 bytes, so that the bytes are as many as are read.
         unsafe {
-            let table = gl.create_texture().map_err(DeviceFault::lost)?;
+            let table = gl.create_texture().map_err(Fault::lost)?;
             self.table = Some(table);
             gl.active_texture(glow::TEXTURE0);
             gl.bind_texture(kind, Some(table));
@@ -295,15 +292,11 @@ impl Drop for Objects<'_> {
     }
 }
 
-fn link(
-    gl: &glow::Context,
-    vertex: &str,
-    attributes: Attributes,
-) -> Result<glow::Program, DeviceFault> {
+fn link(gl: &glow::Context, vertex: &str, attributes: Attributes) -> Result<glow::Program, Fault> {
     let (names, _) = attributes.names();
     // SAFETY: the caller has made the context current.
     unsafe {
-        let program = gl.create_program().map_err(DeviceFault::lost)?;
+        let program = gl.create_program().map_err(Fault::lost)?;
         let linked = build(gl, program, vertex, FRAGMENT, || {
             for (place, name) in names.iter().enumerate() {
                 gl.bind_attrib_location(program, place as u32, name);
@@ -324,21 +317,21 @@ pub(super) unsafe fn build(
     vertex: &str,
     fragment: &str,
     bind: impl FnOnce(),
-) -> Result<(), DeviceFault> {
+) -> Result<(), Fault> {
     // SAFETY: the caller has made the context current.
     unsafe {
         for (ty, text) in [
             (glow::VERTEX_SHADER, vertex),
             (glow::FRAGMENT_SHADER, fragment),
         ] {
-            let shader = gl.create_shader(ty).map_err(DeviceFault::lost)?;
+            let shader = gl.create_shader(ty).map_err(Fault::lost)?;
             gl.attach_shader(program, shader);
             // It is deleted with the program.
             gl.delete_shader(shader);
             gl.shader_source(shader, text);
             gl.compile_shader(shader);
             if !gl.get_shader_compile_status(shader) {
-                return Err(DeviceFault::refused(gl.get_shader_info_log(shader)));
+                return Err(Fault::refused(gl.get_shader_info_log(shader)));
             }
         }
         bind();
@@ -346,7 +339,7 @@ pub(super) unsafe fn build(
         if gl.get_program_link_status(program) {
             Ok(())
         } else {
-            Err(DeviceFault::refused(gl.get_program_info_log(program)))
+            Err(Fault::refused(gl.get_program_info_log(program)))
         }
     }
 }
@@ -359,13 +352,13 @@ fn cube_sides() -> Vec<u32> {
 }
 
 /// Reports the first error since the last check.
-fn check(gl: &glow::Context) -> Result<(), DeviceFault> {
+fn check(gl: &glow::Context) -> Result<(), Fault> {
     // SAFETY: the caller has made the context current.
     match unsafe { gl.get_error() } {
         glow::NO_ERROR => Ok(()),
-        glow::OUT_OF_MEMORY => Err(DeviceFault::lost("out of memory")),
-        CONTEXT_LOST => Err(DeviceFault::lost("the context was lost")),
-        error => Err(DeviceFault::refused(format!(
+        glow::OUT_OF_MEMORY => Err(Fault::lost("out of memory")),
+        CONTEXT_LOST => Err(Fault::lost("the context was lost")),
+        error => Err(Fault::refused(format!(
             "OpenGL ES gives error {error:#06x}"
         ))),
     }

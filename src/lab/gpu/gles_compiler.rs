@@ -10,9 +10,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glow::HasContext;
 use khronos_egl as egl;
 
-use super::adapter::DeviceFault;
 use super::egl::{Egl, absent, address, enter, library};
 use super::gles::build;
+use crate::lab::fault::Fault;
 
 /// A context on a render node. It lives as long as the process.
 pub struct GlesCompiler {
@@ -40,7 +40,7 @@ impl GlesCompiler {
     ///
     /// # Errors
     /// There is no node, or its driver gives no context.
-    pub fn open(major: i32) -> Result<GlesCompiler, DeviceFault> {
+    pub fn open(major: i32) -> Result<GlesCompiler, Fault> {
         let egl = library()?;
         let display = display(egl)?;
         egl.initialize(display).map_err(absent)?;
@@ -65,11 +65,11 @@ impl GlesCompiler {
     ///
     /// # Errors
     /// The driver refuses it, with this message.
-    pub fn link(&self, vertex: &str, fragment: &str) -> Result<Vec<String>, DeviceFault> {
+    pub fn link(&self, vertex: &str, fragment: &str) -> Result<Vec<String>, Fault> {
         self.take();
         // SAFETY: the context is current on this thread, and the program is its own.
         unsafe {
-            let program = self.gl.create_program().map_err(DeviceFault::lost)?;
+            let program = self.gl.create_program().map_err(Fault::lost)?;
             let linked = build(&self.gl, program, vertex, fragment, || {
                 self.gl.bind_attrib_location(program, CORNER, "fg_corner");
             });
@@ -100,7 +100,7 @@ fn listen(gl: &mut glow::Context, remarks: Arc<Mutex<Vec<String>>>) {
 }
 
 /// The display of a render node, through the library that allocates its buffers.
-fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
+fn display(egl: &Egl) -> Result<egl::Display, Fault> {
     let node = File::options().read(true).write(true).open(PATH);
     let node = node.map_err(|error| absent(format!("{PATH}: {error}")))?;
     type Create = unsafe extern "C" fn(c_int) -> *mut c_void;
@@ -121,7 +121,7 @@ fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
 }
 
 /// A debug context.
-fn context(egl: &Egl, display: egl::Display, major: i32) -> Result<egl::Context, DeviceFault> {
+fn context(egl: &Egl, display: egl::Display, major: i32) -> Result<egl::Context, Fault> {
     // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never dereferenced.
     let no_config = unsafe { egl::Config::from_ptr(std::ptr::null_mut()) };
     let wanted = [

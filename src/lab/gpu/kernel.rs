@@ -7,12 +7,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pollster::block_on;
 use wgpu::{BindingType, BufferBindingType, BufferUsages, ErrorFilter, Features, PollType};
 
-use super::adapter::{Adapter, AdapterKind, DeviceFault, describe};
+use super::adapter::{Adapter, AdapterKind, describe};
 use super::passthrough;
 use super::program::{PointInputs, Program, ShaderCode, Uniform, block, check_fit};
 use super::slot::{
     BATCH, BLOCK, Block, Slot, Texture, TextureFilter, TextureFormat, TextureShape, Wrap,
 };
+use crate::lab::fault::Fault;
 
 /// A pipeline on its device.
 pub(super) struct Kernel {
@@ -37,7 +38,7 @@ impl Kernel {
         compute: &Rc<Compute>,
         program: &Program,
         inputs: PointInputs,
-    ) -> Result<Kernel, DeviceFault> {
+    ) -> Result<Kernel, Fault> {
         let module = module(compute, program)?;
         let (pipeline, layout) =
             compute.guarded(|| pipeline(&compute.device, &module, program, inputs))?;
@@ -59,7 +60,7 @@ impl Kernel {
         uniforms: &[Uniform],
         texture: Option<&Texture>,
         take: impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), DeviceFault> {
+    ) -> Result<(), Fault> {
         let blocks = cosines.chunks(BLOCK).map(Block::Cosines);
         self.pump(blocks, uniforms, texture, take)
     }
@@ -71,7 +72,7 @@ impl Kernel {
         places: usize,
         texture: Option<&Texture>,
         take: impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), DeviceFault> {
+    ) -> Result<(), Fault> {
         let blocks = points.chunks(BATCH * places);
         let blocks = blocks.map(|points| Block::Places { points, places });
         self.pump(blocks, &[], texture, take)
@@ -84,7 +85,7 @@ impl Kernel {
         uniforms: &[Uniform],
         texture: Option<&Texture>,
         mut take: impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), DeviceFault> {
+    ) -> Result<(), Fault> {
         check_fit(&self.uniforms, uniforms, self.texture, texture)?;
         let compute = &*self.compute;
         let resources = self.resources(uniforms, texture)?;
@@ -106,7 +107,7 @@ impl Kernel {
         &self,
         uniforms: &[Uniform],
         texture: Option<&Texture>,
-    ) -> Result<Resources, DeviceFault> {
+    ) -> Result<Resources, Fault> {
         let compute = &*self.compute;
         let block = || compute.guarded(|| uniform_block(compute, &block(uniforms)));
         let table = texture.map(|texture| table(compute, texture));
@@ -154,7 +155,7 @@ impl Kernel {
     }
 }
 
-fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, DeviceFault> {
+fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, Fault> {
     match program.code {
         ShaderCode::Wgsl(text) => compute.guarded(|| {
             compute
@@ -165,10 +166,7 @@ fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, De
                 })
         }),
         ShaderCode::Spirv(bytes) => passthrough::module(compute, bytes, program.entry),
-        ShaderCode::Gles(_) => Err(DeviceFault::unable(
-            &compute.adapter.name,
-            "GLSL ES in compute",
-        )),
+        ShaderCode::Gles(_) => Err(Fault::unable(&compute.adapter.name, "GLSL ES in compute")),
     }
 }
 
@@ -257,7 +255,7 @@ pub(super) fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
 pub(super) fn table(
     compute: &Compute,
     texture: &Texture,
-) -> Result<(wgpu::TextureView, wgpu::Sampler), DeviceFault> {
+) -> Result<(wgpu::TextureView, wgpu::Sampler), Fault> {
     let (format, needed) = match texture.format {
         TextureFormat::Half => (wgpu::TextureFormat::Rgba16Float, Features::empty()),
         TextureFormat::Float => (
@@ -273,7 +271,7 @@ pub(super) fn table(
     };
     if !compute.has(needed) {
         let what = format!("filter a texture of {format:?}");
-        return Err(DeviceFault::unable(&compute.adapter.name, what));
+        return Err(Fault::unable(&compute.adapter.name, what));
     }
     let rows = texture.height()? as u32;
     let width = texture.width as u32;
@@ -372,14 +370,13 @@ const PATIENCE: core::time::Duration = core::time::Duration::from_secs(120);
 
 impl Compute {
     /// Opens a device on an adapter.
-    pub fn open(adapter: &wgpu::Adapter) -> Result<Compute, DeviceFault> {
+    pub fn open(adapter: &wgpu::Adapter) -> Result<Compute, Fault> {
         let descriptor = wgpu::DeviceDescriptor {
             required_features: adapter.features() & FEATURES,
             required_limits: adapter.limits(),
             ..Default::default()
         };
-        let (device, queue) =
-            block_on(adapter.request_device(&descriptor)).map_err(DeviceFault::lost)?;
+        let (device, queue) = block_on(adapter.request_device(&descriptor)).map_err(Fault::lost)?;
         let lost = Arc::new(Mutex::new(None));
         let (of_loss, of_error) = (lost.clone(), lost.clone());
         device.set_device_lost_callback(move |_, why| note(&of_loss, why));
@@ -409,7 +406,7 @@ impl Compute {
     }
 
     /// Does some work, and returns any error that it raised.
-    pub fn guarded<T>(&self, work: impl FnOnce() -> T) -> Result<T, DeviceFault> {
+    pub fn guarded<T>(&self, work: impl FnOnce() -> T) -> Result<T, Fault> {
         let filters = [
             ErrorFilter::OutOfMemory,
             ErrorFilter::Internal,
@@ -421,17 +418,17 @@ impl Compute {
         let mut errors = scopes.into_iter().rev().map(|scope| block_on(scope.pop()));
         let [validation, internal, memory] = [(); 3].map(|()| errors.next().flatten());
         if let Some(why) = memory {
-            return Err(DeviceFault::lost(why));
+            return Err(Fault::lost(why));
         }
         self.check_alive()?;
         match validation.or(internal) {
-            Some(error) => Err(DeviceFault::refused(error)),
+            Some(error) => Err(Fault::refused(error)),
             None => Ok(done),
         }
     }
 
     /// Waits for a submission.
-    pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), DeviceFault> {
+    pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), Fault> {
         let wait = PollType::Wait {
             submission_index: Some(submission),
             timeout: Some(PATIENCE),
@@ -442,18 +439,15 @@ impl Compute {
                 // Dropping them would block forever.
                 std::mem::forget((self.device.clone(), self.queue.clone()));
                 let seconds = PATIENCE.as_secs();
-                Err(DeviceFault::lost(format!(
-                    "no end within {seconds} seconds"
-                )))
+                Err(Fault::lost(format!("no end within {seconds} seconds")))
             }
-            Err(error) => Err(DeviceFault::lost(error)),
+            Err(error) => Err(Fault::lost(error)),
         }
     }
 
-    fn check_alive(&self) -> Result<(), DeviceFault> {
+    fn check_alive(&self) -> Result<(), Fault> {
         let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
-        lost.as_ref()
-            .map_or(Ok(()), |why| Err(DeviceFault::lost(why)))
+        lost.as_ref().map_or(Ok(()), |why| Err(Fault::lost(why)))
     }
 }
 

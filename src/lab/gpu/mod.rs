@@ -5,7 +5,7 @@
 //! through wgpu (Vulkan, Metal, Direct3D 12, OpenGL). GLSL ES 3.00 runs as a vertex shader in a context of exactly that version.
 //! Its results are captured by transform feedback, exact to the bit.
 //!
-//! No driver library is linked. A missing one is a [`DeviceFault`] that says what to install, never a result.
+//! No driver library is linked. A missing one is a [`Fault::Absent`] that says what to install, never a result.
 
 mod adapter;
 mod draw;
@@ -22,9 +22,10 @@ mod vulkan_compiler;
 
 use std::rc::Rc;
 
+use crate::lab::fault::Fault;
 use program::PointInputs;
 
-pub use adapter::{Adapter, AdapterKind, Backend, DeviceFault, Wanted, adapters};
+pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use gles_compiler::GlesCompiler;
 pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
@@ -63,7 +64,7 @@ impl Device {
     ///
     /// # Errors
     /// There is none, and the fault says what there is, or what to install.
-    pub fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
+    pub fn open(wanted: &Wanted) -> Result<Device, Fault> {
         if wanted.backend == Some(Backend::Gles) {
             return Device::gles();
         }
@@ -79,7 +80,7 @@ impl Device {
     ///
     /// # Errors
     /// There is none, and the fault says what to install.
-    pub fn gles() -> Result<Device, DeviceFault> {
+    pub fn gles() -> Result<Device, Fault> {
         let context = egl::Context::open()?;
         Ok(Device {
             adapter: context.adapter.clone(),
@@ -99,13 +100,10 @@ impl Device {
     ///
     /// # Errors
     /// It is larger than the device allows, or the device does not draw here: OpenGL ES does not.
-    pub fn canvas(&self, pixels: u32) -> Result<Canvas, DeviceFault> {
+    pub fn canvas(&self, pixels: u32) -> Result<Canvas, Fault> {
         match &self.stack {
             Stack::Compute(compute) => Canvas::new(compute, pixels),
-            Stack::Gles(_) => Err(DeviceFault::unable(
-                &self.adapter.name,
-                "drawing in OpenGL ES",
-            )),
+            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "drawing in OpenGL ES")),
         }
     }
 
@@ -113,13 +111,10 @@ impl Device {
     ///
     /// # Errors
     /// The device does not draw here: OpenGL ES does not.
-    pub fn offscreen(&self) -> Result<Offscreen, DeviceFault> {
+    pub fn offscreen(&self) -> Result<Offscreen, Fault> {
         match &self.stack {
             Stack::Compute(compute) => Offscreen::new(compute),
-            Stack::Gles(_) => Err(DeviceFault::unable(
-                &self.adapter.name,
-                "drawing in OpenGL ES",
-            )),
+            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "drawing in OpenGL ES")),
         }
     }
 
@@ -127,7 +122,7 @@ impl Device {
     ///
     /// # Errors
     /// It does not compile, or not for this device.
-    pub fn prepare(&self, program: &Program) -> Result<Kernel, DeviceFault> {
+    pub fn prepare(&self, program: &Program) -> Result<Kernel, Fault> {
         let prepared = match &self.stack {
             Stack::Compute(compute) => {
                 Prepared::Compute(kernel::Kernel::new(compute, program, PointInputs::Cosines)?)
@@ -144,7 +139,7 @@ impl Device {
     ///
     /// # Errors
     /// It does not compile, or not for this device.
-    pub fn prepare_batch(&self, program: &Program, places: usize) -> Result<Batch, DeviceFault> {
+    pub fn prepare_batch(&self, program: &Program, places: usize) -> Result<Batch, Fault> {
         let inputs = PointInputs::Places(places);
         let prepared = match &self.stack {
             Stack::Compute(compute) => {
@@ -159,16 +154,13 @@ impl Device {
     ///
     /// # Errors
     /// It does not compile, or not for this device: OpenGL ES has no streams.
-    pub fn prepare_stream(&self, program: &Program) -> Result<Stream, DeviceFault> {
+    pub fn prepare_stream(&self, program: &Program) -> Result<Stream, Fault> {
         match &self.stack {
             Stack::Compute(compute) => {
                 let kernel = kernel::Kernel::new(compute, program, PointInputs::Bits)?;
                 Ok(Stream(kernel))
             }
-            Stack::Gles(_) => Err(DeviceFault::unable(
-                &self.adapter.name,
-                "a stream in OpenGL ES",
-            )),
+            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "a stream in OpenGL ES")),
         }
     }
 }
@@ -183,7 +175,7 @@ impl Kernel {
         cosines: &[f32],
         uniforms: &[Uniform],
         texture: Option<&Texture>,
-    ) -> Result<Vec<[f32; 3]>, DeviceFault> {
+    ) -> Result<Vec<[f32; 3]>, Fault> {
         match &self.0 {
             Prepared::Compute(kernel) => {
                 let mut results = Vec::with_capacity(cosines.len());
@@ -206,7 +198,7 @@ impl Batch {
         &self,
         points: &[[f32; 4]],
         texture: Option<&Texture>,
-    ) -> Result<Vec<[f32; 3]>, DeviceFault> {
+    ) -> Result<Vec<[f32; 3]>, Fault> {
         match &self.prepared {
             Prepared::Compute(kernel) => {
                 let mut results = Vec::with_capacity(points.len() / self.places);

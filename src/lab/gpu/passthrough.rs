@@ -1,8 +1,9 @@
 //! SPIR-V modules passed to the driver unchanged.
 #![allow(unsafe_code)]
 
-use super::adapter::{Backend, DeviceFault};
+use super::adapter::Backend;
 use super::kernel::Compute;
+use crate::lab::fault::Fault;
 
 /// The first word of every module, the number of words before the first instruction, and what a compute entry point
 /// begins with. Source: Khronos Group, *SPIR-V Specification*, version 1.6, 2021, sections 2.3, 3.3 and 3.42.5,
@@ -17,19 +18,19 @@ pub(super) fn module(
     compute: &Compute,
     bytes: &[u8],
     entry: &str,
-) -> Result<wgpu::ShaderModule, DeviceFault> {
+) -> Result<wgpu::ShaderModule, Fault> {
     let words: Vec<u32> = bytes
         .chunks_exact(4)
         .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
         .collect();
     if !bytes.len().is_multiple_of(4) || words.len() < HEADER || words[0] != MAGIC {
-        return Err(DeviceFault::refused("this is no SPIR-V module"));
+        return Err(Fault::refused("this is no SPIR-V module"));
     }
     let there = entries(&words);
     if !there.iter().any(|name| name == entry) {
         let there = there.join(", ");
         let log = format!("no compute entry point `{entry}`; there is {there}");
-        return Err(DeviceFault::refused(log));
+        return Err(Fault::refused(log));
     }
     // OpenGL has the feature too, but for GLSL.
     let is_vulkan = compute.adapter.backend == Backend::Vulkan;
@@ -39,7 +40,7 @@ pub(super) fn module(
             compute.adapter.backend.name(),
             compute.adapter.name
         );
-        return Err(DeviceFault::unable(
+        return Err(Fault::unable(
             &device,
             "SPIR-V as it is, which takes Vulkan",
         ));

@@ -3,9 +3,9 @@
 //! In a stream the program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks
 //! are in flight: the device computes one while the other is read in mapped memory.
 
-use super::DeviceFault;
 use super::kernel::Kernel;
 use super::slot::{BLOCK, Block, Texture, TextureShape};
+use crate::lab::fault::Fault;
 
 /// A shader to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,7 @@ pub(super) fn check_fit(
     given: &[Uniform],
     wanted_texture: Option<TextureShape>,
     texture: Option<&Texture>,
-) -> Result<(), DeviceFault> {
+) -> Result<(), Fault> {
     let shape = |uniform: &Uniform| match uniform.value {
         Argument::Scalar(_) => format!("{}: scalar", uniform.name),
         Argument::Rgb(_) => format!("{}: rgb", uniform.name),
@@ -103,18 +103,14 @@ pub(super) fn check_fit(
     let shapes = |uniforms: &[Uniform]| uniforms.iter().map(shape).collect::<Vec<_>>().join(", ");
     let (want, got) = (shapes(wanted), shapes(given));
     if want != got {
-        return Err(DeviceFault::refused(format!(
+        return Err(Fault::refused(format!(
             "its arguments are ({want}), and it is run with ({got})"
         )));
     }
     match (wanted_texture, texture.map(|texture| texture.shape)) {
-        (Some(_), None) => Err(DeviceFault::refused(
-            "it reads a texture and is run with none",
-        )),
-        (None, Some(_)) => Err(DeviceFault::refused(
-            "it reads no texture and is run with one",
-        )),
-        (Some(want), Some(got)) if want != got => Err(DeviceFault::refused(format!(
+        (Some(_), None) => Err(Fault::refused("it reads a texture and is run with none")),
+        (None, Some(_)) => Err(Fault::refused("it reads no texture and is run with one")),
+        (Some(want), Some(got)) if want != got => Err(Fault::refused(format!(
             "it reads a texture that is {want:?}, and is run with one that is {got:?}"
         ))),
         _ => Ok(()),
@@ -138,7 +134,7 @@ impl Stream {
         uniforms: &[Uniform],
         texture: Option<&Texture>,
         mut take: impl FnMut(u32, &[[f32; 4]]),
-    ) -> Result<(), DeviceFault> {
+    ) -> Result<(), Fault> {
         let at = |done: u64| first.wrapping_add(done as u32);
         let blocks = (0..count).step_by(BLOCK).map(|done| Block::Bits {
             first: at(done),

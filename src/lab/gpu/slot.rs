@@ -6,9 +6,9 @@ use std::sync::mpsc::{Receiver, channel};
 use half::f16;
 use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
 
-use super::adapter::DeviceFault;
 use super::kernel::{Compute, Kernel, Resources};
 use super::program::PointInputs;
+use crate::lab::fault::Fault;
 
 /// The number of points in a block.
 pub(super) const BLOCK: usize = 1 << 18;
@@ -114,7 +114,7 @@ impl Slot {
         kernel: &Kernel,
         resources: &Resources,
         block: &Block,
-    ) -> Result<Flight, DeviceFault> {
+    ) -> Result<Flight, Fault> {
         let inputs = block.bytes();
         let bytes = block.points() as u64 * RESULT;
         compute.guarded(|| {
@@ -153,15 +153,13 @@ impl Slot {
         compute: &Compute,
         flight: Flight,
         take: &mut impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), DeviceFault> {
+    ) -> Result<(), Fault> {
         compute.wait(flight.submission)?;
         let mapped = flight.mapped.try_recv();
-        mapped
-            .map_err(DeviceFault::lost)?
-            .map_err(DeviceFault::lost)?;
+        mapped.map_err(Fault::lost)?.map_err(Fault::lost)?;
         let view = self.readable().get_mapped_range(..flight.bytes);
-        let view = view.map_err(DeviceFault::lost)?;
-        take(bytemuck::try_cast_slice(&view).map_err(DeviceFault::lost)?);
+        let view = view.map_err(Fault::lost)?;
+        take(bytemuck::try_cast_slice(&view).map_err(Fault::lost)?);
         drop(view);
         self.readable().unmap();
         Ok(())
@@ -241,16 +239,16 @@ impl Texture<'_> {
     ///
     /// # Errors
     /// The texels do not fill whole rows.
-    pub(super) fn height(&self) -> Result<usize, DeviceFault> {
+    pub(super) fn height(&self) -> Result<usize, Fault> {
         let (texels, width) = (self.texels.len(), self.width);
         if width == 0 || texels == 0 || !texels.is_multiple_of(width) {
-            return Err(DeviceFault::refused(format!(
+            return Err(Fault::refused(format!(
                 "a texture of {texels} texels has no whole rows of {width}"
             )));
         }
         let rows = texels / width;
         if self.shape == TextureShape::Cube && rows != 6 * width {
-            return Err(DeviceFault::refused(format!(
+            return Err(Fault::refused(format!(
                 "a cube of sides of {width} has {} rows, not {rows}",
                 6 * width
             )));

@@ -8,7 +8,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
-use super::adapter::DeviceFault;
+use crate::lab::fault::Fault;
 
 /// A device that compiles. It lives as long as the process: drivers leave threads behind.
 pub struct VulkanCompiler {
@@ -40,7 +40,7 @@ impl VulkanCompiler {
     ///
     /// # Errors
     /// There is none.
-    pub fn open(vertex: &[u8]) -> Result<VulkanCompiler, DeviceFault> {
+    pub fn open(vertex: &[u8]) -> Result<VulkanCompiler, Fault> {
         let failed = |result: vk::Result| absent(&result.to_string());
         // SAFETY: a library of this name is the Vulkan loader, and what is called through it follows Vulkan: all structures
         // live to the end of the calls that take them, and handles are those of this device.
@@ -79,10 +79,10 @@ impl VulkanCompiler {
         &self,
         vertex: &CStr,
         fragment: ModuleEntry,
-    ) -> Result<Vec<(String, f64)>, DeviceFault> {
+    ) -> Result<Vec<(String, f64)>, Fault> {
         // SAFETY: as in `open`; the module and the pipeline are destroyed once, when they are no longer needed.
         let told = unsafe {
-            let module = module(&self.device, fragment.module).map_err(DeviceFault::refused)?;
+            let module = module(&self.device, fragment.module).map_err(Fault::refused)?;
             let told = self
                 .pipeline(vertex, module, fragment.name)
                 .and_then(|pipeline| {
@@ -93,7 +93,7 @@ impl VulkanCompiler {
             self.device.destroy_shader_module(module, None);
             told
         };
-        told.map_err(DeviceFault::refused)
+        told.map_err(Fault::refused)
     }
 
     unsafe fn pipeline(
@@ -269,9 +269,6 @@ unsafe fn module(device: &ash::Device, bytes: &[u8]) -> Result<vk::ShaderModule,
     unsafe { device.create_shader_module(&wanted, None) }
 }
 
-fn absent(why: &str) -> DeviceFault {
-    DeviceFault::Absent {
-        what: format!("no Vulkan driver RADV ({why})"),
-        get: PACKAGES.to_owned(),
-    }
+fn absent(why: &str) -> Fault {
+    Fault::Absent(format!("no Vulkan driver RADV ({why}); {PACKAGES}"))
 }

@@ -6,8 +6,9 @@ use super::clock::timed;
 use super::measure::Reading;
 use super::plan::{Drawing, DrawingPlan};
 use crate::lab::cost::{ENTRY, VERTEX};
+use crate::lab::fault::Fault;
 use crate::lab::gpu::{
-    AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat,
+    AdapterKind, Canvas, Device, Layer, Shader, Texture, TextureFilter, TextureFormat,
     TextureShape, Wrap,
 };
 
@@ -58,7 +59,7 @@ impl<'a> DrawingDevice<'a> {
         plan: &'a DrawingPlan,
         device: &Device,
         size: Option<u32>,
-    ) -> Result<DrawingDevice<'a>, DeviceFault> {
+    ) -> Result<DrawingDevice<'a>, Fault> {
         let usual = if device.adapter.kind == AdapterKind::Software {
             ON_A_PROCESSOR
         } else {
@@ -88,7 +89,7 @@ impl<'a> DrawingDevice<'a> {
     ///
     /// # Errors
     /// The device does not accept it, or is lost.
-    pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, DeviceFault> {
+    pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Fault> {
         self.compile(DrawingPlan::HEAVY)?;
         self.compile(drawing)?;
         let layer = |place: usize| self.layers[place].as_ref();
@@ -106,7 +107,7 @@ impl<'a> DrawingDevice<'a> {
         })
     }
 
-    fn compile(&mut self, place: usize) -> Result<(), DeviceFault> {
+    fn compile(&mut self, place: usize) -> Result<(), Fault> {
         if self.layers[place].is_none() {
             self.layers[place] = Some(layer(&self.canvas, &self.plan.drawings[place])?);
         }
@@ -114,7 +115,7 @@ impl<'a> DrawingDevice<'a> {
     }
 }
 
-fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, DeviceFault> {
+fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, Fault> {
     let texels: Option<Vec<[f32; 4]>> = drawing.table.as_ref().map(|table| {
         let texels = table.texels.iter();
         texels.map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()

@@ -11,8 +11,9 @@ use super::drawing_device::{DeviceFacts, DrawingDevice};
 use super::measure::{Draw, Reading, Stop};
 use super::plan::DrawingPlan;
 use super::row::Error;
-use crate::lab::gpu::{AdapterKind, Backend, Device, DeviceFault, Wanted};
-use crate::lab::process::{Inbox, Launch, Silence, Surroundings, Worker};
+use crate::lab::fault::Fault;
+use crate::lab::gpu::{AdapterKind, Backend, Device, Wanted};
+use crate::lab::process::{Inbox, Launch, NoAnswer, Surroundings, Worker};
 
 /// How long opening a device and compiling a shader may take. Where they are slow, both take seconds.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -91,14 +92,14 @@ impl Draw for DrawingWorker {
             self.limit + GRACE + PATIENCE
         };
         let request = DrawRequest::Draw { drawing, draws };
-        let response = self.worker.ask(&request, patience);
+        let response: Result<Result<DrawAnswer, NoAnswer>, _> = self.worker.ask(&request, patience);
         let response = match response.map_err(|why| Stop::All(why.to_string()))? {
             Ok(response) => response,
-            Err(Silence::TooLong) => {
+            Err(NoAnswer::TooLong) => {
                 self.restart()?;
                 return Err(self.too_long(patience.as_secs_f64()));
             }
-            Err(Silence::Ended(status)) => {
+            Err(NoAnswer::Ended(status)) => {
                 self.restart()?;
                 let why = format!("the process that drew it ended ({status}): its driver failed");
                 return Err(Stop::One(why));
@@ -106,16 +107,16 @@ impl Draw for DrawingWorker {
         };
         self.compiled.insert(drawing);
         match response {
-            DrawResponse::Reading(reading) if reading.wall > self.limit.as_nanos() as f64 => {
+            Ok(DrawResponse::Reading(reading)) if reading.wall > self.limit.as_nanos() as f64 => {
                 Err(self.too_long(reading.wall / 1e9))
             }
-            DrawResponse::Reading(reading) => Ok(reading),
-            DrawResponse::Failed(why) | DrawResponse::Absent(why) => {
+            Ok(DrawResponse::Reading(reading)) => Ok(reading),
+            Err(fault) => {
                 // A lost device draws nothing more.
                 self.restart()?;
-                Err(Stop::One(why))
+                Err(Stop::One(fault.to_string()))
             }
-            DrawResponse::Device(_) => Err(Stop::All("a process that only greets".to_owned())),
+            Ok(DrawResponse::Device(_)) => Err(Stop::All("a process that only greets".to_owned())),
         }
     }
 }
@@ -123,11 +124,11 @@ impl Draw for DrawingWorker {
 /// The device that the process draws on.
 fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
     match worker.ask(&DrawRequest::Device, PATIENCE)? {
-        Ok(DrawResponse::Device(device)) => Ok(device),
-        Ok(DrawResponse::Absent(why) | DrawResponse::Failed(why)) => Err(Error::Device(why)),
-        Ok(DrawResponse::Reading(_)) => Err(Error::Protocol),
-        Err(Silence::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
-        Err(Silence::Ended(status)) => Err(Error::Ended(status)),
+        Ok(Ok(DrawResponse::Device(device))) => Ok(device),
+        Ok(Ok(DrawResponse::Reading(_))) => Err(Error::Protocol),
+        Ok(Err(fault)) => Err(Error::Device(fault)),
+        Err(NoAnswer::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
+        Err(NoAnswer::Ended(status)) => Err(Error::Ended(status)),
     }
 }
 
@@ -145,28 +146,16 @@ pub enum DrawRequest {
     },
 }
 
-/// The worker's answer.
+/// The worker's answer, or why there is none.
+type DrawAnswer = Result<DrawResponse, Fault>;
+
+/// What the worker answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum DrawResponse {
     /// The device that it draws on.
     Device(DeviceFacts),
     /// A reading.
     Reading(Reading),
-    /// Something is missing on this machine.
-    Absent(String),
-    /// The shader or the device failed.
-    Failed(String),
-}
-
-impl From<DeviceFault> for DrawResponse {
-    fn from(fault: DeviceFault) -> DrawResponse {
-        match fault {
-            DeviceFault::Absent { .. } | DeviceFault::Unable { .. } => {
-                DrawResponse::Absent(fault.to_string())
-            }
-            _ => DrawResponse::Failed(fault.to_string()),
-        }
-    }
 }
 
 /// Serves until the supervisor is gone. Only drawings of the plan are drawn. The plan depends on whether the device is software.
@@ -186,26 +175,28 @@ pub fn serve(
             .is_ok_and(|device| device.adapter.kind == AdapterKind::Software),
     );
     let mut device = opened.and_then(|device| DrawingDevice::new(plan, &device, size));
-    inbox.serve(|request| match (&mut device, request) {
-        (Err(fault), _) => fault.clone().into(),
-        (Ok(device), DrawRequest::Device) => DrawResponse::Device(device.facts()),
-        (Ok(_), DrawRequest::Draw { drawing, .. }) if drawing >= plan.drawings.len() => {
-            DrawResponse::Failed("the plan has no such drawing".to_owned())
+    inbox.serve(|request| -> DrawAnswer {
+        let device = device.as_mut().map_err(|fault| fault.clone())?;
+        match request {
+            DrawRequest::Device => Ok(DrawResponse::Device(device.facts())),
+            DrawRequest::Draw { drawing, .. } if drawing >= plan.drawings.len() => {
+                Err(Fault::Failed("the plan has no such drawing".to_owned()))
+            }
+            DrawRequest::Draw { drawing, draws } => {
+                device.draw(drawing, draws).map(DrawResponse::Reading)
+            }
         }
-        (Ok(device), DrawRequest::Draw { drawing, draws }) => device
-            .draw(drawing, draws)
-            .map_or_else(DrawResponse::from, DrawResponse::Reading),
     })
 }
 
 /// Opens the requested device. OpenGL draws as well as the others, so it is used where there is nothing else.
-fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
+fn open(wanted: &Wanted) -> Result<Device, Fault> {
     let opengl = Wanted {
         backend: Some(Backend::OpenGl),
         ..wanted.clone()
     };
     match Device::open(wanted) {
-        Err(fault @ DeviceFault::Absent { .. }) if wanted.backend.is_none() => {
+        Err(fault @ Fault::Absent(_)) if wanted.backend.is_none() => {
             Device::open(&opengl).map_err(|_| fault)
         }
         opened => opened,

@@ -11,6 +11,7 @@ use super::measure::{Clock, MeasuredDrawings};
 use super::plan::{DrawingPlan, TimedFunction};
 use crate::generator::emit::FunctionForm;
 use crate::lab::cost::FunctionId;
+use crate::lab::fault::Fault;
 use crate::lab::process;
 use crate::language::methods::{Method, find};
 use crate::physics::num::Precision;
@@ -103,8 +104,8 @@ pub enum Error {
     #[error(transparent)]
     Process(#[from] process::Error),
     /// There is no graphics device, or its driver fails, with this message.
-    #[error("{0}")]
-    Device(String),
+    #[error(transparent)]
+    Device(Fault),
     /// The process that should open the device gives an unexpected answer.
     #[error("a process that does not greet")]
     Protocol,

@@ -10,4 +10,4 @@ mod worker;
 
 pub use pool::{Error, Pool, Task};
 pub use surroundings::{Surroundings, TEMPORARY, beside};
-pub use worker::{Inbox, Launch, Silence, Worker};
+pub use worker::{Inbox, Launch, NoAnswer, Worker};

@@ -25,7 +25,7 @@ pub struct Launch {
     environment: Vec<(String, OsString)>,
 }
 
-/// A process that answers requests. The first request starts it, and so does the request after a silence. It ends, with all that
+/// A process that answers requests. The first request starts it, and so does the request after one without an answer. It ends, with all that
 /// it has started, when this is dropped and when this process ends.
 pub struct Worker {
     launch: Launch,
@@ -34,7 +34,7 @@ pub struct Worker {
 
 /// Why a worker gave no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Silence {
+pub enum NoAnswer {
     /// It timed out.
     TooLong,
     /// Its process is gone or gave an invalid answer, for this reason.
@@ -75,7 +75,7 @@ impl Worker {
         }
     }
 
-    /// Sends a request and waits for the response. If the inner result is a [`Silence`], none came, and the process is ended.
+    /// Sends a request and waits for the response. If the inner result is [`NoAnswer`], none came, and the process is ended.
     ///
     /// # Errors
     /// No process can be started.
@@ -83,7 +83,7 @@ impl Worker {
         &mut self,
         request: &Request,
         limit: Duration,
-    ) -> Result<Result<Response, Silence>, Error> {
+    ) -> Result<Result<Response, NoAnswer>, Error> {
         let mut process = match self.process.take() {
             Some(process) => process,
             None => start(&self.launch).map_err(Error::Start)?,
@@ -117,22 +117,22 @@ impl Process {
         &mut self,
         line: &str,
         limit: Duration,
-    ) -> Result<Response, Silence> {
+    ) -> Result<Response, NoAnswer> {
         let sent =
             writeln!(self.input, "{}", framed(line, limit)).and_then(|()| self.input.flush());
         if sent.is_err() {
             return Err(self.ended());
         }
         match self.responses.recv_timeout(limit) {
-            Ok(line) => serde_json::from_str(&line).map_err(|why| Silence::Ended(why.to_string())),
-            Err(RecvTimeoutError::Timeout) => Err(Silence::TooLong),
+            Ok(line) => serde_json::from_str(&line).map_err(|why| NoAnswer::Ended(why.to_string())),
+            Err(RecvTimeoutError::Timeout) => Err(NoAnswer::TooLong),
             Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
         }
     }
 
-    fn ended(&mut self) -> Silence {
+    fn ended(&mut self) -> NoAnswer {
         let status = self.child.wait();
-        Silence::Ended(status.map_or_else(|why| why.to_string(), |status| status.to_string()))
+        NoAnswer::Ended(status.map_or_else(|why| why.to_string(), |status| status.to_string()))
     }
 }
 

@@ -10,8 +10,9 @@ use super::trial::{TrialCase, cases};
 use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::{self, ModelError};
 use crate::generator::reference::ReferenceCurve;
+use crate::lab::fault::Fault;
 use crate::lab::verify::compilers::{self, Verdict};
-use crate::lab::verify::run::{Devices, ExecutionPath, RunFault, Runnable, ShippedFunction};
+use crate::lab::verify::run::{Devices, ExecutionPath, Runnable, ShippedFunction};
 use crate::lab::verify::{Outcome, beyond, cosines_around, share};
 use crate::language::ir::Column;
 use crate::language::targets::Stack;
@@ -57,14 +58,17 @@ fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
             compilers::accepts_in(file.precision(), file.target, &page.path, &page.bytes)
         {
             let verdict = match verdict {
-                Verdict::No(words) => {
-                    Verdict::No(format!("{}: {name} refuses it: {words}", page.path))
+                Err(Fault::Failed(words)) => {
+                    let place = &page.path;
+                    Err(Fault::Failed(format!(
+                        "{place}: {name} refuses it: {words}"
+                    )))
                 }
                 other => other,
             };
             match all.iter_mut().find(|(other, _)| *other == name) {
-                Some((_, Verdict::No(_))) => {}
-                Some((_, known)) if *known == Verdict::Yes || matches!(verdict, Verdict::No(_)) => {
+                Some((_, Err(Fault::Failed(_)))) => {}
+                Some((_, known)) if known.is_ok() || matches!(verdict, Err(Fault::Failed(_))) => {
                     *known = verdict
                 }
                 Some(_) => {}
@@ -83,7 +87,7 @@ pub(super) struct FileTrial<'a> {
     pub devices: &'a Devices,
     effort: VerifyEffort,
     /// The text compiled for running, once for all cases.
-    own: OnceCell<Result<Runnable, RunFault>>,
+    own: OnceCell<Result<Runnable, Fault>>,
 }
 
 impl<'a> FileTrial<'a> {
@@ -118,7 +122,7 @@ impl<'a> FileTrial<'a> {
         let paths = ExecutionPath::all_for(self.file.target, self.emitted.precision);
         // Other paths are second opinions on the text: one material is enough.
         let paths = if is_first { paths } else { &paths[..1] };
-        let runs: Vec<(ExecutionPath, Result<PathRun, RunFault>)> = paths
+        let runs: Vec<(ExecutionPath, Result<PathRun, Fault>)> = paths
             .iter()
             .map(|path| (*path, self.run(case, *path)))
             .collect();
@@ -133,17 +137,14 @@ impl<'a> FileTrial<'a> {
     }
 
     /// The function, if it may be run. A module that is not ours may not, nor may a text that holds a loop.
-    pub(super) fn shown_safely(
-        &self,
-        path: ExecutionPath,
-    ) -> Result<ShippedFunction<'_>, RunFault> {
+    pub(super) fn shown_safely(&self, path: ExecutionPath) -> Result<ShippedFunction<'_>, Fault> {
         let page = self.file.run_page();
         if let (Some(fault), true) = (self.untrusted(), path == ExecutionPath::Own) {
             return Err(fault);
         }
         if let Some(holds_loop) = &page.holds_loop {
             let why = format!("{holds_loop}, which no function of ours does, and is not run");
-            return Err(RunFault::Failed(why));
+            return Err(Fault::Failed(why));
         }
         Ok(ShippedFunction {
             target: self.file.target,
@@ -153,13 +154,13 @@ impl<'a> FileTrial<'a> {
         })
     }
 
-    fn run(&self, case: &TrialCase, path: ExecutionPath) -> Result<PathRun, RunFault> {
+    fn run(&self, case: &TrialCase, path: ExecutionPath) -> Result<PathRun, Fault> {
         let shown = self.shown_safely(path)?;
         let other;
         let runnable = if path == ExecutionPath::Own {
             let compiled = || self.devices.prepare(&shown, path, &case.trial);
             let own = self.own.get_or_init(compiled);
-            own.as_ref().map_err(RunFault::clone)?
+            own.as_ref().map_err(Fault::clone)?
         } else {
             other = self.devices.prepare(&shown, path, &case.trial)?;
             &other
@@ -201,7 +202,7 @@ impl<'a> FileTrial<'a> {
     }
 
     /// The fault of a module that is not ours and that no validator has checked: it may do anything to a driver.
-    fn untrusted(&self) -> Option<RunFault> {
+    fn untrusted(&self) -> Option<Fault> {
         let page = self.file.run_page();
         if !matches!(self.file.target.stack, Stack::SpirvModule)
             || page.is_current
@@ -215,12 +216,10 @@ impl<'a> FileTrial<'a> {
             &page.path,
             &page.bytes,
         );
-        let refusal = verdicts
-            .iter()
-            .find(|(_, verdict)| *verdict != Verdict::Yes)?;
+        let refusal = verdicts.iter().find(|(_, verdict)| verdict.is_err())?;
         Some(match refusal {
-            (name, Verdict::No(words)) => RunFault::Failed(format!("{name}: {words}")),
-            (name, _) => RunFault::Absent(format!(
+            (name, Err(Fault::Failed(words))) => Fault::Failed(format!("{name}: {words}")),
+            (name, _) => Fault::Absent(format!(
                 "it is not what would be written today, and no {name} is here to say that it is safe to run"
             )),
         })
@@ -232,7 +231,7 @@ impl<'a> FileTrial<'a> {
         runnable: &Runnable,
         case: &TrialCase,
         reference: &ReferenceCurve,
-    ) -> Result<ModelError, RunFault> {
+    ) -> Result<ModelError, Fault> {
         let fault = OnceCell::new();
         let error = fit::error_of(reference, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();

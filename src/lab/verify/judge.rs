@@ -7,10 +7,11 @@ use super::row::{
     AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
     ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
 };
-use super::run::{ExecutionPath, RunFault};
+use super::run::ExecutionPath;
 use super::{HalfError, Miss, Outcome};
 use crate::generator::emit::{CodeBound, EmittedFunction, fingerprint};
 use crate::generator::fit::{Measured, ModelError};
+use crate::lab::fault::Fault;
 use crate::physics::num::Precision;
 
 /// The result of running a function by one execution path.
@@ -89,7 +90,7 @@ pub struct RanFunction<'a> {
     /// What compilers say of the file.
     pub accepts: &'a [(&'static str, Verdict)],
     /// The run by each execution path, its own first.
-    pub runs: &'a [(ExecutionPath, Result<PathRun, RunFault>)],
+    pub runs: &'a [(ExecutionPath, Result<PathRun, Fault>)],
 }
 
 /// The verdict on a run.
@@ -139,8 +140,8 @@ impl RanFunction<'_> {
             .accepts
             .iter()
             .filter_map(|(_, verdict)| match verdict {
-                Verdict::No(words) => Some(words),
-                Verdict::Yes | Verdict::NotChecked(_) => None,
+                Err(Fault::Failed(words)) => Some(words),
+                Ok(()) | Err(Fault::Absent(_)) => None,
             });
         let findings = self.file.pages.iter().flat_map(|page| &page.findings);
         let faults: Vec<&String> = refusals.chain(findings).collect();
@@ -156,12 +157,12 @@ impl RanFunction<'_> {
     }
 
     /// The verdict on a run.
-    fn judged(&self, path: ExecutionPath, run: &Result<PathRun, RunFault>) -> Judged {
+    fn judged(&self, path: ExecutionPath, run: &Result<PathRun, Fault>) -> Judged {
         let run = match run {
-            Err(RunFault::Absent(why)) => {
+            Err(Fault::Absent(why)) => {
                 return Judged::without_figures(Status::NotChecked, why.clone());
             }
-            Err(RunFault::Failed(why)) => {
+            Err(Fault::Failed(why)) => {
                 let why = format!("{}: {}: {why}", self.page().path, self.emitted.name);
                 return Judged::without_figures(Status::Fail, why);
             }
@@ -350,8 +351,8 @@ fn answers(verdicts: &[(&'static str, Verdict)]) -> Vec<(String, Answer)> {
 /// Why compilers were not asked.
 fn not_asked(verdicts: &[(&'static str, Verdict)]) -> Vec<(String, String)> {
     let reason = |(name, verdict): &(&'static str, Verdict)| match verdict {
-        Verdict::NotChecked(why) => Some(((*name).to_owned(), why.clone())),
-        Verdict::Yes | Verdict::No(_) => None,
+        Err(Fault::Absent(why)) => Some(((*name).to_owned(), why.clone())),
+        Ok(()) | Err(Fault::Failed(_)) => None,
     };
     verdicts.iter().filter_map(reason).collect()
 }

@@ -8,8 +8,8 @@ use naga::back::{glsl, hlsl};
 use naga::proc::BoundsCheckPolicies;
 use naga::{GlobalVariable, Handle, Module, ShaderStage, TypeInner};
 
-use super::compilers::CompilerFault;
 use crate::generator::emit::validate_wgsl;
+use crate::lab::fault::Fault;
 
 /// `@group` and `@binding` of a variable in the WGSL.
 pub type Binding = (u32, u32);
@@ -46,8 +46,8 @@ pub struct Hlsl {
 ///
 /// # Errors
 /// The text is not valid WGSL, has no such entry point, or naga cannot write it.
-pub fn to_gles(wgsl: &str, entry: &str) -> Result<Gles, CompilerFault> {
-    let (module, info) = validate_wgsl(wgsl).map_err(CompilerFault::Refused)?;
+pub fn to_gles(wgsl: &str, entry: &str) -> Result<Gles, Fault> {
+    let (module, info) = validate_wgsl(wgsl).map_err(Fault::Failed)?;
     let pipeline = glsl::PipelineOptions {
         shader_stage: stage(&module, entry)?,
         entry_point: entry.to_owned(),
@@ -71,15 +71,15 @@ pub fn to_gles(wgsl: &str, entry: &str) -> Result<Gles, CompilerFault> {
 ///
 /// # Errors
 /// The text is not valid WGSL, has no such entry point, or samples a texture.
-pub fn to_hlsl(wgsl: &str, entry: &str) -> Result<Hlsl, CompilerFault> {
-    let (module, info) = validate_wgsl(wgsl).map_err(CompilerFault::Refused)?;
+pub fn to_hlsl(wgsl: &str, entry: &str) -> Result<Hlsl, Fault> {
+    let (module, info) = validate_wgsl(wgsl).map_err(Fault::Failed)?;
     let has_sampler = module
         .global_variables
         .iter()
         .any(|(_, variable)| matches!(module.types[variable.ty].inner, TypeInner::Sampler { .. }));
     if has_sampler {
         let reason = "naga's HLSL takes its samplers from a heap that only wgpu fills";
-        return Err(CompilerFault::NotChecked(reason.to_owned()));
+        return Err(Fault::Absent(reason.to_owned()));
     }
     let pipeline = hlsl::PipelineOptions {
         entry_point: Some((stage(&module, entry)?, entry.to_owned())),
@@ -109,18 +109,18 @@ fn gles_options() -> glsl::Options {
     }
 }
 
-fn stage(module: &Module, entry: &str) -> Result<ShaderStage, CompilerFault> {
+fn stage(module: &Module, entry: &str) -> Result<ShaderStage, Fault> {
     let mut points = module.entry_points.iter();
     let point = points.find(|point| point.name == entry);
     point.map(|point| point.stage).ok_or_else(|| absent(entry))
 }
 
-fn absent(entry: &str) -> CompilerFault {
-    CompilerFault::Refused(format!("the module has no entry point `{entry}`"))
+fn absent(entry: &str) -> Fault {
+    Fault::Failed(format!("the module has no entry point `{entry}`"))
 }
 
-fn refused(fault: impl Display) -> CompilerFault {
-    CompilerFault::Refused(fault.to_string())
+fn refused(fault: impl Display) -> Fault {
+    Fault::Failed(fault.to_string())
 }
 
 /// Inputs or outputs, read from their declarations, `smooth out vec3 _vs2fs_location0;`. naga reports them only where the
@@ -208,16 +208,13 @@ struct Out { @builtin(position) position: vec4<f32>, @location(0) reflectance: v
         let gles = to_gles(TEXTURED, "points").unwrap();
         assert!(gles.text.contains(&gles.textures[&(0, 3)]), "{}", gles.text);
         let fault = to_hlsl(TEXTURED, "one").unwrap_err();
-        assert!(matches!(fault, CompilerFault::NotChecked(_)), "{fault}");
+        assert!(matches!(fault, Fault::Absent(_)), "{fault}");
     }
 
     #[test]
     fn faults_are_told() {
         for result in [to_gles(VERTEX, "main").err(), to_hlsl("fn f(", "f").err()] {
-            assert!(
-                matches!(result, Some(CompilerFault::Refused(_))),
-                "{result:?}"
-            );
+            assert!(matches!(result, Some(Fault::Failed(_))), "{result:?}");
         }
     }
 }

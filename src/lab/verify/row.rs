@@ -13,6 +13,7 @@ use super::merge::MergeFault;
 use super::{CodeError, HalfError};
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::ModelError;
+use crate::lab::fault::Fault;
 use crate::physics::materials::FileFault;
 use crate::physics::num::Precision;
 
@@ -114,9 +115,9 @@ impl Answer {
 impl From<&Verdict> for Answer {
     fn from(verdict: &Verdict) -> Answer {
         match verdict {
-            Verdict::Yes => Answer::Yes,
-            Verdict::No(_) => Answer::No,
-            Verdict::NotChecked(_) => Answer::NotChecked,
+            Ok(()) => Answer::Yes,
+            Err(Fault::Failed(_)) => Answer::No,
+            Err(Fault::Absent(_)) => Answer::NotChecked,
         }
     }
 }

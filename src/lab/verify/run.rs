@@ -14,7 +14,7 @@
 
 use std::cell::OnceCell;
 
-use super::compilers::{self, HlslVersion, Verdict, hlsl_to_spirv, hlsl_to_spirv_in};
+use super::compilers::{HlslVersion, Verdict, hlsl_to_spirv, hlsl_to_spirv_in};
 use super::effect_trial::{EffectTrial, TEXELS};
 use super::file::FileTrial;
 use super::harness::{self, Call, ENTRY};
@@ -25,8 +25,9 @@ use super::trial::Trial;
 use super::{Outcome, naga_translation};
 use crate::generator::emit::{EffectPart, EmittedFunction, batch_entry, batch_program, places};
 use crate::generator::fit::{Measured, values_for_material_in};
+use crate::lab::fault::Fault;
 use crate::lab::gpu::{
-    self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
     TextureShape, Uniform, Wanted, Wrap,
 };
 use crate::lab::verify::{HalfError, HalfTrial, halves, halves_beyond, result_range};
@@ -35,42 +36,11 @@ use crate::language::methods::{Contract, Method};
 use crate::language::targets::{Stack, Target};
 use crate::physics::num::{Num, Precision};
 
-/// Why nothing was run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RunFault {
-    /// Something is missing on this machine, so it is not checked.
-    #[error("{0}")]
-    Absent(String),
-    /// The text is wrong, or the device failed.
-    #[error("{0}")]
-    Failed(String),
-}
-
-impl From<gpu::DeviceFault> for RunFault {
-    fn from(fault: gpu::DeviceFault) -> RunFault {
-        match fault {
-            gpu::DeviceFault::Absent { .. } | gpu::DeviceFault::Unable { .. } => {
-                RunFault::Absent(fault.to_string())
-            }
-            _ => RunFault::Failed(fault.to_string()),
-        }
-    }
-}
-
-impl From<compilers::CompilerFault> for RunFault {
-    fn from(fault: compilers::CompilerFault) -> RunFault {
-        match fault {
-            compilers::CompilerFault::NotChecked(why) => RunFault::Absent(why),
-            compilers::CompilerFault::Refused(words) => RunFault::Failed(words),
-        }
-    }
-}
-
 /// The devices of a run, each opened when it is first needed.
 pub struct Devices {
     wanted: Wanted,
-    compute: OnceCell<Result<Device, gpu::DeviceFault>>,
-    gles: OnceCell<Result<Device, gpu::DeviceFault>>,
+    compute: OnceCell<Result<Device, Fault>>,
+    gles: OnceCell<Result<Device, Fault>>,
 }
 
 /// How a target's text is run.
@@ -163,25 +133,25 @@ impl Devices {
     ///
     /// # Errors
     /// There is none.
-    pub fn compute(&self) -> Result<&Device, RunFault> {
+    pub fn compute(&self) -> Result<&Device, Fault> {
         let opened = self.compute.get_or_init(|| Device::open(&self.wanted));
-        opened.as_ref().map_err(|fault| fault.clone().into())
+        opened.as_ref().map_err(Fault::clone)
     }
 
     /// The device that runs GLSL ES.
     ///
     /// # Errors
     /// There is none.
-    pub fn gles(&self) -> Result<&Device, RunFault> {
+    pub fn gles(&self) -> Result<&Device, Fault> {
         let opened = self.gles.get_or_init(Device::gles);
-        opened.as_ref().map_err(|fault| fault.clone().into())
+        opened.as_ref().map_err(Fault::clone)
     }
 
     /// The device that runs a target's text by an execution path.
     ///
     /// # Errors
     /// There is none.
-    pub fn device_for(&self, target: &Target, path: ExecutionPath) -> Result<&Device, RunFault> {
+    pub fn device_for(&self, target: &Target, path: ExecutionPath) -> Result<&Device, Fault> {
         if matches!(target.stack, Stack::OpenGlEs(_)) || path == ExecutionPath::NagaGles {
             self.gles()
         } else {
@@ -198,7 +168,7 @@ impl Devices {
         shown: &ShippedFunction,
         path: ExecutionPath,
         trial: &Trial,
-    ) -> Result<Runnable, RunFault> {
+    ) -> Result<Runnable, Fault> {
         let emitted = shown.function;
         let call = Call::to_emitted(emitted);
         let device = self.device_for(shown.target, path)?;
@@ -227,8 +197,8 @@ impl Devices {
         if let Stack::SpirvModule = shown.target.stack {
             return ready(ShaderCode::Spirv(shown.bytes), shown.entry, false);
         }
-        let text = std::str::from_utf8(shown.bytes)
-            .map_err(|fault| RunFault::Failed(fault.to_string()))?;
+        let text =
+            std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
         let shader = harness::program(shown.target, text, &call);
         let shader = shader.ok_or_else(|| not_run(shown.target))?;
         match (shown.target.stack, path) {
@@ -263,7 +233,7 @@ impl Devices {
         shown: &ShippedFunction,
         path: ExecutionPath,
         trial: &EffectTrial,
-    ) -> Result<Vec<[f32; 3]>, RunFault> {
+    ) -> Result<Vec<[f32; 3]>, Fault> {
         let emitted = shown.function;
         let device = self.device_for(shown.target, path)?;
         let params = &emitted.function.params;
@@ -273,7 +243,7 @@ impl Devices {
             (_, true) => Some(TextureShape::Cube),
             _ => None,
         };
-        let run = |code: ShaderCode, entry: &str| -> Result<Vec<[f32; 3]>, RunFault> {
+        let run = |code: ShaderCode, entry: &str| -> Result<Vec<[f32; 3]>, Fault> {
             let program = Program {
                 code,
                 entry,
@@ -294,8 +264,8 @@ impl Devices {
         if let Stack::SpirvModule = shown.target.stack {
             return run(ShaderCode::Spirv(shown.bytes), shown.entry);
         }
-        let text = std::str::from_utf8(shown.bytes)
-            .map_err(|fault| RunFault::Failed(fault.to_string()))?;
+        let text =
+            std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
         let program = batch_program(shown.target, text, &[emitted]);
         let program = program.ok_or_else(|| not_run(shown.target))?;
         let entry = batch_entry(&emitted.name);
@@ -311,20 +281,20 @@ impl Devices {
 }
 
 /// The fault of a target whose text is not run here.
-fn not_run(target: &Target) -> RunFault {
+fn not_run(target: &Target) -> Fault {
     let name = target.name;
-    RunFault::Absent(format!(
+    Fault::Absent(format!(
         "{name} cannot be run here: it is read again and compiled only"
     ))
 }
 
 /// Checks that a device has 16-bit arithmetic where a function needs it.
-fn check_able(device: &Device, emitted: &EmittedFunction) -> Result<(), RunFault> {
+fn check_able(device: &Device, emitted: &EmittedFunction) -> Result<(), Fault> {
     if !emitted.precision.is_half() || device.has_half() {
         return Ok(());
     }
     let lacks = "has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)";
-    Err(RunFault::Absent(format!("{} {lacks}", device.adapter)))
+    Err(Fault::Absent(format!("{} {lacks}", device.adapter)))
 }
 
 /// The arguments of a trial by name, as a target's harness names them.
@@ -352,7 +322,7 @@ impl Runnable {
     ///
     /// # Errors
     /// The device fails.
-    pub fn run(&self, trial: &Trial, cosines: &[f32]) -> Result<Vec<[f32; 3]>, RunFault> {
+    pub fn run(&self, trial: &Trial, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Fault> {
         let uniforms = if self.is_bound {
             Vec::new()
         } else {
@@ -402,7 +372,7 @@ impl FileTrial<'_> {
     ) -> VerifyRow {
         let trial = EffectTrial::new(self.emitted, part, &input_values(plan, self.emitted.method));
         let paths = ExecutionPath::all_for_effect(self.file.target).iter();
-        let runs: Vec<(ExecutionPath, Result<PathRun, RunFault>)> = paths
+        let runs: Vec<(ExecutionPath, Result<PathRun, Fault>)> = paths
             .map(|path| (*path, self.run_effect(&trial, *path)))
             .collect();
         RanFunction {
@@ -415,7 +385,7 @@ impl FileTrial<'_> {
         .verify_row()
     }
 
-    fn run_effect(&self, trial: &EffectTrial, path: ExecutionPath) -> Result<PathRun, RunFault> {
+    fn run_effect(&self, trial: &EffectTrial, path: ExecutionPath) -> Result<PathRun, Fault> {
         let shown = self.shown_safely(path)?;
         let got = self.devices.run_effect(&shown, path, trial)?;
         let (outcome, allowed) = match &self.emitted.code {
@@ -445,10 +415,10 @@ pub(super) fn run_in_half(
     runnable: &Runnable,
     shown: &ShippedFunction,
     trial: &Trial,
-) -> Result<PathRun, RunFault> {
+) -> Result<PathRun, Fault> {
     let emitted = shown.function;
     let meaning = emitted.meaning();
-    let meaning = meaning.map_err(|fault| RunFault::Failed(fault.to_string()))?;
+    let meaning = meaning.map_err(|fault| Fault::Failed(fault.to_string()))?;
     let half = HalfTrial {
         function: &emitted.function,
         meaning: &meaning,

@@ -15,7 +15,7 @@ use super::requested::VerifyPlan;
 use super::row::VerifyRow;
 use super::run::Devices;
 use super::shard::{Shard, ShardOutcome};
-use crate::lab::process::{Error, Inbox, Launch, Pool, Silence, Surroundings, Task};
+use crate::lab::process::{Error, Inbox, Launch, NoAnswer, Pool, Surroundings, Task};
 
 /// The rows of a shard's files, in the plan's order. Compilers in the folder `tools` come before all others. `progress` is told how
 /// many files are done, of how many, and which.
@@ -63,13 +63,13 @@ pub fn supervise(
 }
 
 /// Why there are no rows.
-fn reason(silence: &Silence, limit: Duration) -> String {
+fn reason(silence: &NoAnswer, limit: Duration) -> String {
     match silence {
-        Silence::TooLong => format!(
+        NoAnswer::TooLong => format!(
             "it did not end within {} s: a device or a compiler that hangs, or more --points than --limit allows",
             limit.as_secs()
         ),
-        Silence::Ended(status) => {
+        NoAnswer::Ended(status) => {
             format!("the process that ran it ended ({status}): its driver failed on this shader")
         }
     }

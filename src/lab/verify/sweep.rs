@@ -14,12 +14,13 @@ use super::machine::{self, MachineStatement};
 use super::points::{WITHIN, cosines};
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::Error;
-use super::run::{Devices, RunFault, ShippedFunction};
+use super::run::{Devices, ShippedFunction};
 use super::shard::{PlannedRows, Shard, ShardOutcome};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range, specialised};
 use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::Measured;
 use crate::generator::reference::MaterialInMedium;
+use crate::lab::fault::Fault;
 use crate::lab::gpu::{Program, ShaderCode};
 use crate::lab::verify::run::ExecutionPath;
 use crate::language::ir::Value;
@@ -39,8 +40,8 @@ pub fn sweep(
     shown: &ShippedFunction,
     trial: &Trial,
     progress: &mut dyn FnMut(u64),
-) -> Result<Outcome, RunFault> {
-    let text = std::str::from_utf8(shown.bytes).map_err(|why| RunFault::Failed(why.to_string()))?;
+) -> Result<Outcome, Fault> {
+    let text = std::str::from_utf8(shown.bytes).map_err(|why| Fault::Failed(why.to_string()))?;
     let call = harness::Call::to_emitted(shown.function);
     let stream = devices.compute()?.prepare_stream(&Program {
         code: ShaderCode::Wgsl(&harness::stream(text, &call)),
@@ -268,11 +269,11 @@ fn run(
     emitted: &EmittedFunction,
     devices: &Devices,
     progress: Progress,
-) -> (Result<PathRun, RunFault>, f64) {
+) -> (Result<PathRun, Fault>, f64) {
     let trial: Trial = specialised(subject, emitted).trial;
     if trial.table.is_some() {
         let why = "a texture is filtered in steps: a sample tells all";
-        return (Err(RunFault::Absent(why.to_owned())), 0.0);
+        return (Err(Fault::Absent(why.to_owned())), 0.0);
     }
     let shown = ShippedFunction {
         target: file.target,

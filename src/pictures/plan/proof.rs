@@ -17,8 +17,9 @@ use crate::generator::emit::{
     specialised_function,
 };
 use crate::generator::fit::Measured;
+use crate::lab::fault::Fault;
 use crate::lab::gpu::Wanted;
-use crate::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use crate::lab::verify::run::{Devices, ExecutionPath, ShippedFunction};
 use crate::lab::verify::{Status, Trial, material_trial};
 use crate::language::targets::{GLES, Target, WGSL};
 use crate::physics::spectra::{srgb_byte, srgb_linear};
@@ -170,8 +171,8 @@ impl Written {
                 proof.is_within_code_bound = Some(is_within);
                 proof.status = if holds { Status::Pass } else { Status::Fail };
             }
-            Err(RunFault::Absent(why)) => proof.reason = Some(why),
-            Err(RunFault::Failed(why)) => {
+            Err(Fault::Absent(why)) => proof.reason = Some(why),
+            Err(Fault::Failed(why)) => {
                 (proof.status, proof.reason) = (Status::Fail, Some(why));
             }
         }

@@ -3,12 +3,12 @@
 //! Light of irradiance 1 falls along -z on the ball of radius 1. The receiver lies below it, square to the light.
 
 use super::body::{Body, vertex_numbers};
-use super::draw::DrawFault;
 use super::frame::{BACK, LightBlock, PHOTONS};
 use super::material::OpticalMaterial;
 use super::table::find;
 use super::texels::square_means;
 use super::text::RowText;
+use crate::lab::fault::Fault;
 use crate::lab::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
 use crate::physics::optics;
 
@@ -72,7 +72,7 @@ pub fn caustics(
     window: &Window,
     gathering: Gathering,
     photons: Photons,
-) -> Result<(Vec<f64>, f64), DrawFault> {
+) -> Result<(Vec<f64>, f64), Fault> {
     let by = RowText::usual(find("caustics").expect("a row"));
     let text = by.module()?;
     let material = OpticalMaterial::of_index(n);
@@ -125,9 +125,9 @@ impl Light<'_> {
         photons: u32,
         samples: u32,
         gathering: Gathering,
-    ) -> Result<(Vec<f64>, f64), DrawFault> {
+    ) -> Result<(Vec<f64>, f64), Fault> {
         let target = |side: u32| self.offscreen.target(side, side);
-        let pair = |side: u32| Ok::<_, DrawFault>([target(side)?, target(side)?]);
+        let pair = |side: u32| Ok::<_, Fault>([target(side)?, target(side)?]);
         let (front, back) = (pair(photons)?, pair(BACK)?);
         // Positions and normals of the side of the ball that is nearest to the light, and of the one that is farthest from it.
         for (side, depth) in [(&front, Depth::Nearest), (&back, Depth::Farthest)] {
@@ -153,7 +153,7 @@ impl Light<'_> {
             adds: true,
             ..self.pass(gathering.vertex, gathering.fragment)
         })?;
-        let count = |image: &Image| -> Result<f64, DrawFault> {
+        let count = |image: &Image| -> Result<f64, Fault> {
             let texels = self.offscreen.read(image)?;
             Ok(texels.iter().filter(|texel| texel[3] > 0.0).count() as f64)
         };

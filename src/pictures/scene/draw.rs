@@ -11,22 +11,11 @@ use super::table::{DrawnSurface, RenderRow, Slot};
 use super::texels::Texels;
 use super::text::{INPUTS, RowText};
 use super::trace::Things;
-use crate::generator::emit;
-use crate::lab::gpu::{Device, DeviceFault, Draw, Image, Offscreen};
+use crate::lab::fault::Fault;
+use crate::lab::gpu::{Device, Draw, Image, Offscreen};
 
 /// Texels along a side of the room's cube map.
 const CUBE: usize = 1024;
-
-/// Why a row was not drawn.
-#[derive(Clone, Debug, thiserror::Error)]
-pub enum DrawFault {
-    /// The device failed.
-    #[error(transparent)]
-    Device(#[from] DeviceFault),
-    /// The functions cannot be written: a bug.
-    #[error(transparent)]
-    Text(#[from] emit::Error),
-}
 
 /// The input of the passes: the things drawn, their surroundings, and the tables that passes read.
 #[derive(Clone, Debug)]
@@ -66,7 +55,7 @@ pub fn draw(
     scenery: &Scenery,
     camera: &Camera,
     side: u32,
-) -> Result<Vec<[f32; 4]>, DrawFault> {
+) -> Result<Vec<[f32; 4]>, Fault> {
     let Things { body, material, .. } = scenery.things;
     let module = text.module()?;
     let offscreen = device.offscreen()?;
@@ -109,7 +98,7 @@ fn tables(
     offscreen: &Offscreen,
     row: &RenderRow,
     scenery: &Scenery,
-) -> Result<BTreeMap<Slot, Image>, DeviceFault> {
+) -> Result<BTreeMap<Slot, Image>, Fault> {
     let mut slots = BTreeMap::new();
     if row.in_room {
         let size = [scenery.cube as u32, scenery.cube as u32, 6];
@@ -125,7 +114,7 @@ fn tables(
     Ok(slots)
 }
 
-fn upload(offscreen: &Offscreen, table: &Texels) -> Result<Image, DeviceFault> {
+fn upload(offscreen: &Offscreen, table: &Texels) -> Result<Image, Fault> {
     let [width, height] = table.size().map(|texels| texels as u32);
     offscreen.upload([width, height, 1], table.texels())
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::SAMPLES;
 use super::caustics::{FOUR_PICTURES, TRIANGLES, Window, caustic_error, caustics, exact_caustics};
-use super::draw::{DrawFault, Scenery, draw};
+use super::draw::{Scenery, draw};
 use super::environment::Environment;
 use super::frame::Camera;
 use super::material::OpticalMaterial;
@@ -15,6 +15,7 @@ use super::table::RenderRow;
 use super::texels::square_means;
 use super::text::RowText;
 use super::trace::{Around, Things, Traced, trace};
+use crate::lab::fault::Fault;
 use crate::lab::gpu::Device;
 use crate::physics::spectra::{Lab, Space, ciede2000};
 
@@ -107,7 +108,7 @@ pub fn render(
     device: &Device,
     request: &PictureRequest,
     progress: &mut dyn FnMut(u64, u64, &str),
-) -> Result<Picture, DrawFault> {
+) -> Result<Picture, Fault> {
     let row = request.row;
     progress(0, 1, "drawing");
     if let Some(receiver) = row.receiver {
@@ -166,7 +167,7 @@ fn received(
     device: &Device,
     request: &PictureRequest,
     [below, half]: [f64; 2],
-) -> Result<Picture, DrawFault> {
+) -> Result<Picture, Fault> {
     let window = Window {
         below,
         half,

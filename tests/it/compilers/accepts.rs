@@ -13,7 +13,8 @@ use super::tree;
 use crate::not_checked;
 use fresnel_gen::generator::generate::generate_single;
 use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
-use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
+use fresnel_gen::lab::fault::Fault;
+use fresnel_gen::lab::verify::compilers::{accepts, calls, is_here, verdict, version};
 use fresnel_gen::language::methods::Method;
 use fresnel_gen::language::targets::{self, Finish, Target, Validator};
 use fresnel_gen::physics::num::Precision;
@@ -30,7 +31,7 @@ fn compilers_that_are_not_here_are_named() {
         assert!(!target.validators.is_empty(), "{}", target.name);
         for validator in target.validators.iter().filter(|v| !is_here(v.compiler)) {
             let file = files(target.name)[0];
-            let Verdict::NotChecked(reason) = verdict(validator, "file", &file.bytes) else {
+            let Err(Fault::Absent(reason)) = verdict(validator, "file", &file.bytes) else {
                 panic!("{} judged and is not here", validator.name);
             };
             let remark = format!("{} by {}: {reason}", target.name, validator.name);
@@ -210,11 +211,9 @@ fn several_functions_in_one_file_are_accepted() {
 
 fn judge(validator: &Validator, name: &str, bytes: &[u8]) -> Judgement {
     match verdict(validator, name, bytes) {
-        Verdict::Yes => Ok(String::new()),
+        Ok(()) => Ok(String::new()),
         // It is there, so that it must be asked.
-        Verdict::No(words) | Verdict::NotChecked(words) => {
-            Err(format!("{name}: {}: {words}", validator.name))
-        }
+        Err(fault) => Err(format!("{name}: {}: {fault}", validator.name)),
     }
 }
 
@@ -266,8 +265,8 @@ fn refused(target: &Target, bytes: &[u8], words: Words) {
     let verdicts = accepts(target, &format!("a.{}", target.extension), bytes);
     for (validator, (_, verdict)) in target.validators.iter().zip(verdicts) {
         match verdict {
-            Verdict::Yes => panic!("{} accepts it", validator.name),
-            Verdict::No(said) => {
+            Ok(()) => panic!("{} accepts it", validator.name),
+            Err(Fault::Failed(said)) => {
                 let mut expected = words
                     .iter()
                     .filter(|(name, _)| *name == validator.compiler.name);
@@ -279,7 +278,7 @@ fn refused(target: &Target, bytes: &[u8], words: Words) {
                 );
                 assert!(!said.contains("/tmp"), "{said}");
             }
-            Verdict::NotChecked(_) => assert!(!is_here(validator.compiler)),
+            Err(Fault::Absent(_)) => assert!(!is_here(validator.compiler)),
         }
     }
 }
@@ -290,12 +289,12 @@ fn dxc_judges_by_two_versions_of_the_language() {
     let text = "float3 f(float3 a)\n{\n    return a > 0.5 ? a : 1.0 - a;\n}\n";
     for (name, verdict) in accepts(target, "a.hlsl", text.as_bytes()) {
         match (name, verdict) {
-            (_, Verdict::NotChecked(_)) => {}
-            ("dxc -HV 2021", Verdict::No(words)) => {
+            (_, Err(Fault::Absent(_))) => {}
+            ("dxc -HV 2021", Err(Fault::Failed(words))) => {
                 assert!(words.contains("a.hlsl:3:20: error"), "{words}")
             }
-            ("dxc -HV 2021", Verdict::Yes) => panic!("2021 has no condition of vectors"),
-            (_, verdict) => assert_eq!(verdict, Verdict::Yes, "{name}"),
+            ("dxc -HV 2021", Ok(())) => panic!("2021 has no condition of vectors"),
+            (_, verdict) => assert_eq!(verdict, Ok(()), "{name}"),
         }
     }
 }

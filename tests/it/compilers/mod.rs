@@ -19,7 +19,6 @@ use fresnel_gen::generator::emit::Detail;
 use fresnel_gen::generator::lut::{self, TableAxis};
 use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Methods, Request, Source};
 use fresnel_gen::generator::{emit, generate};
-use fresnel_gen::lab::verify::compilers::Verdict;
 use fresnel_gen::language::methods::Method;
 use fresnel_gen::language::targets::Target;
 use fresnel_gen::language::{effects, methods, targets};

@@ -11,9 +11,8 @@ use super::text;
 use super::tree;
 use crate::not_checked;
 use fresnel_gen::generator::emit::Artifact;
-use fresnel_gen::lab::verify::compilers::{
-    CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv,
-};
+use fresnel_gen::lab::fault::Fault;
+use fresnel_gen::lab::verify::compilers::{HlslVersion, accepts, hlsl_to_spirv};
 use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
 use fresnel_gen::language::targets;
 
@@ -80,8 +79,8 @@ fn nagas_hlsl_and_ours_become_valid_spirv() {
 #[test]
 fn what_dxc_refuses_is_told() {
     match hlsl_to_spirv("float f(", "f", HlslVersion::V2021) {
-        Err(CompilerFault::Refused(words)) => assert!(words.contains("shader.hlsl:1:"), "{words}"),
-        Err(CompilerFault::NotChecked(reason)) => not_checked(&format!("DXC's SPIR-V: {reason}")),
+        Err(Fault::Failed(words)) => assert!(words.contains("shader.hlsl:1:"), "{words}"),
+        Err(Fault::Absent(reason)) => not_checked(&format!("DXC's SPIR-V: {reason}")),
         Ok(_) => panic!("it is no HLSL"),
     }
 }
@@ -99,16 +98,16 @@ fn within(file: &Artifact, function: &str, entry: &str) -> String {
 }
 
 /// What is not checked here, another test of these compilers names.
-fn valid(spirv: Result<Vec<u8>, CompilerFault>) -> Judgement {
+fn valid(spirv: Result<Vec<u8>, Fault>) -> Judgement {
     let bytes = match spirv {
         Ok(bytes) => bytes,
-        Err(CompilerFault::NotChecked(_)) => return Ok(String::new()),
-        Err(CompilerFault::Refused(words)) => return Err(words),
+        Err(Fault::Absent(_)) => return Ok(String::new()),
+        Err(Fault::Failed(words)) => return Err(words),
     };
     assert!(bytes.starts_with(&[3, 2, 35, 7]), "SPIR-V's magic number");
     let target = targets::find("spirv").unwrap();
     for (name, verdict) in accepts(target, "a.spv", &bytes) {
-        if let Verdict::No(words) = verdict {
+        if let Err(Fault::Failed(words)) = verdict {
             return Err(format!("{name}: {words}"));
         }
     }

@@ -6,7 +6,8 @@ use super::subjects;
 use crate::not_checked;
 use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::reference::MaterialInMedium;
-use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
+use fresnel_gen::lab::fault::Fault;
+use fresnel_gen::lab::gpu::{Device, Wanted};
 use fresnel_gen::pictures::gallery::{CUBE, SKY_HEIGHT, as_stored, reduced_tables};
 use fresnel_gen::pictures::scene::{
     self, Around, Body, Camera, Environment, OpticalMaterial, RenderRow, RowText, Scenery, Things,
@@ -46,7 +47,7 @@ impl Held {
     pub fn new() -> Held {
         let device = match Device::open(&Wanted::default()) {
             Ok(device) => Some(device),
-            Err(fault @ DeviceFault::Absent { .. }) => {
+            Err(fault @ Fault::Absent(_)) => {
                 not_checked(&format!("pixels of the gallery: {fault}"));
                 None
             }

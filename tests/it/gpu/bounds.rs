@@ -5,8 +5,9 @@ use crate::bounds::{Medium, absorbing, beside, glasses, worst};
 use crate::not_checked;
 use fresnel_gen::generator::emit::{self, Naming};
 use fresnel_gen::generator::fit::Measured;
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::Wanted;
-use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, ShippedFunction};
 use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial, cosines};
 use fresnel_gen::language::methods;
 use fresnel_gen::language::targets;
@@ -39,7 +40,7 @@ fn check(name: &str, media: &[Medium]) {
         is_guarded: true,
     };
     let runnable = match devices.prepare(&shown, ExecutionPath::Own, &trial(&[(1.5, 0.0); 3])) {
-        Err(RunFault::Absent(why)) => {
+        Err(Fault::Absent(why)) => {
             let remark = format!("digits of {name} on a device: {why}");
             assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
             return not_checked(&remark);

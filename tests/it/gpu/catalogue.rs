@@ -9,9 +9,10 @@ use super::device;
 use crate::browser::{self, CHROMIUM};
 use crate::catalogue::{evaluated, rows_named};
 use crate::cli::Place;
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{
-    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
-    TextureShape, Uniform, Wrap,
+    Argument, Backend, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
+    Uniform, Wrap,
 };
 
 const MATERIALS: [&str; 4] = ["gold", "silver", "water", "diamond"];
@@ -175,7 +176,7 @@ void main() {{
     };
     for (name, (row, method, coefficients)) in MATERIALS.iter().zip(rows_named(&MATERIALS)) {
         let got = match kernel.run(&cosines(), &row_uniform(row), Some(&texture)) {
-            Err(fault @ DeviceFault::Unable { .. }) => {
+            Err(fault @ Fault::Absent(_)) => {
                 return crate::not_checked(&fault.to_string());
             }
             got => got.unwrap(),

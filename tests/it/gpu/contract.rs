@@ -7,8 +7,9 @@ use fresnel_gen::generator::emit::{self, Bounds, EmittedFunction, Naming};
 use fresnel_gen::generator::fit::{self, Measured};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Materials, Request, Source};
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::Wanted;
-use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, ShippedFunction};
 use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial};
 use fresnel_gen::language::ir::Ty;
 use fresnel_gen::language::methods::{self, Contract, Method, find_input};
@@ -213,7 +214,7 @@ fn broken(
     (target, way): (&'static targets::Target, ExecutionPath),
     emitted: &EmittedFunction,
     bytes: &[u8],
-) -> Result<Vec<String>, RunFault> {
+) -> Result<Vec<String>, Fault> {
     let shown = ShippedFunction {
         target,
         bytes,
@@ -321,7 +322,7 @@ fn check(target: &str, way: ExecutionPath) {
     assert!(files.len() > 70, "{} functions", files.len());
     for (emitted, bytes) in &files {
         match broken(&devices, (target, way), emitted, bytes) {
-            Err(RunFault::Absent(why)) => {
+            Err(Fault::Absent(why)) => {
                 let remark = format!("the contract in {} ({}): {why}", target.name, way.name());
                 assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
                 return not_checked(&remark);

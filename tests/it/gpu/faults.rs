@@ -4,9 +4,10 @@ use super::device;
 use super::gles;
 use super::program;
 use super::wgsl;
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{
-    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFilter, TextureFormat,
-    TextureShape, Uniform, Wanted, Wrap, adapters,
+    Argument, Backend, Device, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
+    Uniform, Wanted, Wrap, adapters,
 };
 
 /// The log of a refusal, or nothing where there is no device.
@@ -14,7 +15,7 @@ use fresnel_gen::lab::gpu::{
 fn refused(backend: Backend, code: ShaderCode) -> Option<String> {
     let device = device(backend)?;
     match device.prepare(&program(code, &[])) {
-        Err(DeviceFault::Refused { log }) => Some(log),
+        Err(Fault::Failed(log)) => Some(log),
         Err(fault) => panic!("{fault}"),
         Ok(_) => panic!("it was accepted"),
     }
@@ -93,10 +94,7 @@ fn a_language_on_the_wrong_stack() {
     ] {
         if let Some(device) = device(backend) {
             let fault = device.prepare(&program(code, &[])).err();
-            assert!(
-                matches!(fault, Some(DeviceFault::Unable { .. })),
-                "{fault:?}"
-            );
+            assert!(matches!(fault, Some(Fault::Absent(_))), "{fault:?}");
         }
     }
 }
@@ -154,9 +152,10 @@ fn an_adapter_that_is_not_there() {
         backend: None,
         name: Some("abacus".to_owned()),
     };
-    let Err(DeviceFault::Absent { what, get }) = Device::open(&wanted) else {
+    let Err(Fault::Absent(why)) = Device::open(&wanted) else {
         panic!("there is an abacus");
     };
+    let (what, get) = why.split_once("; ").unwrap();
     assert!(what.contains("`abacus`"), "{what}");
     let there = adapters();
     for adapter in there.iter().filter(|a| a.backend != Backend::Gles) {

@@ -11,7 +11,8 @@ mod table;
 mod texture;
 
 use super::not_checked;
-use fresnel_gen::lab::gpu::{Backend, Device, DeviceFault, Program, ShaderCode, Uniform, Wanted};
+use fresnel_gen::lab::fault::Fault;
+use fresnel_gen::lab::gpu::{Backend, Device, Program, ShaderCode, Uniform, Wanted};
 
 /// A device with this interface, or a word that there is none.
 #[track_caller]
@@ -22,7 +23,7 @@ pub fn device(backend: Backend) -> Option<Device> {
     };
     match Device::open(&wanted) {
         Ok(device) => Some(device),
-        Err(fault @ DeviceFault::Absent { .. }) => {
+        Err(fault @ Fault::Absent(_)) => {
             let remark = format!("shaders on {}: {fault}", backend.name());
             assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
             not_checked(&remark);

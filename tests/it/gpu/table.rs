@@ -7,9 +7,10 @@ use fresnel_gen::generator::emit::{self, EmittedFunction, Naming};
 use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
 use fresnel_gen::generator::lut::{Depth, Stored, Table, TableAxis};
 use fresnel_gen::generator::request::Materials;
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{
-    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
-    TextureShape, Uniform, Wrap,
+    Argument, Backend, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
+    Uniform, Wrap,
 };
 use fresnel_gen::lab::verify::{cosines, harness};
 use fresnel_gen::language::ir::Weights;
@@ -129,7 +130,7 @@ impl<'a> Put<'a> {
             filter: TextureFilter::Linear,
         };
         let got = match kernel.run(at, &uniforms, Some(&texture)) {
-            Err(DeviceFault::Unable { .. }) => return None,
+            Err(Fault::Absent(_)) => return None,
             got => got.unwrap(),
         };
         let off = |(c, got): (&f32, &[f32; 3])| {

@@ -1,9 +1,9 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
 use super::device;
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{
-    Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
-    Wrap,
+    Backend, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape, Wrap,
 };
 
 const TEXELS: usize = 8;
@@ -79,7 +79,7 @@ fn check(backend: Backend, format: TextureFormat, wrap: Wrap, curve: fn(f32) -> 
     let points: Vec<f32> = (0..=256).map(|i| i as f32 / 256.0).collect();
     let got = match kernel.run(&points, &[], Some(&texture)) {
         // Two formats are not everywhere.
-        Err(fault @ DeviceFault::Unable { .. }) => return super::not_checked(&fault.to_string()),
+        Err(fault @ Fault::Absent(_)) => return super::not_checked(&fault.to_string()),
         got => got.unwrap(),
     };
     for (u, [ramp, half, quarter]) in points.iter().zip(got) {

@@ -12,7 +12,8 @@ mod window;
 use glam::DVec3;
 
 use super::not_checked;
-use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
+use fresnel_gen::lab::fault::Fault;
+use fresnel_gen::lab::gpu::{Device, Wanted};
 use fresnel_gen::pictures::scene::{
     self, Around, Camera, Display, Environment, OpticalMaterial, Paths, Picture, PictureRequest,
     RenderRow, TONE_CURVES, Things,
@@ -23,7 +24,7 @@ use fresnel_gen::pictures::scene::{
 fn device() -> Option<Device> {
     match Device::open(&Wanted::default()) {
         Ok(device) => Some(device),
-        Err(fault @ DeviceFault::Absent { .. }) => {
+        Err(fault @ Fault::Absent(_)) => {
             assert!(std::env::var_os("CI").is_none(), "not checked: {fault}");
             not_checked(&format!("effects as they are drawn: {fault}"));
             None

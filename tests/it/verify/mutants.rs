@@ -6,8 +6,9 @@ use crate::not_checked;
 use fresnel_gen::generator::emit::{self, EmittedFunction, Naming};
 use fresnel_gen::generator::fit::{self, Measured, values_for_material};
 use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::Wanted;
-use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, ShippedFunction};
 use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
 use fresnel_gen::language::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
@@ -242,7 +243,7 @@ fn is_caught(
     target: &str,
     trial: &Trial,
     emitted: &EmittedFunction,
-) -> Result<bool, RunFault> {
+) -> Result<bool, Fault> {
     let target = targets::find(target).unwrap();
     let files = emit::library(
         target,
@@ -285,7 +286,7 @@ fn check_target(target: &str) {
         let right = emitted(method);
         let trial = trial(&right, subject);
         match is_caught(&devices, target, &trial, &right) {
-            Err(RunFault::Absent(why)) => {
+            Err(Fault::Absent(why)) => {
                 assert!(
                     std::env::var_os("CI").is_none(),
                     "not checked: mutants in {target}: {why}"

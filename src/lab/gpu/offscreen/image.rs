@@ -3,15 +3,15 @@
 use half::f16;
 use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureViewDimension};
 
-use super::super::adapter::DeviceFault;
 use super::{Image, Offscreen};
+use crate::lab::fault::Fault;
 
 impl Offscreen {
     /// An image to draw to.
     ///
     /// # Errors
     /// It is larger than the device allows.
-    pub fn target(&self, width: u32, height: u32) -> Result<Image, DeviceFault> {
+    pub fn target(&self, width: u32, height: u32) -> Result<Image, Fault> {
         let usage = TextureUsages::RENDER_ATTACHMENT
             | TextureUsages::TEXTURE_BINDING
             | TextureUsages::COPY_SRC;
@@ -26,9 +26,9 @@ impl Offscreen {
         &self,
         [width, height, layers]: [u32; 3],
         texels: &[[f32; 4]],
-    ) -> Result<Image, DeviceFault> {
+    ) -> Result<Image, Fault> {
         if texels.len() as u64 != u64::from(width) * u64::from(height) * u64::from(layers) {
-            return Err(DeviceFault::refused("texels that do not fill their image"));
+            return Err(Fault::refused("texels that do not fill their image"));
         }
         let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
         let image = self.image([width, height, layers], TextureFormat::Rgba16Float, usage)?;
@@ -56,11 +56,11 @@ impl Offscreen {
         [width, height, layers]: [u32; 3],
         format: TextureFormat,
         usage: TextureUsages,
-    ) -> Result<Image, DeviceFault> {
+    ) -> Result<Image, Fault> {
         let most = self.compute.device.limits().max_texture_dimension_2d;
         if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
             let what = format!("an image of {width} x {height} pixels; at most {most} a side");
-            return Err(DeviceFault::unable(&self.compute.adapter.name, what));
+            return Err(Fault::unable(&self.compute.adapter.name, what));
         }
         let descriptor = wgpu::TextureDescriptor {
             label: None,
@@ -90,7 +90,7 @@ impl Offscreen {
     ///
     /// # Errors
     /// The device is lost.
-    pub fn read(&self, image: &Image) -> Result<Vec<[f32; 4]>, DeviceFault> {
+    pub fn read(&self, image: &Image) -> Result<Vec<[f32; 4]>, Fault> {
         let (compute, size) = (&self.compute, image.texture.size());
         let is_half = self.format == TextureFormat::Rgba16Float;
         let row = size.width * if is_half { 8 } else { 16 };
@@ -117,10 +117,7 @@ impl Offscreen {
             (buffer, submission)
         })?;
         compute.wait(submission)?;
-        let bytes = buffer
-            .slice(..)
-            .get_mapped_range()
-            .map_err(DeviceFault::lost)?;
+        let bytes = buffer.slice(..).get_mapped_range().map_err(Fault::lost)?;
         let rows = bytes.chunks_exact(padded as usize);
         let rows = rows.map(|padded| &padded[..row as usize]);
         Ok(rows.flat_map(|row| texels(row, is_half)).collect())

@@ -10,8 +10,8 @@ use std::rc::Rc;
 
 use wgpu::{BufferUsages, Features, TextureFormat, TextureUsages, TextureViewDimension};
 
-use super::adapter::DeviceFault;
 use super::kernel::Compute;
+use crate::lab::fault::Fault;
 use pass::{DEPTH_FORMAT, kinds, pass};
 
 /// The numbers of a vertex: position, normal, tangent with the bitangent's sign, texture coordinates.
@@ -76,7 +76,7 @@ pub struct Draw<'a> {
 }
 
 impl Offscreen {
-    pub(super) fn new(compute: &Rc<Compute>) -> Result<Offscreen, DeviceFault> {
+    pub(super) fn new(compute: &Rc<Compute>) -> Result<Offscreen, Fault> {
         let all = Features::FLOAT32_FILTERABLE | Features::FLOAT32_BLENDABLE;
         let format = if compute.has(all) {
             TextureFormat::Rgba32Float
@@ -104,14 +104,14 @@ impl Offscreen {
     ///
     /// # Errors
     /// The device does not accept them.
-    pub fn mesh(&self, vertices: &[[f32; VERTEX_FLOATS]]) -> Result<Mesh, DeviceFault> {
+    pub fn mesh(&self, vertices: &[[f32; VERTEX_FLOATS]]) -> Result<Mesh, Fault> {
         let bytes: &[u8] = bytemuck::cast_slice(vertices);
         let buffer = self.buffer(bytes, BufferUsages::VERTEX)?;
-        let vertices = u32::try_from(vertices.len()).map_err(DeviceFault::refused)?;
+        let vertices = u32::try_from(vertices.len()).map_err(Fault::refused)?;
         Ok(Mesh { buffer, vertices })
     }
 
-    fn buffer(&self, bytes: &[u8], usage: BufferUsages) -> Result<wgpu::Buffer, DeviceFault> {
+    fn buffer(&self, bytes: &[u8], usage: BufferUsages) -> Result<wgpu::Buffer, Fault> {
         let compute = &self.compute;
         compute.guarded(|| {
             let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
@@ -129,7 +129,7 @@ impl Offscreen {
     ///
     /// # Errors
     /// The text does not compile or does not fit its inputs, or the device is lost.
-    pub fn draw(&self, draw: &Draw) -> Result<(), DeviceFault> {
+    pub fn draw(&self, draw: &Draw) -> Result<(), Fault> {
         let (compute, device) = (&self.compute, &self.compute.device);
         let block = self.buffer(draw.uniforms, BufferUsages::UNIFORM)?;
         let kinds = kinds(draw);

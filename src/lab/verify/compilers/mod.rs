@@ -4,47 +4,17 @@
 mod call;
 mod program;
 
-use serde::{Deserialize, Serialize};
-
 use crate::generator::emit::{NAGA_VERSION, validate_wgsl};
 use crate::generator::fit::Measured;
+use crate::lab::fault::Fault;
 use crate::language::targets::{Compiler, DXC, Target, Validator};
 use crate::physics::num::Precision;
 use call::{Called, CompilerInput};
 
 pub use program::calls;
 
-/// What a compiler says of a file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Verdict {
-    /// It accepts it.
-    Yes,
-    /// It refuses it, in these words: the first lines.
-    No(String),
-    /// It was not asked, for this reason.
-    NotChecked(String),
-}
-
-/// Why a compiler has no output for a text.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
-pub enum CompilerFault {
-    /// It refuses it, in these words: the first lines.
-    #[error("{0}")]
-    Refused(String),
-    /// It was not asked, for this reason.
-    #[error("not checked: {0}")]
-    NotChecked(String),
-}
-
-impl<T> From<Result<T, CompilerFault>> for Verdict {
-    fn from(made: Result<T, CompilerFault>) -> Verdict {
-        match made {
-            Ok(_) => Verdict::Yes,
-            Err(CompilerFault::Refused(words)) => Verdict::No(words),
-            Err(CompilerFault::NotChecked(reason)) => Verdict::NotChecked(reason),
-        }
-    }
-}
+/// What a compiler says of a file: it accepts it, it refuses it in these words (the first lines), or it was not asked.
+pub type Verdict = Result<(), Fault>;
 
 /// A version of HLSL, the language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,27 +50,23 @@ pub fn accepts_in(
 pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
     let framed = match program::framed(&validator.frame, bytes) {
         Ok(framed) => framed,
-        Err(fault) => return Verdict::No(fault.to_string()),
+        Err(fault) => return Err(Fault::Failed(fault.to_string())),
     };
     if validator.compiler.command.is_none() {
         let text = String::from_utf8_lossy(bytes);
         return validate_wgsl(&text)
-            .map_err(|words| CompilerFault::Refused(first_lines(&words)))
-            .into();
+            .map(drop)
+            .map_err(|words| Fault::Failed(first_lines(&words)));
     }
     let files: Vec<CompilerInput> = program::named(name, framed);
-    run(validator.compiler, validator.options, &files).into()
+    run(validator.compiler, validator.options, &files).map(drop)
 }
 
 /// The SPIR-V that DXC makes of a compute shader in HLSL, for Vulkan 1.1. Register numbers become bindings, spaces become sets.
 ///
 /// # Errors
 /// DXC refuses the text, or is not here.
-pub fn hlsl_to_spirv(
-    text: &str,
-    entry: &str,
-    version: HlslVersion,
-) -> Result<Vec<u8>, CompilerFault> {
+pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Vec<u8>, Fault> {
     hlsl_to_spirv_in(Precision::F32, text, entry, version)
 }
 
@@ -113,7 +79,7 @@ pub fn hlsl_to_spirv_in(
     text: &str,
     entry: &str,
     version: HlslVersion,
-) -> Result<Vec<u8>, CompilerFault> {
+) -> Result<Vec<u8>, Fault> {
     let model = match precision {
         Precision::F32 => "cs_6_0",
         Precision::F16 => "cs_6_2 -enable-16bit-types",
@@ -141,7 +107,7 @@ pub fn compiled(
     options: &str,
     name: &str,
     text: &str,
-) -> Result<Vec<u8>, CompilerFault> {
+) -> Result<Vec<u8>, Fault> {
     let file = CompilerInput {
         name: name.to_owned(),
         bytes: text.as_bytes().to_vec(),
@@ -150,10 +116,10 @@ pub fn compiled(
 }
 
 /// What a compiler has written, where its options ask for a file.
-fn written(compiler: &Compiler, options: &str, made: Vec<u8>) -> Result<Vec<u8>, CompilerFault> {
+fn written(compiler: &Compiler, options: &str, made: Vec<u8>) -> Result<Vec<u8>, Fault> {
     if made.is_empty() && options.split_whitespace().any(|word| word == "OUT") {
         let why = format!("{} ended without a fault and wrote nothing", compiler.name);
-        return Err(CompilerFault::NotChecked(why));
+        return Err(Fault::Absent(why));
     }
     Ok(made)
 }
@@ -172,28 +138,24 @@ pub fn version(compiler: &Compiler) -> Measured<String> {
     match called(compiler, "--version", &[]) {
         Ok(Called { ok: true, said, .. }) => Measured::Yes(first_line(&said)),
         Ok(_) => Measured::No("it does not tell its version".to_owned()),
-        Err(fault) => Measured::No(fault.to_string()),
+        Err(fault) => Measured::No(format!("not checked: {fault}")),
     }
 }
 
 /// Runs a compiler on these files.
-fn run(
-    compiler: &Compiler,
-    options: &str,
-    files: &[CompilerInput],
-) -> Result<Vec<u8>, CompilerFault> {
+fn run(compiler: &Compiler, options: &str, files: &[CompilerInput]) -> Result<Vec<u8>, Fault> {
     let called = called(compiler, options, files)?;
     if called.ok {
         return Ok(called.made);
     }
     let words = first_lines(&called.said);
     if names_place(&called.said, files) {
-        return Err(CompilerFault::Refused(words));
+        return Err(Fault::Failed(words));
     }
     // A message that names no place may be a fault of the compiler or of the machine.
     let name = compiler.name;
     let why = format!("{name} failed and named no place in the text: {words}");
-    Err(CompilerFault::NotChecked(why))
+    Err(Fault::Absent(why))
 }
 
 /// Whether a compiler's message names a place in one of its files: `a.hlsl:3:5`, `a.hlsl(3,5)`, glslang's `ERROR: 0:3:`. A binary
@@ -220,17 +182,13 @@ fn names_place(words: &str, files: &[CompilerInput]) -> bool {
     words.lines().any(is_fault)
 }
 
-fn called(
-    compiler: &Compiler,
-    options: &str,
-    files: &[CompilerInput],
-) -> Result<Called, CompilerFault> {
+fn called(compiler: &Compiler, options: &str, files: &[CompilerInput]) -> Result<Called, Fault> {
     let Compiler { name, get, .. } = compiler;
-    let absent = || CompilerFault::NotChecked(format!("no {name} here ({get})"));
+    let absent = || Fault::Absent(format!("no {name} here ({get})"));
     let command = compiler.command.ok_or_else(absent)?;
     let path = call::find(command).ok_or_else(absent)?;
     call::call(&path, options, files)
-        .map_err(|silent| CompilerFault::NotChecked(format!("{name} was not asked: {silent}")))
+        .map_err(|silent| Fault::Absent(format!("{name} was not asked: {silent}")))
 }
 
 fn first_line(words: &str) -> String {
