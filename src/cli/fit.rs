@@ -1,7 +1,7 @@
 //! `fit`: computes the coefficients of fitted methods.
 
 use clap::Args;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{family, one_of, precision};
@@ -335,52 +335,13 @@ pub struct FitRow {
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     /// The promise of its method for the material's class, where the fit misses it.
-    #[serde(
-        skip_serializing_if = "Option::is_none",
-        serialize_with = "missed_columns"
-    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
     misses_its_class: Option<Missed>,
     /// The curve that each channel follows, where two colours were given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    follows: Option<[FollowedCurve; 3]>,
+    follows: Option<[Follows; 3]>,
     #[serde(skip)]
     aim: FitObjective,
-}
-
-/// The curve that a channel follows between its two colours.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FollowedCurve {
-    /// The exact law for an index.
-    Law {
-        /// Its real part.
-        n: f64,
-        /// Its extinction coefficient.
-        k: f64,
-    },
-    /// The method `f82_tint`.
-    F82Tint {
-        /// The reflectance at 0 degrees.
-        f0: f64,
-        /// The reflectance at 81.79 degrees, divided by Schlick's value there.
-        tint: f64,
-    },
-}
-
-impl From<Follows> for FollowedCurve {
-    fn from(follows: Follows) -> FollowedCurve {
-        match follows {
-            Follows::Law(index) => FollowedCurve::Law {
-                n: index.n,
-                k: index.k,
-            },
-            Follows::Tint { f0, tint } => FollowedCurve::F82Tint { f0, tint },
-        }
-    }
-}
-
-fn missed_columns<S: Serializer>(missed: &Option<Missed>, to: S) -> Result<S::Ok, S::Error> {
-    missed.as_ref().map(Missed::detail).serialize(to)
 }
 
 impl FitRow {
@@ -436,7 +397,7 @@ impl FitRow {
 
     /// The row of two colours, with the curve that each channel follows between them.
     pub fn of_colours(mut self, follows: [Follows; 3]) -> FitRow {
-        self.follows = Some(follows.map(FollowedCurve::from));
+        self.follows = Some(follows);
         self
     }
 
@@ -561,9 +522,9 @@ fn remarks(rows: &[FitRow]) -> String {
         return half;
     };
     let channels = ["red", "green", "blue"].into_iter().zip(follows);
-    let remark = |(channel, follows): (&str, FollowedCurve)| match follows {
-        FollowedCurve::Law { n, k } => format!("{channel}: n {n:.4}, k {k:.4}\n"),
-        FollowedCurve::F82Tint { tint, .. } => format!(
+    let remark = |(channel, follows): (&str, Follows)| match follows {
+        Follows::Law { n, k } => format!("{channel}: n {n:.4}, k {k:.4}\n"),
+        Follows::F82Tint { tint, .. } => format!(
             "{channel}: no n and k with an F0 of at most .985 give both colours, so it follows f82_tint with a tint of {tint:.4}\n"
         ),
     };

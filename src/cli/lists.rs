@@ -16,6 +16,7 @@ use crate::generator::error::RequestFault;
 use crate::language::effects::{self, Effect, EffectFunction};
 use crate::language::methods::{self, Contract, Method};
 use crate::language::targets::{self, Target};
+use crate::physics::num::Precision;
 use crate::pictures::table;
 
 /// The flags of `methods`.
@@ -166,7 +167,7 @@ fn method_text(method: &Method) -> String {
             .iter()
             .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.range.words())),
     );
-    lines.extend(emit::promises(method));
+    lines.extend(emit::promises(Precision::F32, method));
     lines.push(format!("in f16      {}", emit::half_promise(method)));
     if let Contract::Exempt(why) = method.contract {
         lines.push(format!("fails       {why}"));

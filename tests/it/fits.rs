@@ -164,7 +164,7 @@ fn a_fit_that_misses_its_class_names_what_serves() {
     let found =
         missed(germanium, fitted, error(germanium, fitted).max_abs).expect("it errs by .009");
     assert_eq!(
-        (found.class, found.serves.name),
+        (found.class, found.serves),
         ("semiconductor", "fitted_five")
     );
     let gold = &super::subjects(&["gold"])[0];
@@ -177,7 +177,7 @@ fn a_fit_that_misses_its_class_names_what_serves() {
         .1;
     let found = missed(caesium, fitted, error(caesium, fitted).max_abs).expect("it errs by .0386");
     println!("{}", found.words());
-    assert_eq!(found.serves.name, "conductor_exact");
+    assert_eq!(found.serves, "conductor_exact");
     assert!(found.error < found.limit, "{found:?}");
 }
 

@@ -2,11 +2,11 @@
 //! reflected more than once, all with one F. Nothing reflects more than 1, what reflects everything reflects 1, and coloured metals
 //! reflect what their bounces add up to.
 
+use super::compensation::{compensation, series_of_bounces};
 use super::gamut;
 use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::lut::{
-    Depth, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSum, SplitSumDesign, StoredSplitSum, compensation,
-    series_of_bounces,
+    Depth, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSum, SplitSumDesign, StoredSplitSum,
 };
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::language::ir::{Value, Weights, evaluate};

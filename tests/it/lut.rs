@@ -175,7 +175,7 @@ fn expected(request: &BakeRequest, depth: Depth) -> (f32, Vec<[f32; 3]>) {
         Table::new(&subject.name, &subject.reference, TableAxis::Rational, 64).unwrap()
     };
     let tables: Vec<Table> = request.subjects.iter().map(table).collect();
-    let scale = depth.scale(&tables.iter().collect::<Vec<_>>());
+    let scale = Table::shared_scale(&tables.iter().collect::<Vec<_>>(), depth);
     let texels = tables
         .iter()
         .flat_map(|table| Stored::scaled(table, depth, scale).texels);

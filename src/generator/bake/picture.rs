@@ -1,8 +1,9 @@
 //! One picture in all its formats: its tables in every depth, their errors, what the heads of its files say, and the shader
 //! functions that read it, one file per language.
 
-use super::row::{self, with_functions};
-use super::{ATLAS, BakeRequest, Error, TableMaterial, depths};
+use super::error::Error;
+use super::request::{ATLAS, BakeRequest, with_functions};
+use super::subject::TableMaterial;
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, MARK, comment_lines};
 use crate::generator::fit::ModelError;
@@ -95,7 +96,7 @@ impl<'a> Baking<'a> {
         let mut picture = Picture::new(self.name, &rows, space);
         picture.about = self.about(&[format], &[], &picture);
         picture.about.extend(picture.scaling());
-        let errors = row::error_line(&rounded.errors);
+        let errors = error_line(&rounded.errors);
         picture.about.push(format!("{errors} CC0-1.0."));
         picture.about = comment_lines(picture.about);
         picture
@@ -154,7 +155,7 @@ fn rounded(
     let between: Vec<BetweenTexels> = subjects.iter().map(between).collect();
     let all: Vec<&Table> = tables.iter().collect();
     let in_depth = |depth: Depth| {
-        let scale = depth.scale(&all);
+        let scale = Table::shared_scale(&all, depth);
         let stored = |table| Stored::scaled(table, depth, scale);
         let tables: Vec<Stored> = tables.iter().map(stored).collect();
         let error = |((stored, subject), between): ((&Stored, &TableMaterial), &BetweenTexels)| {
@@ -168,16 +169,16 @@ fn rounded(
             tables,
         }
     };
-    depths(formats).into_iter().map(in_depth).collect()
+    Format::depths(formats).into_iter().map(in_depth).collect()
 }
 
 /// Paths and bytes of the files with functions.
-pub fn files(baking: &Baking) -> Result<Vec<(String, Vec<u8>)>, Error> {
+pub fn functions(baking: &Baking) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let targets = baking.request.targets.iter();
-    targets.map(|target| file(baking, target)).collect()
+    targets.map(|target| function(baking, target)).collect()
 }
 
-fn file(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), Error> {
+fn function(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), Error> {
     let name = baking.name;
     let path = format!("{TABLES}/{}/{name}.{}", target.name, target.extension);
     let function = lookup(
@@ -186,10 +187,7 @@ fn file(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), E
         shared_scale(baking),
         baking.subjects.len(),
     );
-    let function = function.map_err(|fault| emit::Error::Generated {
-        file: path.clone(),
-        what: fault.to_string(),
-    })?;
+    let function = function.map_err(|fault| emit::Error::generated(&path, fault))?;
     let emitted = format!("{}{name}_lookup", baking.request.prefix);
     let bytes = emit::lookup(target, emitted, function, about(baking, target))?;
     Ok((path, bytes))
@@ -217,7 +215,7 @@ fn about(baking: &Baking, target: &'static Target) -> Vec<String> {
         None => lines.push(scales(baking)),
     }
     lines.extend(baking.by_depth().map(|(names, rounded)| {
-        let errors = row::error_line(&rounded.errors);
+        let errors = error_line(&rounded.errors);
         format!("{names}: {errors}")
     }));
     lines
@@ -230,4 +228,15 @@ fn scales(baking: &Baking) -> String {
         .map(|(names, rounded)| format!("{:?} for {names}", rounded.scale()))
         .collect();
     format!("table_scale: {}.", scales.join("; "))
+}
+
+/// The errors of all rows in one line, for the file's own description.
+pub fn error_line(errors: &[[ModelError; 2]]) -> String {
+    let all = errors.iter().map(|[steps, _]| steps);
+    let most = |value: fn(&ModelError) -> f64| all.clone().map(value).fold(0.0, f64::max);
+    format!(
+        "Error of the filtered lookup, weights in steps of 1/256: at most {:.6}; in the mean over angles at most {:.4} %.",
+        most(|error| error.max_abs),
+        100.0 * most(|error| error.mean_rel.unwrap_or(0.0))
+    )
 }

@@ -1,19 +1,44 @@
-//! The rows of the report: what a file is, how to look it up, and the error of the lookup. Also the command of a bake, and its
-//! errors.
+//! What a bake gives: files in memory, and the rows of the report, which say what a file is, how to look it up, and the error of the
+//! lookup.
 
 use serde::Serialize;
 
-use super::picture::Rounded;
+use super::request::ATLAS;
 use super::subject::TableMaterial;
-use super::{BakeRequest, TableSize};
-use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{self, Naming};
 use crate::generator::fit::ModelError;
-use crate::generator::lut::{self, Format, MOST_TERM, Picture, TERMS, TableAxis, term_range};
-use crate::language::methods::{self, Method};
-use crate::language::targets::Target;
-use crate::physics::materials::ViewingConditions;
-use crate::physics::spectra::Gamut;
+use crate::generator::lut::{Format, Picture, TableAxis};
+
+/// A picture as files in memory, with their description.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Baked {
+    /// Its name, a material's or [`ATLAS`].
+    pub name: String,
+    /// The method of the files: `table`, or the method of a split-sum table.
+    pub method: &'static str,
+    /// The material, if the picture holds only one.
+    pub material: Option<String>,
+    /// The command that writes the files again.
+    pub command: String,
+    /// The files: path and bytes.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// A row for each material and format.
+    pub rows: Vec<BakeRow>,
+}
+
+impl Baked {
+    /// The materials of an atlas, in the order of its rows; empty for other pictures.
+    pub fn row_materials(&self) -> Vec<String> {
+        let rows = self.rows.iter().filter_map(|row| match row {
+            BakeRow::Table(row) if self.name == ATLAS => Some(row),
+            _ => None,
+        });
+        // The report has a row for each format: those of the first file hold all materials.
+        let first = rows.clone().next().map(|row| &row.file);
+        rows.filter(|row| Some(&row.file) == first)
+            .map(|row| row.name.clone())
+            .collect()
+    }
+}
 
 /// The filtering weights for which errors are given.
 pub const WEIGHTS: &str = "steps of 1/256, as GPUs filter";
@@ -156,15 +181,16 @@ pub struct SplitSumLookup {
     pub(super) functions: Vec<String>,
 }
 
-/// One row for each material of a picture in this file, with the functions that read it.
+/// One row for each material of a picture in this file, with the functions that read it. The errors of each table are those with
+/// filtering weights in steps and with exact ones.
 pub fn table_rows<'a>(
     subjects: &'a [TableMaterial],
-    rounded: &'a Rounded,
+    errors: &'a [[ModelError; 2]],
     picture: &'a Picture,
     (format, file): (Format, &'a str),
     functions: &'a [String],
 ) -> impl Iterator<Item = TableRow> + 'a {
-    let all = subjects.iter().zip(&rounded.errors).enumerate();
+    let all = subjects.iter().zip(errors).enumerate();
     all.map(move |(row, (subject, [steps, exact]))| {
         let surface = &subject.reference.surface;
         TableRow {
@@ -230,124 +256,4 @@ impl TableLookup {
             ),
         }
     }
-}
-
-/// The errors of all rows in one line, for the file's own description.
-pub fn error_line(errors: &[[ModelError; 2]]) -> String {
-    let all = errors.iter().map(|[steps, _]| steps);
-    let most = |value: fn(&ModelError) -> f64| all.clone().map(value).fold(0.0, f64::max);
-    format!(
-        "Error of the filtered lookup, weights in steps of 1/256: at most {:.6}; in the mean over angles at most {:.4} %.",
-        most(|error| error.max_abs),
-        100.0 * most(|error| error.mean_rel.unwrap_or(0.0))
-    )
-}
-
-/// The arguments that name the materials on the command line.
-pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
-    subjects.iter().map(|one| one.argument.clone()).collect()
-}
-
-/// The flags of the medium and the viewing conditions, each with a space before it.
-pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
-    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
-    // Tables keep colours outside the space by default; functions clip them.
-    let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
-    CommandLine::new("")
-        .list("medium", medium)
-        .seen_as(viewing)
-        .list("gamut", clips.then_some(Gamut::Clip.name()))
-        .into()
-}
-
-impl BakeRequest {
-    /// The command that reports this again, without the output path.
-    pub fn command_line(&self) -> CommandLine {
-        let command = CommandLine::new("bake")
-            .list("material", &self.typed)
-            .with(&self.flags);
-        let command = match &self.shape {
-            TableSize::Fixed { axis, texels } => {
-                command.list("size", [texels]).list("axis", [axis.name()])
-            }
-            TableSize::Within { budget, axes } => {
-                let only = axes.first().filter(|_| axes.len() == 1);
-                command
-                    .number("budget", format_args!("{budget:?}"))
-                    .list("axis", only.map(|axis| axis.name()))
-            }
-        };
-        let command = command
-            .list("format", self.formats.iter().map(|format| format.name()))
-            .switch("atlas", self.atlas);
-        with_functions(command, &self.targets, &self.prefix)
-    }
-}
-
-/// The same command, with the functions beside the tables.
-pub fn with_functions(
-    command: CommandLine,
-    targets: &[&'static Target],
-    prefix: &str,
-) -> CommandLine {
-    if targets.is_empty() {
-        return command;
-    }
-    command
-        .list("target", targets.iter().map(|target| target.name))
-        .list("prefix", Naming::flag_of_prefix(prefix))
-}
-
-/// An error of baking.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// A table cannot be made.
-    #[error(transparent)]
-    Table(#[from] lut::Error),
-    /// A language refuses the function that reads a table.
-    #[error(transparent)]
-    Function(#[from] emit::Error),
-    /// A split-sum table of a method that is not affine in numbers of the material.
-    #[error(
-        "--dfg takes a method that is affine in numbers of a material ({}), and `{method}` is none",
-        affine_methods()
-    )]
-    NotAffine {
-        /// The method.
-        method: &'static str,
-    },
-    /// An engine's table with a method that the engine does not use.
-    #[error(
-        "--layout {layout} holds the terms of schlick, and not of `{method}`: leave --method out"
-    )]
-    EnginesMethod {
-        /// The layout.
-        layout: &'static str,
-        /// The method.
-        method: &'static str,
-    },
-    /// Terms below 0 or above 1 in an integer format.
-    #[error(
-        "the terms of `{method}` lie beyond 0 to 1, which {format} does not hold: take exr-half, exr-float, ktx2, c, rust or js"
-    )]
-    Integers {
-        /// The method.
-        method: &'static str,
-        /// The format.
-        format: &'static str,
-    },
-}
-
-/// The methods that have a split-sum table.
-pub fn split_sum_methods() -> Vec<&'static str> {
-    let has_table = |method: &&Method| {
-        let basis = method.basis();
-        basis.is_some_and(|basis| basis.terms() <= TERMS && term_range(&basis)[1] <= MOST_TERM)
-    };
-    let all = methods::ALL.iter().copied().filter(has_table);
-    all.map(|method| method.name).collect()
-}
-
-fn affine_methods() -> String {
-    split_sum_methods().join(", ")
 }

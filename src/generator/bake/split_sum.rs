@@ -4,9 +4,9 @@
 //! multiply colours by alpha (`createImageBitmap` of browsers by default, Core Graphics always), or divide by it, since OpenEXR
 //! treats colours as premultiplied. So in these formats it gets a file of its own.
 
-use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
+use super::error::Error;
+use super::row::{BakeRow, Baked, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
 use super::subject::DEFAULT_FORMATS;
-use super::{Baked, Error, depths};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
 use crate::generator::lut::{
@@ -98,7 +98,7 @@ impl SplitSumRequest {
 }
 
 /// A table with the description for its files.
-struct Told<'a> {
+struct DescribedTable<'a> {
     request: &'a SplitSumRequest,
     design: SplitSumDesign,
     name: String,
@@ -139,26 +139,26 @@ pub fn bake_split_sum(
     let between = BetweenSplitSum::new(&design, &mut |done, _| {
         progress(lines + done, all, &name);
     });
-    let told = Told {
+    let described = DescribedTable {
         request,
         design,
         name,
     };
     let (mut rows, mut files) = (Vec::new(), Vec::new());
-    for depth in depths(&formats) {
+    for depth in Format::depths(&formats) {
         let stored = table.stored(depth);
         let errors = [Weights::Steps256, Weights::Exact]
             .map(|w| between.errors(&stored, w)[..design.channels()].to_vec());
         for format in formats.iter().filter(|format| format.depth() == depth) {
-            rows.push(told.row(*format, &errors));
-            for channels in told.parts(*format).iter().copied() {
-                let picture = told.picture(*format, &stored, &errors, channels);
-                files.push((told.file(*format, channels), format.encode(&picture)?));
+            rows.push(described.row(*format, &errors));
+            for channels in described.parts(*format).iter().copied() {
+                let picture = described.picture(*format, &stored, &errors, channels);
+                files.push((described.file(*format, channels), format.encode(&picture)?));
             }
         }
     }
     Ok(Baked {
-        name: told.name,
+        name: described.name,
         method: method.name,
         material: None,
         command: format!("fresnel-gen {}", String::from(request.command_line())),
@@ -183,7 +183,7 @@ fn most(errors: &[f64]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
 }
 
-impl Told<'_> {
+impl DescribedTable<'_> {
     /// The terms in each file of a format.
     fn parts(&self, format: Format) -> &'static [TermChannels] {
         match (self.design.channels() == 4, format.keeps_alpha()) {

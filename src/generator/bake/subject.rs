@@ -1,11 +1,9 @@
 //! A material in its medium for a table, and the defaults of baking.
 
-use super::row::{material_words, viewing_flags};
-use super::{BakeRequest, TableSize};
-use crate::generator::emit::Naming;
+use crate::generator::command_line::CommandLine;
 use crate::generator::lut::{Format, TableAxis};
 use crate::generator::reference::{ReferenceCurve, Typed};
-use crate::language::methods::{Light, TEXELS};
+use crate::language::methods::Light;
 use crate::physics::materials::{Material, Surface, SurfaceError, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space};
 
@@ -69,19 +67,19 @@ pub fn as_tables_are_seen(viewing: &ViewingConditions, gamut_was_said: bool) -> 
     viewing
 }
 
-/// The request for the tables of these materials and an atlas that a run without flags makes.
-pub fn usual_request(subjects: Vec<TableMaterial>, viewing: &ViewingConditions) -> BakeRequest {
-    BakeRequest {
-        typed: material_words(&subjects),
-        flags: viewing_flags(&subjects, viewing),
-        subjects,
-        formats: DEFAULT_FORMATS.to_vec(),
-        shape: TableSize::Fixed {
-            axis: DEFAULT_AXIS,
-            texels: TEXELS,
-        },
-        atlas: true,
-        targets: Vec::new(),
-        prefix: Naming::default().prefix,
-    }
+/// The arguments that name the materials on the command line.
+pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
+    subjects.iter().map(|one| one.argument.clone()).collect()
+}
+
+/// The flags of the medium and the viewing conditions, each with a space before it.
+pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
+    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
+    // Tables keep colours outside the space by default; functions clip them.
+    let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
+    CommandLine::new("")
+        .list("medium", medium)
+        .seen_as(viewing)
+        .list("gamut", clips.then_some(Gamut::Clip.name()))
+        .into()
 }

@@ -3,35 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::file::Error;
-use super::function::{EmittedFunction, FunctionForm, Naming, library_function};
+use super::function::EmittedFunction;
 use crate::language::ir::{Checked, Value, evaluate};
-use crate::language::methods::{Basis, Method};
+use crate::language::methods::Basis;
 use crate::physics::num::{Legendre, each_channel};
-
-/// The functions beside a method's own that take no cosine: the means in three channels and in one, where the method has them,
-/// and the coefficients that a method finds for a fitted one.
-///
-/// # Errors
-/// A graph breaks a rule of the representation: a bug.
-pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<EmittedFunction>, Error> {
-    let forms = [
-        (FunctionForm::Average, false),
-        (FunctionForm::AverageScalar, true),
-    ];
-    let has_form = |is_scalar: bool| !is_scalar || method.has_scalar_form();
-    let forms = forms.into_iter().filter(|(_, scalar)| has_form(*scalar));
-    let functions = forms.filter_map(|(form, is_scalar)| {
-        let function = method.average_in(naming.precision, is_scalar)?;
-        Some(library_function(method, naming, form, function))
-    });
-    let coefficients = FunctionForm::COEFFICIENTS.into_iter().enumerate();
-    let coefficients = coefficients.filter_map(|(place, form)| {
-        let function = method.coefficient_in(naming.precision, place)?;
-        Some(library_function(method, naming, form, function))
-    });
-    functions.chain(coefficients).collect()
-}
 
 /// What the head of a file says about coefficients; none for other functions.
 pub(super) fn coefficients_line(emitted: &EmittedFunction) -> Option<String> {
@@ -119,11 +94,7 @@ impl Average {
 
     /// The line about the mean above a specialised function.
     pub(super) fn line(&self) -> String {
-        let triple = |values: [f64; 3]| {
-            let [red, green, blue] = values.map(|value| format!("{}", (value * 1e6).round() / 1e6));
-            format!("({red}, {green}, {blue})")
-        };
-        let before = if self.difference() > TOLD {
+        let before = if self.difference() > LEAST_DIFFERENCE {
             format!("; before the limit to [0, 1] {}", triple(self.unlimited))
         } else {
             String::new()
@@ -135,8 +106,14 @@ impl Average {
     }
 }
 
+/// Three numbers in parentheses, rounded to six decimals.
+pub(super) fn triple(values: [f64; 3]) -> String {
+    let numbers = values.map(|value| ((value * 1e6).round() / 1e6).to_string());
+    format!("({})", numbers.join(", "))
+}
+
 /// The least difference that is reported.
-const TOLD: f64 = 1e-6;
+const LEAST_DIFFERENCE: f64 = 1e-6;
 
 /// `2 ∫ F c dc` over c from 0 to 1 of a function of `cos_theta` alone.
 fn hemispherical(function: &Checked) -> [f64; 3] {

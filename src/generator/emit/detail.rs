@@ -5,20 +5,19 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::average::Average;
-use super::effect_file::EffectPart;
-use super::figures::{CodeBound, MissedDetail};
-use super::file::{is_number, uniform_offsets};
-use super::function::{EmittedFunction, FunctionForm};
-use super::header::{Notes, OUTPUT_LICENCE};
-use super::page::entry_point;
+use super::average::{self, Average};
+use super::code_bound::CodeBound;
+use super::figures::promises;
+use super::function::{EffectPart, EmittedFunction, FunctionForm};
+use super::header::{OUTPUT_LICENCE, source, table_line};
+use super::page::{Documented, entry_point, is_number, uniform_offsets};
 use super::print;
+use super::specialised::Missed;
 use crate::generator::fit::{Measured, ModelError};
 use crate::generator::reference::{IndexSource, MaterialInMedium};
 use crate::language::ir::{Param, Ty};
-use crate::language::methods::Input;
+use crate::language::methods::{Contract, Input};
 use crate::language::targets::{Finish, Target};
-use crate::physics::materials::Material;
 
 /// The manifest's details of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -170,7 +169,7 @@ pub struct FunctionDetail {
     #[serde(skip_serializing_if = "Option::is_none")]
     model_error: Option<ModelErrorDetail>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    misses_its_class: Option<MissedDetail>,
+    misses_its_class: Option<Missed>,
     #[serde(skip_serializing_if = "Option::is_none")]
     average: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -227,63 +226,112 @@ struct UniformDetail {
     offset: usize,
 }
 
-/// The manifest's details of a file of these functions.
-pub(super) fn functions_detail(
-    target: &Target,
-    functions: &[&EmittedFunction],
-    command: &str,
-) -> FunctionsDetail {
-    let precision = functions[0].precision;
-    FunctionsDetail {
-        command: command.to_owned(),
-        functions: functions
-            .iter()
-            .enumerate()
-            .map(|(i, emitted)| function_detail(target, i, emitted))
-            .collect(),
-        precision: precision.is_half().then(|| precision.name()),
-        seen: None,
-        data: None,
+/// What full headers say of a function besides its figures, and short ones do not.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+struct Notes {
+    formula: &'static [&'static str],
+    source: String,
+    /// Where it holds. For an effect, each argument says it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    domain: Option<&'static str>,
+    /// For an effect's function: what it returns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gives: Option<&'static str>,
+    /// For an effect: where it must be wrong.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    wrong: Vec<&'static str>,
+    /// For a method that is exempt from the contract of the others: where it fails.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fails: Option<&'static str>,
+    /// What a library function promises, one sentence each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    promises: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written_as: Option<&'static str>,
+    /// For a plain form: the operations of the stable one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stable_operations: Option<usize>,
+}
+
+impl Notes {
+    fn of_method(emitted: &EmittedFunction) -> Notes {
+        let method = emitted.method;
+        Notes {
+            formula: method.formula,
+            source: source(method),
+            domain: Some(method.domain),
+            fails: match method.contract {
+                Contract::Kept => None,
+                Contract::Exempt(why) => Some(why),
+            },
+            promises: match emitted.form {
+                FunctionForm::Specialised => Vec::new(),
+                _ => promises(emitted.precision, method),
+            },
+            mean: average::mean_line(emitted).or_else(|| average::coefficients_line(emitted)),
+            table: table_line(emitted),
+            written_as: emitted.written_as.map(|method| method.name),
+            stable_operations: emitted.plain_for,
+            ..Notes::default()
+        }
+    }
+
+    fn of_effect(EffectPart { effect, function }: EffectPart) -> Notes {
+        Notes {
+            formula: effect.formula,
+            source: format!("Source: {}", effect.source.line()),
+            gives: Some(function.gives),
+            wrong: effect.fails.to_vec(),
+            ..Notes::default()
+        }
     }
 }
 
 impl FunctionsDetail {
+    /// The manifest's details of a file of these functions.
+    pub(super) fn new(target: &Target, functions: &[Documented], command: &str) -> Self {
+        let precision = functions[0].1.precision;
+        let functions = functions.iter().enumerate();
+        FunctionsDetail {
+            command: command.to_owned(),
+            functions: functions
+                .map(|(i, (_, emitted))| function_detail(target, i, emitted))
+                .collect(),
+            precision: precision.is_half().then(|| precision.name()),
+            seen: None,
+            data: None,
+        }
+    }
+
     /// The same for a material's file.
     pub(super) fn of_material(self, subject: &MaterialInMedium) -> FunctionsDetail {
+        let (surface, effective) = (&subject.reference.surface, &subject.effective);
+        let material = &subject.material;
         FunctionsDetail {
-            seen: Some(seen_detail(subject)),
-            data: Some(data_detail(&subject.material)),
+            seen: Some(ViewingDetail {
+                truth: surface.seen.clone(),
+                extrapolated: surface.extrapolation(),
+                n: effective.channels.n,
+                k: effective.channels.k,
+                nk_by: effective.by.map(IndexSource::text),
+            }),
+            data: Some(DataDetail {
+                reference: material.reference.clone(),
+                link: material.link.clone(),
+                licence: material.licence.clone(),
+                conditions: material.conditions.clone(),
+            }),
             ..self
         }
     }
 }
 
-fn seen_detail(subject: &MaterialInMedium) -> ViewingDetail {
-    let surface = &subject.reference.surface;
-    let effective = &subject.effective;
-    ViewingDetail {
-        truth: surface.seen.clone(),
-        extrapolated: surface.extrapolation(),
-        n: effective.channels.n,
-        k: effective.channels.k,
-        nk_by: effective.by.map(IndexSource::text),
-    }
-}
-
-fn data_detail(material: &Material) -> DataDetail {
-    DataDetail {
-        reference: material.reference.clone(),
-        link: material.link.clone(),
-        licence: material.licence.clone(),
-        conditions: material.conditions.clone(),
-    }
-}
-
 fn function_detail(target: &Target, index: usize, emitted: &EmittedFunction) -> FunctionDetail {
-    let average = match emitted.effect {
-        None => Average::of(emitted),
-        Some(_) => None,
-    };
+    let average = Average::of(emitted);
     let is_module = target.finish == Finish::Spirv;
     FunctionDetail {
         name: emitted.name.clone(),
@@ -303,12 +351,15 @@ fn function_detail(target: &Target, index: usize, emitted: &EmittedFunction) -> 
         code_error: code_error(emitted),
         licence: OUTPUT_LICENCE,
         model_error: emitted.model_error.map(model_error),
-        misses_its_class: emitted.missed.as_ref().map(|missed| missed.detail()),
+        misses_its_class: emitted.missed.clone(),
         average: average.map(|average| average.given),
         average_unlimited: average.map(|average| average.unlimited),
         entry_point: is_module.then(|| entry_point(index, emitted)),
         uniforms: (is_module && emitted.effect.is_none()).then(|| uniforms(emitted)),
-        notes: Notes::of(emitted),
+        notes: match emitted.effect {
+            Some(part) => Notes::of_effect(part),
+            None => Notes::of_method(emitted),
+        },
     }
 }
 

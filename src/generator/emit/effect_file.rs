@@ -1,31 +1,21 @@
 //! The files of effects: the functions of one effect, for any material, with another method, or for one material.
 
-use std::collections::BTreeMap;
-
 use super::batch::batch_program;
+use super::code_bound::CodeBound;
 use super::comment;
-use super::detail::{Detail, functions_detail};
-use super::figures::CodeBound;
-use super::file::{Error, File, check_names};
-use super::function::{EmittedFunction, FunctionForm, Naming};
-use super::header::{MARK, OUTPUT_LICENCE};
-use super::page::{self, PageRequest, comments, guard, render};
+use super::detail::{Detail, FunctionsDetail};
+use super::error::Error;
+use super::file::File;
+use super::function::{EffectPart, EmittedFunction, FunctionForm, Naming, check_names};
+use super::header::{MARK, licence_line};
+use super::page::{self, Documented, PageRequest, comments, guard};
 use crate::generator::fit::{Measured, values_for_material};
 use crate::generator::reference::MaterialInMedium;
-use crate::language::effects::{Effect, EffectFunction, Reflectance, USUAL_METHOD};
-use crate::language::ir::{BrokenRule, Checked, Param};
+use crate::language::effects::{BuiltEffect, Effect, EffectFunction, Reflectance, USUAL_METHOD};
+use crate::language::ir::{Checked, Param};
 use crate::language::methods::{self, Contract, Method, Values};
-use crate::language::targets::{Finish, Target};
-use crate::physics::num::Precision;
-
-/// A requested function of an effect.
-#[derive(Clone, Copy, Debug)]
-pub struct EffectPart {
-    /// The effect.
-    pub effect: &'static Effect,
-    /// The function.
-    pub function: &'static EffectFunction,
-}
+use crate::language::targets::{Finish, Target, WGSL};
+use crate::physics::materials::Channels;
 
 /// Which functions of an effect to write: all of them, or those that differ for a method or a material.
 #[derive(Clone, Copy, Debug)]
@@ -106,20 +96,16 @@ impl EffectRequest<'_> {
         part: EffectPart,
         naming: &Naming,
     ) -> Result<Vec<EmittedFunction>, Error> {
-        let asks = part.function.reflectance.is_used();
-        if self.unusual_method().is_some() && !asks {
+        if self.unusual_method().is_some() && !part.function.reflectance.is_used() {
             return Ok(Vec::new());
         }
         let built = part.function.built(self.method);
-        let built = built.map_err(|fault| self.broken(&fault))?;
-        let emitted = |built: crate::language::effects::BuiltEffect| {
-            let scalar = built.name.strip_prefix(part.function.name).unwrap_or("");
-            let form = match scalar {
-                "" => FunctionForm::Library,
-                _ => FunctionForm::Scalar,
-            };
-            let name = format!("{}{}{scalar}", part.function.name, self.suffix());
-            self.emitted(part, (naming, name), form, built.function)
+        let built = built.map_err(|fault| Error::generated(self.effect.name, fault))?;
+        let emitted = |built: BuiltEffect| match built.name.strip_prefix(part.function.name) {
+            Some(scalar) if !scalar.is_empty() => {
+                self.emitted(part, naming, scalar, FunctionForm::Scalar, built.function)
+            }
+            _ => self.emitted(part, naming, "", FunctionForm::Library, built.function),
         };
         Ok(built.into_iter().map(emitted).collect())
     }
@@ -130,24 +116,25 @@ impl EffectRequest<'_> {
         subject: &MaterialInMedium,
         naming: &Naming,
     ) -> Result<Option<EmittedFunction>, Error> {
-        let asks = part.function.reflectance.is_used();
-        if asks && !subject.is_described_by(self.method) {
-            return Err(self.refused(
-                subject,
-                &format!("it describes {}", self.method.class.media()),
-            ));
+        let refused = |what: String| Error::specialise(self.method, subject, what);
+        if part.function.reflectance.is_used() && !subject.is_described_by(self.method) {
+            let media = self.method.class.media();
+            return Err(refused(format!("it describes {media}")));
         }
         let Some(mut values) = self.values_of_r(part.function.reflectance, subject) else {
             return Ok(None);
         };
-        values.extend(index_values(subject));
-        let function = match part.function.specialised(self.method, &values) {
-            None => return Ok(None),
-            Some(built) => built.map_err(|fault| self.refused(subject, &fault.to_string()))?,
+        let Channels { n, k } = subject.effective.channels;
+        values.extend([("n".to_owned(), n), ("k".to_owned(), k)]);
+        if !k.iter().any(|k| *k > 0.0) {
+            values.insert("etas".to_owned(), n);
+        }
+        let Some(function) = part.function.specialised(self.method, &values) else {
+            return Ok(None);
         };
-        let name = format!("{}{}", part.function.name, self.suffix());
+        let function = function.map_err(|fault| refused(fault.to_string()))?;
         let form = FunctionForm::Specialised;
-        Ok(Some(self.emitted(part, (naming, name), form, function)))
+        Ok(Some(self.emitted(part, naming, "", form, function)))
     }
 
     /// The values of the method's inputs for a material. None where light leaves a body and the method takes more than its index.
@@ -168,66 +155,35 @@ impl EffectRequest<'_> {
     fn emitted(
         &self,
         part: EffectPart,
-        (naming, name): (&Naming, String),
+        naming: &Naming,
+        scalar: &str,
         form: FunctionForm,
         function: Checked,
     ) -> EmittedFunction {
+        let (prefix, of) = (&naming.prefix, part.function.name);
+        let name = format!("{prefix}{of}{}{scalar}", self.suffix());
+        let code = code_bound(part.function, self.method);
         EmittedFunction {
-            name: format!("{}{name}", naming.prefix),
-            method: self.method,
             effect: Some(part),
-            form,
-            precision: Precision::F32,
-            function,
-            constants: Values::new(),
-            model_error: None,
-            code: stated(part.function, self.method),
-            plain_for: None,
-            written_as: None,
-            missed: None,
-        }
-    }
-
-    fn broken(&self, fault: &BrokenRule) -> Error {
-        Error::Generated {
-            file: self.effect.name.to_owned(),
-            what: fault.to_string(),
-        }
-    }
-
-    fn refused(&self, subject: &MaterialInMedium, what: &str) -> Error {
-        Error::Specialise {
-            method: self.method.name.to_owned(),
-            material: subject.name.clone(),
-            what: what.to_owned(),
+            ..EmittedFunction::new(name, self.method, form, function, code)
         }
     }
 }
 
 /// The code error that a function states: its own, and that of R, in which a unit in the last place is at most 2^-24.
-fn stated(function: &EffectFunction, method: &Method) -> Measured<CodeBound> {
+fn code_bound(function: &EffectFunction, method: &Method) -> Measured<CodeBound> {
     let of_r = match (function.reflectance, method.contract) {
         (Reflectance::Unused, _) => 0.0,
         (_, Contract::Exempt(why)) => return Measured::No(why.to_owned()),
         (_, Contract::Kept) => method.claims.code_ulp / f64::from(1 << 24),
     };
     let rounded = format!("{:.0e}", function.code_abs + of_r);
-    Measured::Yes(CodeBound::Absolute(
-        rounded.parse().unwrap_or(f64::INFINITY),
-    ))
+    let bound = rounded.parse().unwrap_or(f64::INFINITY);
+    Measured::Yes(CodeBound::Absolute(bound))
 }
 
 /// The folder of effects in a target's folder.
 pub const EFFECTS: &str = "effects";
-
-/// The indices of a material, for arguments that are not inputs of a method.
-fn index_values(subject: &MaterialInMedium) -> BTreeMap<String, [f64; 3]> {
-    let channels = &subject.effective.channels;
-    let absorbs = channels.k.iter().any(|k| *k > 0.0);
-    let etas = (!absorbs).then(|| ("etas".to_owned(), channels.n));
-    let complex = [("n".to_owned(), channels.n), ("k".to_owned(), channels.k)];
-    etas.into_iter().chain(complex).collect()
-}
 
 /// The file of an effect in a language. `command` generates it again.
 ///
@@ -240,20 +196,18 @@ pub fn effect_file(
     naming: &Naming,
     command: &str,
 ) -> Result<File, Error> {
-    let is_module = target.finish == Finish::Spirv;
-    let unique = format!(
-        "{}{}_effect",
-        naming.prefix,
-        request.stem().replace('/', "_")
-    );
-    let bytes = page(target, request, functions, &guard(target, &unique), command)?;
-    let suffix = if is_module { ".comp" } else { "" };
-    let all: Vec<&EmittedFunction> = functions.iter().collect();
-    let detail = functions_detail(target, &all, command);
+    let stem = request.stem();
+    let unique = format!("{}{}_effect", naming.prefix, stem.replace('/', "_"));
+    let guard = guard(target, &unique);
+    let suffix = match target.finish {
+        Finish::Spirv => ".comp",
+        _ => "",
+    };
+    let plain: Vec<Documented> = functions.iter().map(|one| (Vec::new(), one)).collect();
     Ok(File {
-        name: format!("{}{suffix}.{}", request.stem(), target.extension),
-        bytes,
-        detail: Detail::Functions(Box::new(detail)),
+        name: format!("{stem}{suffix}.{}", target.extension),
+        bytes: page(target, request, functions, &guard, command)?,
+        detail: Detail::Functions(Box::new(FunctionsDetail::new(target, &plain, command))),
     })
 }
 
@@ -278,15 +232,8 @@ pub fn effect_function_text(
     target: &'static Target,
     emitted: &EmittedFunction,
 ) -> Result<String, Error> {
-    let lines = comment::lines(documentation(emitted));
-    let bytes = render(&PageRequest {
-        target,
-        page: &target.pages[0],
-        header: &[],
-        guard: "",
-        functions: &[(comments(target, &lines), emitted.clone())],
-        file: &emitted.name,
-    })?;
+    let functions = [documented(target, emitted)];
+    let bytes = PageRequest::new(target, &functions, &emitted.name).render()?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
@@ -298,44 +245,35 @@ fn page(
     command: &str,
 ) -> Result<Vec<u8>, Error> {
     let is_module = target.finish == Finish::Spirv;
-    let text_of = if is_module {
-        &crate::language::targets::WGSL
-    } else {
-        target
-    };
-    let header = comment::lines(header(request, command));
-    let documented: Vec<(Vec<String>, EmittedFunction)> = functions
-        .iter()
-        .map(|emitted| {
-            let lines = comment::lines(documentation(emitted));
-            (comments(text_of, &lines), emitted.clone())
-        })
-        .collect();
-    let bytes = render(&PageRequest {
-        target: text_of,
-        page: &text_of.pages[0],
-        header: &comments(text_of, &header),
+    let text_of = if is_module { &WGSL } else { target };
+    let one = |emitted| documented(text_of, emitted);
+    let documented: Vec<Documented> = functions.iter().map(one).collect();
+    let page = PageRequest {
+        header: &comments(text_of, &comment::lines(header(request, command))),
         guard,
-        functions: &documented,
-        file: request.effect.name,
-    })?;
+        ..PageRequest::new(text_of, &documented, request.effect.name)
+    };
+    let bytes = page.render()?;
     if !is_module {
         return Ok(bytes);
     }
     let text = String::from_utf8_lossy(&bytes);
     let all: Vec<&EmittedFunction> = functions.iter().collect();
     let program = batch_program(text_of, &text, &all).expect("WGSL is run in batches");
-    page::spirv(&program).map_err(|what| Error::Generated {
-        file: request.effect.name.to_owned(),
-        what,
-    })
+    page::spirv(&program).map_err(|fault| Error::generated(request.effect.name, fault))
+}
+
+/// A function with the comments above it.
+fn documented<'a>(target: &Target, emitted: &'a EmittedFunction) -> Documented<'a> {
+    let lines = comment::lines(documentation(emitted));
+    (comments(target, &lines), emitted)
 }
 
 fn header(request: &EffectRequest, command: &str) -> Vec<String> {
     let EffectRequest { effect, method, .. } = request;
     let mut lines = vec![
         MARK.to_owned(),
-        format!("Licence of this file: {OUTPUT_LICENCE}"),
+        licence_line(),
         format!("Regenerate: {command}"),
         String::new(),
         format!("{}: {}", effect.name, effect.summary),
@@ -359,11 +297,8 @@ fn header(request: &EffectRequest, command: &str) -> Vec<String> {
     lines.push(format!("Source: {}", effect.source.line()));
     let mut functions = effect.functions.iter();
     if functions.any(|function| function.reflectance.is_used()) {
-        let source = method.source_in_full();
-        lines.push(format!(
-            "R by {}: {}. {source}",
-            method.name, method.summary
-        ));
+        let (name, source) = (method.name, method.source_in_full());
+        lines.push(format!("R by {name}: {}. {source}", method.summary));
     }
     lines.extend(effect.conventions.iter().map(|line| (*line).to_owned()));
     lines.extend(effect.fails.iter().map(|line| format!("Wrong: {line}")));

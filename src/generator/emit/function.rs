@@ -2,13 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::effect_file::EffectPart;
-use super::figures::{Bounds, CodeBound, FILTERED, Missed, PLAIN_ULP, missed};
-use super::file::Error;
-use crate::generator::fit::{Measured, ModelError, model_error, values_for_material_in};
+use super::code_bound::{Bounds, CodeBound, FILTERED};
+use super::error::Error;
+use super::specialised::{Missed, Specialised, missed, specialise, specialised_graph};
+use crate::generator::fit::{Measured, ModelError, model_error};
 use crate::generator::reference::MaterialInMedium;
+use crate::language::effects::{Effect, EffectFunction};
 use crate::language::ir::{BrokenRule, Checked};
 use crate::language::methods::{Method, Values};
+use crate::language::targets;
+use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 
 /// How functions are named. The name shows half precision.
@@ -55,6 +58,15 @@ impl Naming {
     }
 }
 
+/// A requested function of an effect.
+#[derive(Clone, Copy, Debug)]
+pub struct EffectPart {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// The function.
+    pub function: &'static EffectFunction,
+}
+
 /// A function with everything that its page says about it.
 #[derive(Clone, Debug)]
 pub struct EmittedFunction {
@@ -85,36 +97,44 @@ pub struct EmittedFunction {
 }
 
 impl EmittedFunction {
+    /// A function in single precision with run-time arguments.
+    pub(super) fn new(
+        name: String,
+        method: &'static Method,
+        form: FunctionForm,
+        function: Checked,
+        code: Measured<CodeBound>,
+    ) -> EmittedFunction {
+        EmittedFunction {
+            name,
+            method,
+            effect: None,
+            form,
+            precision: Precision::F32,
+            function,
+            constants: Values::new(),
+            model_error: None,
+            code,
+            written_as: None,
+            plain_for: None,
+            missed: None,
+        }
+    }
+
     /// The meaning of the function. In single precision it is its own graph. In half precision it is the graph of single
     /// precision, so that half precision's own guards and rounded constants count as code error.
     ///
     /// # Errors
     /// The graph breaks a rule of the representation: a bug.
     pub fn meaning(&self) -> Result<Checked, BrokenRule> {
-        let (method, single) = (self.method, Precision::F32);
-        if self.precision == single {
+        if self.precision == Precision::F32 {
             return Ok(self.function.clone());
         }
-        let average = |is_scalar| {
-            let average = method.average_in(single, is_scalar);
-            average.expect("what has a mean in half precision has it in single precision")
-        };
-        let coefficient = |place| {
-            let coefficient = method.coefficient_in(single, place);
-            coefficient
-                .expect("what finds coefficients in half precision finds them in single precision")
-        };
-        match self.form {
-            FunctionForm::Library => method.function(false),
-            FunctionForm::Scalar => method.function(true),
-            FunctionForm::Specialised => method.specialise(&self.constants),
-            FunctionForm::Average => average(false),
-            FunctionForm::AverageScalar => average(true),
-            FunctionForm::C0 => coefficient(0),
-            FunctionForm::C1 => coefficient(1),
-            FunctionForm::C2 => coefficient(2),
-            FunctionForm::C3 => coefficient(3),
+        if self.form == FunctionForm::Specialised {
+            return self.method.specialise(&self.constants);
         }
+        let single = self.form.graph(self.method, Precision::F32);
+        single.expect("a form of half precision is one of single precision too")
     }
 }
 
@@ -126,119 +146,60 @@ pub fn library_functions(
     method: &'static Method,
     naming: &Naming,
 ) -> Result<Vec<EmittedFunction>, Error> {
-    let forms = [(FunctionForm::Library, false), (FunctionForm::Scalar, true)];
-    let wanted = forms
-        .into_iter()
-        .filter(|(_, is_scalar)| !is_scalar || method.has_scalar_form());
-    wanted
-        .map(|(form, is_scalar)| {
-            let function = method.function_in(naming.precision, is_scalar);
-            library_function(method, naming, form, function)
-        })
-        .collect()
+    in_forms(
+        method,
+        naming,
+        &[FunctionForm::Library, FunctionForm::Scalar],
+    )
 }
 
-/// A function with run-time arguments.
-pub(super) fn library_function(
+/// The functions beside a method's own that take no cosine: the means in three channels and in one, where the method has them,
+/// and the coefficients that a method finds for a fitted one.
+///
+/// # Errors
+/// As [`library_functions`].
+pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<EmittedFunction>, Error> {
+    let [c0, c1, c2, c3] = FunctionForm::COEFFICIENTS;
+    let (average, scalar) = (FunctionForm::Average, FunctionForm::AverageScalar);
+    in_forms(method, naming, &[average, scalar, c0, c1, c2, c3])
+}
+
+/// The functions with run-time arguments in those of these forms that the method has.
+fn in_forms(
     method: &'static Method,
     naming: &Naming,
-    form: FunctionForm,
-    function: Result<Checked, BrokenRule>,
-) -> Result<EmittedFunction, Error> {
-    let function = function.map_err(|fault| Error::Generated {
-        file: method.name.to_owned(),
-        what: fault.to_string(),
-    })?;
-    Ok(EmittedFunction {
-        name: naming.name(method.name, &form.suffix()),
-        method,
-        effect: None,
-        form,
-        precision: naming.precision,
-        function,
-        constants: Values::new(),
-        model_error: None,
-        code: promised(method, form, naming.precision),
-        plain_for: None,
-        written_as: None,
-        missed: None,
-    })
+    forms: &[FunctionForm],
+) -> Result<Vec<EmittedFunction>, Error> {
+    let mut functions = Vec::new();
+    for form in forms {
+        let Some(function) = form.graph(method, naming.precision) else {
+            continue;
+        };
+        functions.push(EmittedFunction {
+            precision: naming.precision,
+            ..EmittedFunction::new(
+                naming.name(method.name, &form.suffix()),
+                method,
+                *form,
+                function.map_err(|fault| Error::generated(method.name, fault))?,
+                promised(method, *form, naming.precision),
+            )
+        });
+    }
+    Ok(functions)
 }
 
 /// The code error that a library function promises.
 fn promised(method: &Method, form: FunctionForm, precision: Precision) -> Measured<CodeBound> {
-    let refused = method.half.library_refusal();
     let finds = method.coefficients.filter(|_| form.coefficient().is_some());
-    if let (Precision::F32, Some(finds)) = (precision, finds) {
-        return Measured::Yes(CodeBound::Absolute(finds.code_abs));
-    }
-    match (precision, method.half.claim(), refused) {
+    match (precision, method.half.claim(), finds) {
         (Precision::F16, Some(claim), _) => Measured::Yes(CodeBound::Absolute(claim.max_abs)),
-        (Precision::F16, None, why) => Measured::No(why.unwrap_or_default().to_owned()),
+        (Precision::F16, None, _) => {
+            Measured::No(method.half.library_refusal().unwrap_or_default().to_owned())
+        }
+        (Precision::F32, _, Some(finds)) => Measured::Yes(CodeBound::Absolute(finds.code_abs)),
         (Precision::F32, ..) if method.is_textured() => Measured::No(FILTERED.to_owned()),
         (Precision::F32, ..) => Measured::Yes(CodeBound::Ulp(method.claims.code_ulp)),
-    }
-}
-
-/// A method's formula with a material's constants folded in, in the form that is written.
-#[derive(Clone, Debug)]
-pub struct Specialised {
-    /// The graph.
-    pub function: Checked,
-    /// The values that were folded in.
-    pub constants: Values,
-    /// For a plain form: the operations of the stable one.
-    pub plain_for: Option<usize>,
-}
-
-/// A method's formula specialised to a material, without its errors.
-///
-/// # Errors
-/// The method does not describe this, or the graph with these constants breaks a rule of
-/// [`crate::language::ir::RULES`].
-pub fn specialised_graph(
-    method: &Method,
-    subject: &MaterialInMedium,
-    precision: Precision,
-    bounds: &Bounds,
-) -> Result<Specialised, Error> {
-    if !subject.is_described_by(method) {
-        let serves = if method.is_fitted() {
-            subject.fitted_method().unwrap_or("fitted_five")
-        } else {
-            subject.exact_method()
-        };
-        let what = format!("it describes {}; {serves} serves it", method.class.media());
-        return Err(refused(method, subject, &what));
-    }
-    let constants = values_for_material_in(precision, subject, method);
-    let stable = specialise(method, subject, precision, &constants)?;
-    let plain = match precision {
-        Precision::F32 => plain(method, &constants, &stable, bounds),
-        Precision::F16 => None,
-    };
-    Ok(Specialised {
-        plain_for: plain.as_ref().map(|_| stable.work()),
-        function: plain.unwrap_or(stable),
-        constants,
-    })
-}
-
-fn specialise(
-    method: &Method,
-    subject: &MaterialInMedium,
-    precision: Precision,
-    constants: &Values,
-) -> Result<Checked, Error> {
-    let function = method.specialise_in(precision, constants);
-    function.map_err(|fault| refused(method, subject, &fault.to_string()))
-}
-
-fn refused(method: &Method, subject: &MaterialInMedium, what: &str) -> Error {
-    Error::Specialise {
-        method: method.name.to_owned(),
-        material: subject.name.clone(),
-        what: what.to_owned(),
     }
 }
 
@@ -283,17 +244,18 @@ pub fn specialised_function(
     })
 }
 
-/// The plain form, where it is cheaper and recorded as accurate.
-fn plain(
-    method: &Method,
-    constants: &Values,
-    stable: &Checked,
-    bounds: &Bounds,
-) -> Option<Checked> {
-    let plain = method.specialise_plain(constants)?.ok()?;
-    let bound = bounds.of(Precision::F32, &plain);
-    let keeps = matches!(bound, Measured::Yes(CodeBound::Ulp(ulp)) if ulp <= PLAIN_ULP);
-    (keeps && plain.work() < stable.work()).then_some(plain)
+/// Checks that names are free in every language, since a function has the same name in all. Here names are complete, with their
+/// prefix.
+pub(super) fn check_names(functions: &[EmittedFunction]) -> Result<(), Error> {
+    for emitted in functions {
+        let fault = identifier_fault(&emitted.name)
+            .map(|why| format!("`{}` is no name: {why}", emitted.name))
+            .or_else(|| targets::name_fault(&emitted.name));
+        if let Some(what) = fault {
+            return Err(Error::Name { what });
+        }
+    }
+    Ok(())
 }
 
 /// The arguments and result of a method's function.
@@ -337,7 +299,7 @@ impl FunctionForm {
     }
 
     /// The suffix after the method's name in the name of a library function.
-    pub(super) fn suffix(self) -> String {
+    fn suffix(self) -> String {
         match self {
             FunctionForm::Library | FunctionForm::Specialised => String::new(),
             other => format!("_{}", other.name()),
@@ -367,5 +329,17 @@ impl FunctionForm {
     /// Whether it gives the mean over the hemisphere.
     pub fn is_mean(self) -> bool {
         matches!(self, FunctionForm::Average | FunctionForm::AverageScalar)
+    }
+
+    /// The graph of a method in this form, with run-time arguments; none where the method has no such form.
+    fn graph(self, method: &Method, precision: Precision) -> Option<Result<Checked, BrokenRule>> {
+        if self.is_scalar() && !method.has_scalar_form() {
+            return None;
+        }
+        match self.coefficient() {
+            Some(place) => method.coefficient_in(precision, place),
+            None if self.is_mean() => method.average_in(precision, self.is_scalar()),
+            None => Some(method.function_in(precision, self.is_scalar())),
+        }
     }
 }

@@ -7,9 +7,11 @@ mod artifact;
 mod average;
 mod batch;
 mod catalogue;
+mod code_bound;
 mod comment;
 mod detail;
 mod effect_file;
+mod error;
 mod figures;
 mod file;
 mod function;
@@ -17,41 +19,38 @@ mod header;
 mod page;
 mod print;
 pub mod shader_words;
-mod short;
+mod specialised;
 mod xml;
 
 pub use artifact::Artifact;
-pub use average::{Average, companions};
+pub use average::Average;
 pub use batch::{batch_entry, batch_program, places};
 pub use catalogue::{
     BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueMaterial,
-    CatalogueMethod, CatalogueRow, CloserFit, FOURTH, catalogue_array, catalogue_buffer,
-    catalogue_record, catalogue_rows, first_dielectric, recorded_catalogue,
+    CatalogueMethod, CatalogueRow, FOURTH, catalogue_array, catalogue_buffer, catalogue_rows,
+    first_dielectric, recorded_catalogue,
 };
+pub use code_bound::{Bounds, CodeBound, PLAIN_ULP, fingerprint};
 pub use comment::lines as comment_lines;
 pub use detail::{
     AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, TableDetail,
     ViewingDetail,
 };
-pub use effect_file::{
-    EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text,
-};
-pub use figures::{
-    Bounds, CodeBound, HalfBound, Missed, PLAIN_ULP, fingerprint, fitted_error, half_bounds,
-    half_promise, missed, promises,
-};
-pub use file::{
-    Error, File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for,
-};
+pub use effect_file::{EFFECTS, EffectRequest, effect_file, effect_function_text, effect_text};
+pub use error::Error;
+pub use figures::{half_promise, promises};
+pub use file::{File, PlaceInFile, library, lookup, material, single, written_for};
 pub use function::{
-    EmittedFunction, FunctionForm, Naming, Specialised, library_functions, specialised_function,
-    specialised_graph,
+    EffectPart, EmittedFunction, FunctionForm, Naming, companions, library_functions,
+    specialised_function,
 };
 pub use header::{HeaderForm, Heading, MARK, OUTPUT_LICENCE};
 pub use page::{
-    bare_text, spirv_with_storage as wgsl_to_spirv, text_of_template, validate as validate_wgsl,
+    bare_text, render_template, spirv_with_storage as wgsl_to_spirv, uniform_offsets,
+    validate as validate_wgsl,
 };
 pub use print::bare;
+pub use specialised::{Missed, fitted_error, missed, specialised_graph};
 pub use xml::{XmlDocument, xml_comment, xml_text};
 
 /// The version of naga that generates SPIR-V, pinned in Cargo.toml: another version gives other bytes.

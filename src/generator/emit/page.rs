@@ -10,7 +10,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::batch::batch_entry;
-use super::file::Error;
+use super::error::Error;
 use super::function::{EmittedFunction, FunctionForm};
 use super::print;
 use crate::language::ir::{Param, Ty};
@@ -19,40 +19,43 @@ use crate::physics::num::Precision;
 
 /// The data of a template.
 #[derive(Serialize)]
-pub(super) struct PageView<'a> {
+struct PageView<'a> {
     /// Lines of the head.
-    pub(super) header: &'a [String],
+    header: &'a [String],
     /// The include guard's name; empty if there is none.
-    pub(super) guard: &'a str,
+    guard: &'a str,
     /// The directive that must precede all code.
-    pub(super) directive: &'a str,
+    directive: &'a str,
     /// The functions in their order.
-    pub(super) functions: Vec<FunctionView>,
+    functions: Vec<FunctionView>,
     /// The numbers that a library method takes after `cos_theta`.
-    pub(super) parameters: Vec<ParameterView>,
+    parameters: Vec<ParameterView>,
     /// The textures that the functions read.
-    pub(super) textures: Vec<String>,
+    textures: BTreeSet<String>,
 }
 
 #[derive(Serialize)]
-pub(super) struct FunctionView {
+struct FunctionView {
     /// Comments above it.
-    pub(super) doc: Vec<String>,
+    doc: Vec<String>,
     /// Its signature, without a brace.
-    pub(super) head: String,
+    head: String,
     /// The lines of its body.
-    pub(super) body: Vec<String>,
+    body: Vec<String>,
     /// The entry point of a module that calls it.
-    pub(super) entry: String,
+    entry: String,
     /// How a module calls it. `cos_theta`, the numbers of the module's block and the result are f32.
-    pub(super) call: String,
+    call: String,
 }
 
 #[derive(Serialize)]
-pub(super) struct ParameterView {
+struct ParameterView {
     name: String,
     ty: &'static str,
 }
+
+/// A function, and the comments above it.
+pub type Documented<'a> = (Vec<String>, &'a EmittedFunction);
 
 /// A page to render.
 pub struct PageRequest<'a> {
@@ -64,33 +67,34 @@ pub struct PageRequest<'a> {
     pub header: &'a [String],
     /// The include guard's name; empty if there is none.
     pub guard: &'a str,
-    /// The functions, each with the comments above it.
-    pub functions: &'a [(Vec<String>, EmittedFunction)],
+    /// The functions.
+    pub functions: &'a [Documented<'a>],
     /// The name of the file, for messages.
     pub file: &'a str,
 }
 
-/// The bytes of a file.
-pub fn render(request: &PageRequest) -> Result<Vec<u8>, Error> {
-    let template = request.page.template;
-    finished(
-        template,
-        &view(request),
-        request.target.finish,
-        request.file,
-    )
-}
+impl<'a> PageRequest<'a> {
+    /// The functions on the first page of a target, without a head and a guard.
+    pub fn new(target: &'static Target, functions: &'a [Documented<'a>], file: &'a str) -> Self {
+        PageRequest {
+            target,
+            page: &target.pages[0],
+            header: &[],
+            guard: "",
+            functions,
+            file,
+        }
+    }
 
-/// The text of a template with its data. The file's name is for messages.
-///
-/// # Errors
-/// The template is wrong: a bug.
-pub fn text_of_template(
-    template: &str,
-    view: &impl Serialize,
-    file: &str,
-) -> Result<Vec<u8>, Error> {
-    finished(template, view, Finish::Text, file)
+    /// The bytes of a file.
+    pub fn render(&self) -> Result<Vec<u8>, Error> {
+        render_template(
+            self.page.template,
+            &view(self),
+            self.target.finish,
+            self.file,
+        )
+    }
 }
 
 /// Functions without a head and without comments above them.
@@ -98,52 +102,39 @@ pub fn text_of_template(
 /// # Errors
 /// The language refuses the text: a bug.
 pub fn bare_text(target: &'static Target, functions: &[EmittedFunction]) -> Result<String, Error> {
-    let plain: Vec<(Vec<String>, EmittedFunction)> = functions
-        .iter()
-        .map(|one| (Vec::new(), one.clone()))
-        .collect();
-    let bytes = render(&PageRequest {
-        target,
-        page: &target.pages[0],
-        header: &[],
-        guard: "",
-        functions: &plain,
-        file: &functions[0].name,
-    })?;
+    let plain: Vec<Documented> = functions.iter().map(|one| (Vec::new(), one)).collect();
+    let bytes = PageRequest::new(target, &plain, &functions[0].name).render()?;
     Ok(String::from_utf8_lossy(&bytes).trim_start().to_owned())
 }
 
 /// The bytes of a template with its data. The file's name is for messages.
-pub fn finished(
+///
+/// # Errors
+/// The template is wrong, or the language refuses the text: a bug.
+pub fn render_template(
     template: &str,
     view: &impl Serialize,
     finish: Finish,
     file: &str,
 ) -> Result<Vec<u8>, Error> {
-    let wrong = |what: String| Error::Generated {
-        file: file.to_owned(),
-        what,
-    };
-    let mut tera = Tera::new();
-    tera.add_raw_template("page", template)
-        .map_err(|error| wrong(error.to_string()))?;
-    let context = Context::from_serialize(view).map_err(|error| wrong(error.to_string()))?;
-    let text = tera
-        .render("page", &context)
-        .map_err(|error| wrong(error.to_string()))?;
+    let tera = |fault: tera::Error| Error::generated(file, fault);
+    let mut templates = Tera::new();
+    templates.add_raw_template("page", template).map_err(tera)?;
+    let context = Context::from_serialize(view).map_err(tera)?;
+    let text = templates.render("page", &context).map_err(tera)?;
     let text = text.trim_end().to_owned() + "\n";
-    match finish {
-        Finish::Text => Ok(text.into_bytes()),
-        Finish::ValidWgsl => validate(&text).map(|_| text.into_bytes()).map_err(wrong),
-        Finish::Spirv => spirv(&text).map_err(wrong),
-    }
+    let bytes = match finish {
+        Finish::Text => return Ok(text.into_bytes()),
+        Finish::ValidWgsl => validate(&text).map(|_| text.into_bytes()),
+        Finish::Spirv => spirv(&text),
+    };
+    bytes.map_err(|fault| Error::generated(file, fault))
 }
 
 fn view<'a>(request: &'a PageRequest) -> PageView<'a> {
     let functions = request.functions.iter().enumerate();
     let first = &request.functions[0].1.function;
-    let is_number = |param: &&Param| !is_texture(param) && !param.is_cosine();
-    let numbers = first.params.iter().filter(is_number);
+    let numbers = first.params.iter().filter(|param| is_number(param));
     PageView {
         header: request.header,
         guard: request.guard,
@@ -163,16 +154,34 @@ fn view<'a>(request: &'a PageRequest) -> PageView<'a> {
     }
 }
 
-fn is_texture(param: &Param) -> bool {
-    param.ty == Ty::Texture
-}
-
-fn textures(request: &PageRequest) -> Vec<String> {
+fn textures(request: &PageRequest) -> BTreeSet<String> {
     let functions = request.functions.iter();
     let params = functions.flat_map(|(_, emitted)| &emitted.function.params);
-    let names = params.filter(|param| is_texture(param));
-    let sorted: BTreeSet<String> = names.map(|param| param.name.clone()).collect();
-    sorted.into_iter().collect()
+    let textures = params.filter(|param| param.ty == Ty::Texture);
+    textures.map(|param| param.name.clone()).collect()
+}
+
+/// Whether a parameter lies in a module's uniform block: it is neither the cosine nor a texture.
+pub(super) fn is_number(param: &Param) -> bool {
+    param.ty != Ty::Texture && !param.is_cosine()
+}
+
+/// The byte offsets, in the uniform block, of the numbers that a function takes after `cos_theta`. The layout is WGSL's, which is
+/// std140's for these types.
+pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
+    let mut end = 0usize;
+    let numbers = params.iter().filter(|param| is_number(param));
+    let place = |param: &Param| {
+        let (size, align) = if param.ty == Ty::Rgb {
+            (12, 16)
+        } else {
+            (4, 4)
+        };
+        let offset = end.next_multiple_of(align);
+        end = offset + size;
+        offset
+    };
+    numbers.map(place).collect()
 }
 
 /// How a module's entry point calls a function: numbers lie in its block, textures and samplers beside it.
@@ -226,14 +235,9 @@ pub fn entry_point(index: usize, emitted: &EmittedFunction) -> String {
 
 /// The head of a file as comment lines of a language.
 pub fn comments(target: &Target, lines: &[String]) -> Vec<String> {
-    lines
-        .iter()
-        .map(|line| {
-            format!("{} {line}", target.spelling.comment)
-                .trim_end()
-                .to_owned()
-        })
-        .collect()
+    let comment = |line| format!("{} {line}", target.spelling.comment);
+    let lines = lines.iter().map(comment);
+    lines.map(|line| line.trim_end().to_owned()).collect()
 }
 
 /// The include guard of a file; empty unless the language has a preprocessor.

@@ -122,21 +122,18 @@ impl InputSearch<'_> {
         each.collect()
     }
 
+    /// The numbers of one channel, or those that channels share.
     fn free(&self, channel: Option<usize>) -> Vec<Free> {
-        let place = |input: &Input| -> Option<Option<usize>> {
-            match (input.ty, channel) {
-                (Ty::Rgb, Some(channel)) => Some(Some(channel)),
-                (Ty::Scalar, None) => Some(None),
-                _ => None,
-            }
+        let ty = match channel {
+            Some(_) => Ty::Rgb,
+            None => Ty::Scalar,
         };
-        let name = |input: &'static Input| {
-            place(input).map(|channel| Free {
-                name: input.name,
-                channel,
-            })
+        let free = |input: &Input| Free {
+            name: input.name,
+            channel,
         };
-        self.inputs.iter().filter_map(name).collect()
+        let own = self.inputs.iter().filter(|input| input.ty == ty);
+        own.map(free).collect()
     }
 
     /// The error against the curve at each point: of one channel, or of all, point by point.

@@ -177,16 +177,6 @@ pub enum Measured<T> {
     No(String),
 }
 
-impl<T> Measured<T> {
-    /// The figure, where there is one.
-    pub fn value(&self) -> Option<&T> {
-        match self {
-            Measured::Yes(value) => Some(value),
-            Measured::No(_) => None,
-        }
-    }
-}
-
 /// A candidate, and its largest error for each curve, in the measure of that curve's objective.
 #[derive(Clone, Debug)]
 pub struct Tried {

@@ -1,7 +1,7 @@
 //! The values of a method's inputs for a material: those of fitted methods come from a fit, all others from each input's own
 //! rule.
 
-use super::problem::{FitCurve, FitObjective, FitProblem, basis};
+use super::problem::{FitCurve, FitObjective, coefficients_and_error};
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::language::methods::{Input, KnownSurface, Method, Values};
 use crate::physics::materials::Channels;
@@ -18,7 +18,8 @@ pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
     if method.is_fitted() {
         let Channels { n, k } = *channels;
-        let curve = FitCurve::new(|c| each_channel(|i| exact(n[i], k[i], c)));
+        let law = |i: usize, c| optics::conductor(n[i], k[i], c).unpolarised();
+        let curve = FitCurve::new(|c| each_channel(|i| law(i, c)));
         return fitted_coefficients(method, Precision::F32, &curve);
     }
     values_of(method, &known(channels, derivation))
@@ -45,7 +46,7 @@ pub fn values_for_material_in(
 }
 
 /// The coefficients of a fitted method for a curve, in this precision, for a function that ends with a clamp.
-pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
+fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
     let aim = FitObjective {
         precision,
         gamut: Gamut::Keep,
@@ -56,21 +57,9 @@ pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCur
     fitted.0
 }
 
-/// The coefficients of a fitted method for a curve and an objective, and the largest error on paper, in the objective's measure.
-/// None where the method is not fitted, or where its terms are linearly dependent under these weights.
-pub fn coefficients_and_error(
-    method: &Method,
-    curve: &FitCurve,
-    aim: FitObjective,
-) -> Option<(Values, f64)> {
-    let fit = FitProblem::new(curve, aim).fit(&basis(&method.shape?))?;
-    let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
-    Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
-}
-
 /// The values of all inputs of a method except a texture. A method that solves its colours for an index gets colours that some
 /// index has.
-pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
+fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
     let solvable;
     let surface = if method.replacement.is_some() {
@@ -81,10 +70,6 @@ pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     };
     let value = |input: &Input| Some((input.name.to_owned(), input.value(surface)?));
     method.inputs.iter().filter_map(value).collect()
-}
-
-fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
-    optics::conductor(n, k, cos_theta).unpolarised()
 }
 
 #[cfg(test)]

@@ -3,13 +3,8 @@
 //! At an end e, `Σ cᵢ bᵢ(e) = F(e)` gives `cⱼ = (F(e) - Σ cᵢ bᵢ(e)) / bⱼ(e)`, with the sum over all other i. We choose the j with
 //! the largest `|bⱼ(e)|` and substitute its `cⱼ`. The exchange then fits the other coefficients to the rest of F. The result is
 //! the best of all forms that are exact at the end.
-//!
-//! This file also computes the thesis's measure in 32-bit floats, as the thesis's program does throughout (section 4): angles,
-//! both functions, their difference and the sums. Over 10⁶ angles, a sum loses its last digits, and the mean moves by about 10⁻⁴
-//! of its value. That can change a printed digit.
 
-use super::minimax::{Limit, Points, minimax};
-use crate::language::ir::{Checked, Value, evaluate};
+use super::minimax::{Limit, Points, minimax, weighted_sum};
 use crate::physics::num::Precision;
 
 /// The ends, 0 and 90 degrees, at which a form equals the reference exactly.
@@ -88,7 +83,7 @@ pub(super) fn fit_meeting(points: Points, ends: &[usize]) -> Option<Vec<f64>> {
     };
     let mut found = fit_meeting(reduced, rest)?;
     found.insert(largest, 0.0);
-    found[largest] = (value - sum(at, &found)) / at[largest];
+    found[largest] = (value - weighted_sum(at, &found)) / at[largest];
     Some(found)
 }
 
@@ -109,7 +104,7 @@ pub(super) fn rounded_coefficients(
         moved[2] = stepped(moved[2], steps.1);
         let missed: f64 = ends
             .iter()
-            .map(|(row, value)| value - sum(row, &moved))
+            .map(|(row, value)| value - weighted_sum(row, &moved))
             .sum();
         moved[0] = Precision::F32.rounded(moved[0] + missed / ends.len() as f64);
         moved
@@ -117,7 +112,7 @@ pub(super) fn rounded_coefficients(
     let error_at_ends = |coefficients: &Vec<f64>| {
         let errors = ends
             .iter()
-            .map(|(row, value)| (value - sum(row, coefficients)).abs());
+            .map(|(row, value)| (value - weighted_sum(row, coefficients)).abs());
         errors.fold(0.0, f64::max)
     };
     let mut best = nearest.clone();
@@ -139,10 +134,6 @@ fn ring(size: i32) -> impl Iterator<Item = (i32, i32)> {
     all.filter(move |(a, b)| a.abs().max(b.abs()) == size)
 }
 
-fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
-    row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
-}
-
 /// The f32 that is `steps` units in the last place further from 0, or nearer if negative.
 fn stepped(value: f64, steps: i32) -> f64 {
     let bits = (value as f32).to_bits().saturating_add_signed(steps);
@@ -152,35 +143,6 @@ fn stepped(value: f64, steps: i32) -> f64 {
     } else {
         value
     }
-}
-
-/// Mean relative difference between two functions of the cosine, over angles and channels, all in f32.
-pub fn thesis_error_in_floats(got: &Checked, want: &Checked, angles: usize) -> f32 {
-    const CHUNK: usize = 4096;
-    let mut sums = [0.0f32; 3];
-    for start in (0..angles).step_by(CHUNK) {
-        let cosines: Vec<f32> = (start..(start + CHUNK).min(angles))
-            .map(|i| cosine(i, angles))
-            .collect();
-        add(&mut sums, got, want, cosines);
-    }
-    sums.map(|sum| sum / angles as f32).iter().sum::<f32>() / 3.0
-}
-
-fn add(sums: &mut [f32; 3], got: &Checked, want: &Checked, cosines: Vec<f32>) {
-    let points = cosines.len();
-    let arguments = [Value::each(cosines)];
-    let [got, want] = [got, want].map(|function| evaluate::<f32>(function, &arguments));
-    for (i, sum) in sums.iter_mut().enumerate() {
-        let (got, want) = (got.channel(i), want.channel(i));
-        for point in 0..points {
-            *sum += (got.at(point) - want.at(point)).abs() / want.at(point);
-        }
-    }
-}
-
-fn cosine(step: usize, steps: usize) -> f32 {
-    libm::cosf(step as f32 / steps as f32 * std::f32::consts::FRAC_PI_2)
 }
 
 #[cfg(test)]
@@ -201,7 +163,7 @@ mod tests {
             limits: &[],
         };
         let found = fit_meeting(points, &[2000]).expect("a line");
-        assert!((sum(&rows[2000], &found) - 1.0).abs() < 1e-14);
+        assert!((weighted_sum(&rows[2000], &found) - 1.0).abs() < 1e-14);
         let both = fit_meeting(points, &[2000, 0]);
         let both = both.expect("both ends say all");
         assert!(both[0].abs() < 1e-14 && (both[1] - 1.0).abs() < 1e-14);
@@ -220,11 +182,14 @@ mod tests {
             [1.0, 4.9e-4, 5.3e-4, 2.6e-7, 2.6e-7],
         );
         let coefficients = [0.91 + 1e-9, 31.000_000_7, -401.123_456_789, 90.3, -2.0];
-        let ends = [grazing, normal].map(|row| (row, sum(&row, &coefficients)));
+        let ends = [grazing, normal].map(|row| (row, weighted_sum(&row, &coefficients)));
         let ends = [(&ends[0].0[..], ends[0].1), (&ends[1].0[..], ends[1].1)];
         let found = rounded_coefficients(&coefficients, &ends, Precision::F32);
         for (row, value) in ends {
-            assert!((sum(row, &found) - value).abs() < 1e-7, "{found:?}");
+            assert!(
+                (weighted_sum(row, &found) - value).abs() < 1e-7,
+                "{found:?}"
+            );
         }
         assert!(
             found.iter().all(|c| Precision::F32.rounded(*c) == *c),

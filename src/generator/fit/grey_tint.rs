@@ -67,17 +67,14 @@ pub fn grey_tint(reference: &ReferenceCurve) -> GreyTint {
             low = left;
         }
     }
-    let middle = 0.5 * (low + high);
-    let best = [middle, 1.0].map(|tint| tinted.error(tint));
-    let schlick_max_abs = best[1].max_abs;
-    let [found, schlick] = best;
+    let [found, schlick] = [0.5 * (low + high), 1.0].map(|tint| tinted.error(tint));
     let least = if found.max_abs < schlick.max_abs {
         found
     } else {
         schlick
     };
     GreyTint {
-        schlick_max_abs,
+        schlick_max_abs: schlick.max_abs,
         ..least
     }
 }
@@ -108,15 +105,21 @@ impl Tinted<'_> {
 }
 
 /// The largest F0 for which an index is solved. Above it, a hundredth of F82 moves n by more than its half.
-pub const LARGEST_SOLVED_F0: f64 = 0.985;
+const LARGEST_SOLVED_F0: f64 = 0.985;
 
 /// The reflectance curve of a channel with two given colours.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Follows {
-    /// The exact law of this index.
-    Law(EffectiveIndex),
+    /// The exact law of an index.
+    Law {
+        /// Its real part.
+        n: f64,
+        /// Its extinction coefficient.
+        k: f64,
+    },
     /// The method `f82_tint`: no index has these colours.
-    Tint {
+    F82Tint {
         /// Reflectance at 0 degrees.
         f0: f64,
         /// Reflectance at 81.79 degrees, divided by Schlick's value there.
@@ -127,19 +130,22 @@ pub enum Follows {
 impl Follows {
     /// The curve through two reflectances, at 0 and at 81.79 degrees.
     pub fn of(f0: f64, f82: f64) -> Follows {
-        let index = index_from_f0_f82(f0, f82);
-        if index.exact && f0 < LARGEST_SOLVED_F0 {
-            return Follows::Law(index);
+        let EffectiveIndex { n, k, exact } = index_from_f0_f82(f0, f82);
+        if exact && f0 < LARGEST_SOLVED_F0 {
+            return Follows::Law { n, k };
         }
         let tint = f82 / schlick_82(f0);
-        Follows::Tint { f0, tint }
+        Follows::F82Tint { f0, tint }
     }
 
     /// The reflectance at a cosine.
     pub fn at(&self, cos_theta: f64) -> f64 {
         match *self {
-            Follows::Law(index) => optics::conductor(index.n, index.k, cos_theta).unpolarised(),
-            Follows::Tint { f0, tint } => tinted(f0, tint, cos_theta),
+            Follows::Law { n, k } => optics::conductor(n, k, cos_theta).unpolarised(),
+            Follows::F82Tint { f0, tint } => {
+                let arguments = [cos_theta, f0, tint].map(Value::scalar);
+                evaluate::<f64>(&F82_TINT, &arguments).at(0)[0]
+            }
         }
     }
 }
@@ -149,11 +155,6 @@ static F82_TINT: LazyLock<Checked> = LazyLock::new(|| {
     let method = methods::find("f82_tint").expect("a test follows it");
     method.function(true).expect("a test builds every method")
 });
-
-fn tinted(f0: f64, tint: f64, cos_theta: f64) -> f64 {
-    let arguments = [cos_theta, f0, tint].map(Value::scalar);
-    evaluate::<f64>(&F82_TINT, &arguments).at(0)[0]
-}
 
 #[cfg(test)]
 mod tests {
@@ -170,7 +171,11 @@ mod tests {
             (0.99, 0.99, false),
         ] {
             let follows = Follows::of(f0, f82);
-            assert_eq!(matches!(follows, Follows::Law(_)), is_law, "{follows:?}");
+            assert_eq!(
+                matches!(follows, Follows::Law { .. }),
+                is_law,
+                "{follows:?}"
+            );
             assert!((follows.at(1.0) - f0).abs() < 1e-9, "{follows:?}");
             assert!(
                 (follows.at(optics::COS_82) - f82).abs() < 1e-9,

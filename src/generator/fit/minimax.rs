@@ -110,14 +110,15 @@ fn furthest(places: usize, missed: impl Fn(usize) -> f64) -> (usize, f64) {
     })
 }
 
-fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
+/// The value of a form whose functions have these values.
+pub(super) fn weighted_sum(row: &[f64], coefficients: &[f64]) -> f64 {
     row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
 }
 
 impl Limit {
     /// How far the range lies above the sum; negative where the sum is too large.
     fn beyond(&self, coefficients: &[f64]) -> f64 {
-        let sum = sum(&self.row, coefficients);
+        let sum = weighted_sum(&self.row, coefficients);
         sum.clamp(self.least, self.most) - sum
     }
 }
@@ -125,7 +126,7 @@ impl Limit {
 impl Points<'_> {
     /// The weighted difference of the wanted value and the form.
     fn missed(&self, point: usize, coefficients: &[f64]) -> f64 {
-        (self.wanted[point] - sum(&self.rows[point], coefficients)) * self.weights[point]
+        (self.wanted[point] - weighted_sum(&self.rows[point], coefficients)) * self.weights[point]
     }
 
     /// The row of an entry, and what it should sum to.

@@ -3,12 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::rounded::{arguments, table_of};
-use crate::generator::reference::{
-    ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
-};
+use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 use crate::language::ir::{Checked, Column, Value, evaluate};
-use crate::language::methods::Light;
-use crate::physics::materials::{Channels, Surface};
 use crate::physics::num::each_channel;
 
 /// The error of a method for a material, independent of the code that computes it.
@@ -135,7 +131,7 @@ pub fn error_from(
 
 /// The error of values at these cosines against the exact law. Means are over the first [`ANGLES`], or over all where there are
 /// fewer.
-pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]) -> ModelError {
+pub fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
         mean_abs: 0.0,
@@ -187,47 +183,6 @@ impl ModelError {
         }
         if difference > self.max_abs {
             (self.max_abs, self.worst_cos) = (difference, cos_theta);
-        }
-    }
-}
-
-/// The thesis's measure of several functions of `cos_theta` alone for one material: mean relative difference per channel at
-/// `angles` angles, uniform from 0 to 90 degrees (midpoints of equal steps). The exact law, which costs the most, is computed
-/// once. `progress` receives how many angles are done.
-pub fn thesis_errors(
-    functions: &[&Checked],
-    channels: &Channels,
-    angles: usize,
-    progress: &mut dyn FnMut(usize),
-) -> Vec<[f64; 3]> {
-    const CHUNK: usize = 4096;
-    let surface = Surface::of_channels(channels);
-    let mut sums = vec![[0.0; 3]; functions.len()];
-    for start in (0..angles).step_by(CHUNK) {
-        let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
-            .map(|i| cosine_of_part(2 * i + 1, 2 * angles))
-            .collect();
-        let want: Vec<[f64; 3]> = cosines
-            .iter()
-            .map(|c| reference_reflectance(&surface, Light::Unpolarised, *c))
-            .collect();
-        let points = cosines.len();
-        let arguments = [Value::each(cosines)];
-        for (function, sums) in functions.iter().zip(&mut sums) {
-            add_differences(&evaluate(function, &arguments), &want, sums);
-        }
-        progress(points);
-    }
-    let mean = |sums: [f64; 3]| sums.map(|sum| sum / angles as f64);
-    sums.into_iter().map(mean).collect()
-}
-
-/// Adds the relative differences, point by point.
-fn add_differences(got: &Value<f64>, want: &[[f64; 3]], sums: &mut [f64; 3]) {
-    for (i, sum) in sums.iter_mut().enumerate() {
-        let got = got.channel(i);
-        for (point, want) in want.iter().enumerate() {
-            *sum += (got.at(point) - want[i]).abs() / want[i];
         }
     }
 }

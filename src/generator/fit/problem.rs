@@ -5,21 +5,16 @@
 //! A function ends with a clamp to [0, 1]. What is linear in the coefficients has none: the integrals of image-based light, and
 //! the mean over the hemisphere. Coefficients that serve both are those of a form that keeps the range by itself. A function of
 //! one material is fitted without that condition: it clamps, and is more accurate so.
-//!
-//! A measure of error is a [`Weight`]: absolute, relative, luminance, or visible colour difference.
 
-use glam::DVec3;
-
-use super::derive::coefficients_and_error;
 use super::exact::{Exact, fit_meeting, rounded_coefficients};
-use super::minimax::{Limit, Points};
-use super::perceived::lab;
+use super::minimax::{Limit, Points, weighted_sum};
 use super::rounded::rounded;
+use super::weight::{Weight, luminance, shares};
 use crate::generator::reference::{MaterialInMedium, reference_reflectance};
-use crate::language::methods::{Light, Method, Shape, Values, unwarped};
+use crate::language::methods::{Input, Light, Method, Shape, Values, unwarped};
 use crate::physics::materials::Surface;
 use crate::physics::num::{Precision, each_channel};
-use crate::physics::spectra::{Gamut, Space, ciede2000};
+use crate::physics::spectra::{Gamut, Space};
 
 /// The number of cosines at which a curve is fitted, from 0 to 1, dense towards grazing as in `--axis steep`. Twice as many
 /// change no error by a hundredth of it.
@@ -215,10 +210,8 @@ impl FitProblem<'_> {
         blue: &[f64],
     ) -> Option<Vec<f64>> {
         let share = shares(self.aim.space);
-        let form =
-            |row: &[f64], found: &[f64]| -> f64 { row.iter().zip(found).map(|(b, c)| b * c).sum() };
         let rest = |(row, seen): (&Vec<f64>, &[f64; 3])| {
-            let others = share.x * form(row, red) + share.z * form(row, blue);
+            let others = share.x * weighted_sum(row, red) + share.z * weighted_sum(row, blue);
             (luminance(*seen, self.aim.space) - others) / share.y
         };
         let wanted: Vec<f64> = basis.iter().zip(&self.curve.seen).map(rest).collect();
@@ -238,6 +231,18 @@ impl FitProblem<'_> {
     }
 }
 
+/// The coefficients of a fitted method for a curve and an objective, and the largest error on paper, in the objective's measure.
+/// None where the method is not fitted, or where its terms are linearly dependent under these weights.
+pub fn coefficients_and_error(
+    method: &Method,
+    curve: &FitCurve,
+    aim: FitObjective,
+) -> Option<(Values, f64)> {
+    let fit = FitProblem::new(curve, aim).fit(&basis(&method.shape?))?;
+    let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
+    Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
+}
+
 /// Coefficients with their errors, on paper and before the clamp to [0, 1].
 #[derive(Clone, Debug)]
 pub struct Coefficients {
@@ -255,110 +260,16 @@ impl Coefficients {
     /// Fits a method. None where its terms are linearly dependent on the curve's angles.
     pub fn fit(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<Coefficients> {
         let (values, error) = coefficients_and_error(method, curve, aim)?;
-        let free = FitObjective {
-            exact: Exact::default(),
-            ..aim
-        };
-        let free = aim
-            .exact
-            .is_any()
-            .then(|| coefficients_and_error(method, curve, free));
+        let exact = Exact::default();
+        let free = || coefficients_and_error(method, curve, FitObjective { exact, ..aim });
+        let free = aim.exact.is_any().then(free).flatten();
         Some(Coefficients {
             values,
             aim,
             error,
-            error_without_exact: free.flatten().map(|(_, error)| error),
+            error_without_exact: free.map(|(_, error)| error),
         })
     }
-}
-
-/// The measure of error whose largest value over all angles is minimised.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Weight {
-    /// `|f - F|`, channel by channel.
-    #[default]
-    Absolute,
-    /// `|f - F| / |F|`, channel by channel.
-    Relative,
-    /// `|Y (f - F)|`, where Y is the space's luminance. That is one condition on three channels. Red and blue minimise their own
-    /// `|f - F|`, and green, which carries most of the luminance, takes the coefficients that make the three together the best.
-    /// The error of green alone grows by what it compensates.
-    Luminance,
-    /// `ΔE₀₀`, beside the white of the space. The fit minimises `w |f - F|` channel by channel, where w is the ΔE₀₀ per unit of
-    /// that channel at the true colour. This is right for small errors of a single channel. Errors of several channels together
-    /// can look larger or smaller than their largest. Reports give the figure of all three, and unit weights are taken where they
-    /// make it smaller. Without iteration, the result is no optimum.
-    DeltaE,
-}
-
-/// The least reference of a relative error: smaller ones count as this.
-const LEAST: f64 = 1e-6;
-/// The step of a channel for its derivative of ΔE₀₀.
-const STEP: f64 = 1e-4;
-
-impl Weight {
-    /// All of them; the first is the default.
-    pub const ALL: [Weight; 4] = [
-        Weight::Absolute,
-        Weight::Relative,
-        Weight::Luminance,
-        Weight::DeltaE,
-    ];
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Weight::Absolute => "absolute",
-            Weight::Relative => "relative",
-            Weight::Luminance => "luminance",
-            Weight::DeltaE => "delta-e",
-        }
-    }
-
-    /// Whether it needs the working space of the colours, and not only single channels.
-    pub fn is_of_colours(self) -> bool {
-        matches!(self, Weight::Luminance | Weight::DeltaE)
-    }
-
-    /// The weight of each channel's error, near a reference reflectance.
-    pub(super) fn of_channels(self, reference: [f64; 3], space: Space) -> [f64; 3] {
-        match self {
-            Weight::Absolute | Weight::Luminance => [1.0; 3],
-            Weight::Relative => reference.map(|reflectance| 1.0 / reflectance.abs().max(LEAST)),
-            Weight::DeltaE => each_channel(|channel| {
-                let mut moved = reference;
-                moved[channel] += STEP;
-                self.error(moved, reference, space) / STEP
-            }),
-        }
-    }
-
-    /// The error of a reflectance against the reference, in this measure. Unit: reflectance, a ratio, or ΔE₀₀.
-    pub fn error(self, reflectance: [f64; 3], reference: [f64; 3], space: Space) -> f64 {
-        let difference = (DVec3::from(reflectance) - DVec3::from(reference)).abs();
-        match self {
-            Weight::Absolute => difference.max_element(),
-            Weight::Relative => {
-                (difference / DVec3::from(reference).abs().max(DVec3::splat(LEAST))).max_element()
-            }
-            Weight::Luminance => {
-                (luminance(reflectance, space) - luminance(reference, space)).abs()
-            }
-            Weight::DeltaE => {
-                ciede2000(lab(reflectance.into(), space), lab(reference.into(), space))
-            }
-        }
-    }
-}
-
-/// The luminance of three channels, 1 for (1, 1, 1).
-pub(super) fn luminance(rgb: [f64; 3], space: Space) -> f64 {
-    shares(space).dot(rgb.into())
-}
-
-/// The share of each channel in luminance.
-pub(super) fn shares(space: Space) -> DVec3 {
-    space.rgb_to_xyz().row(1)
 }
 
 #[cfg(test)]
@@ -473,39 +384,5 @@ mod tests {
                 );
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod weight_tests {
-    use super::*;
-
-    const GOLD: [f64; 3] = [1.03, 0.71, 0.29];
-
-    #[test]
-    fn an_error_is_told_in_each_measure() {
-        let given = [1.02, 0.72, 0.29];
-        for (weight, wanted) in [
-            (Weight::Absolute, 0.01),
-            (Weight::Relative, 0.01 / 0.71),
-            (Weight::Luminance, 0.01 * (0.7152 - 0.2126)),
-        ] {
-            let found = weight.error(given, GOLD, Space::Srgb);
-            assert!((found - wanted).abs() < 1e-5, "{weight:?}: {found}");
-        }
-    }
-
-    /// For a small error of a single channel, the weight gives the ΔE₀₀ within a hundredth.
-    #[test]
-    fn the_weight_of_a_channel_is_what_is_seen_of_it() {
-        let weights = Weight::DeltaE.of_channels(GOLD, Space::Srgb);
-        for (channel, weight) in weights.into_iter().enumerate() {
-            let mut given = GOLD;
-            given[channel] -= 0.001;
-            let seen = Weight::DeltaE.error(given, GOLD, Space::Srgb);
-            assert!((seen / (0.001 * weight) - 1.0).abs() < 0.01, "{channel}");
-        }
-        let nothing = Weight::Relative.of_channels([0.0; 3], Space::Srgb);
-        assert!(nothing.iter().all(|weight| weight.is_finite()));
     }
 }

@@ -3,6 +3,7 @@
 use super::view::{AdapterView, view};
 use crate::generator::emit::{self, AdapterDetail, Artifact, CatalogueRow, Detail, OUTPUT_LICENCE};
 use crate::generator::lut::{self, SplitSumAxis};
+use crate::language::targets::Finish;
 
 /// A target adapted to one host.
 #[derive(Debug)]
@@ -114,7 +115,7 @@ pub fn files(
     let file = |page: &FlavourPage, material: Option<&str>, view: &AdapterView, command: &str| {
         let name = page.file_of(material.unwrap_or_default());
         let path = format!("{}/{name}", flavour.name);
-        let bytes = emit::text_of_template(page.template, view, &path)?;
+        let bytes = emit::render_template(page.template, view, Finish::Text, &path)?;
         let detail = Detail::Adapter(AdapterDetail {
             command: command.to_owned(),
             host: flavour.host,

@@ -190,7 +190,7 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
         name: row.name.clone(),
         constant: row.name.to_uppercase(),
         pascal: pascal(&row.name),
-        class: row.class,
+        class: row.class.name(),
         method: row.method.name,
         function: format!("{prefix}{}_{}", row.name, row.method.name),
         library_function: format!("{prefix}{}", row.method.name),

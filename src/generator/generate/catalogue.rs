@@ -153,7 +153,7 @@ fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command
         licence: OUTPUT_LICENCE,
         order: COEFFICIENT_ORDER,
         first_dielectric: emit::first_dielectric(rows),
-        buffer: BufferDetail::new(),
+        buffer: BufferDetail::ENTRY,
         textures: CatalogueTexture::ALL.map(|texture| texture.detail(rows)),
         methods: CatalogueMethod::all(rows),
         materials: CatalogueMaterial::all(rows),

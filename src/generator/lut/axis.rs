@@ -57,39 +57,31 @@ impl TableAxis {
         TableAxis::Grazing,
     ];
 
+    /// The name on the command line; w of c, as every shading language writes it; k of the axes w = (1 + k) c / (1 + k c).
+    fn row(self) -> (&'static str, &'static str, Option<f64>) {
+        match self {
+            TableAxis::Cos => ("cos", "c", Some(0.0)),
+            TableAxis::Square => ("square", "c * (2.0 - c)", None),
+            TableAxis::Sqrt => ("sqrt", "sqrt(c)", None),
+            TableAxis::Rational => ("rational", "5.0 * c / (4.0 * c + 1.0)", Some(WARP)),
+            TableAxis::Steep => ("steep", "9.0 * c / (8.0 * c + 1.0)", Some(8.0)),
+            TableAxis::Grazing => ("grazing", "65.0 * c / (64.0 * c + 1.0)", Some(64.0)),
+        }
+    }
+
     /// The name on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            TableAxis::Cos => "cos",
-            TableAxis::Square => "square",
-            TableAxis::Sqrt => "sqrt",
-            TableAxis::Rational => "rational",
-            TableAxis::Steep => "steep",
-            TableAxis::Grazing => "grazing",
-        }
+        self.row().0
     }
 
     /// w of c, as every shading language writes it.
     pub fn formula(self) -> &'static str {
-        match self {
-            TableAxis::Cos => "c",
-            TableAxis::Square => "c * (2.0 - c)",
-            TableAxis::Sqrt => "sqrt(c)",
-            TableAxis::Rational => "5.0 * c / (4.0 * c + 1.0)",
-            TableAxis::Steep => "9.0 * c / (8.0 * c + 1.0)",
-            TableAxis::Grazing => "65.0 * c / (64.0 * c + 1.0)",
-        }
+        self.row().1
     }
 
     /// The constant k of the axes w = (1 + k) c / (1 + k c), which the method `table` takes as `warp`.
     pub fn constant(self) -> Option<f64> {
-        match self {
-            TableAxis::Cos => Some(0.0),
-            TableAxis::Square | TableAxis::Sqrt => None,
-            TableAxis::Rational => Some(WARP),
-            TableAxis::Steep => Some(8.0),
-            TableAxis::Grazing => Some(64.0),
-        }
+        self.row().2
     }
 
     /// w of a cosine in [0, 1], in any number type: 0 at 0 and 1 at 1, exactly.

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::axis::TableAxis;
-use super::format::Depth;
+use super::depth::Depth;
 use super::ktx2::ktx2;
 use super::picture::Picture;
 use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
@@ -34,34 +34,25 @@ impl CatalogueTexture {
     /// Both, the smaller first.
     pub const ALL: [CatalogueTexture; 2] = [CatalogueTexture::Half, CatalogueTexture::Float];
 
+    /// The file's name, the format of its texels by Vulkan's name, and their depth.
+    const fn row(self) -> (&'static str, &'static str, Depth) {
+        match self {
+            CatalogueTexture::Half => ("catalogue.f16.ktx2", "R16G16B16A16_SFLOAT", Depth::Half),
+            CatalogueTexture::Float => ("catalogue.f32.ktx2", "R32G32B32A32_SFLOAT", Depth::Float),
+        }
+    }
+
     /// The file's name.
     pub const fn file(self) -> &'static str {
-        match self {
-            CatalogueTexture::Half => "catalogue.f16.ktx2",
-            CatalogueTexture::Float => "catalogue.f32.ktx2",
-        }
-    }
-
-    /// The depth of its texels.
-    pub fn depth(self) -> Depth {
-        match self {
-            CatalogueTexture::Half => Depth::Half,
-            CatalogueTexture::Float => Depth::Float,
-        }
-    }
-
-    fn format(self) -> &'static str {
-        match self {
-            CatalogueTexture::Half => "R16G16B16A16_SFLOAT",
-            CatalogueTexture::Float => "R32G32B32A32_SFLOAT",
-        }
+        self.row().0
     }
 
     /// The entry of its file.
     pub fn detail(self, rows: &[CatalogueRow]) -> CatalogueTextureDetail {
+        let (file, format, _) = self.row();
         CatalogueTextureDetail {
-            file: self.file(),
-            format: self.format(),
+            file,
+            format,
             width: COEFFICIENTS,
             height: rows.len(),
             texel: "x is i of c_i, y is row / 4; fetch, do not filter",
@@ -71,7 +62,7 @@ impl CatalogueTexture {
 
     /// Its file. `space` is the colours' space.
     pub fn encode(self, rows: &[CatalogueRow], space: Option<Space>) -> Vec<u8> {
-        let depth = self.depth();
+        let (_, _, depth) = self.row();
         let colours = rows.iter().flat_map(|row| &row.coefficients);
         let texels = colours.map(|colour| colour.map(|value| depth.nearest(value)));
         ktx2(&Picture {

@@ -12,7 +12,7 @@ use exr::prelude::{
     LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
 };
 
-use super::format::Depth;
+use super::depth::Depth;
 use super::picture::Picture;
 use crate::physics::spectra::Space;
 

@@ -6,7 +6,7 @@
 //! format of 16 bits that all can filter, so alpha is 1. The transfer function is linear and the orientation `rd`: the first row
 //! is the top one.
 
-use super::format::Depth;
+use super::depth::Depth;
 use super::picture::Picture;
 use crate::physics::spectra::Space;
 

@@ -6,16 +6,18 @@
 //! becomes a file in a [`Format`]. [`lookup()`] is the shader function that reads it.
 //!
 //! [`CatalogueTexture`] is no table: it holds fitted coefficients, which a shader fetches by number. [`SplitSum`] is a table by
-//! angle and roughness of what a rough surface reflects, and [`compensation`] adds what it reflects more than once.
+//! angle and roughness of what a rough surface reflects.
 //!
 //! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format that can
 //! say so does. Nothing here uses the disk or the terminal. EXR and PNG need the feature `cli`.
 
 mod axis;
 mod catalogue;
+mod depth;
 mod exr;
 mod format;
 mod ktx2;
+mod limits;
 mod lookup;
 mod picture;
 mod png;
@@ -27,8 +29,10 @@ mod text;
 
 pub use axis::TableAxis;
 pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
-pub use format::{Depth, Error, Format, Stored, TABLES};
+pub use depth::Depth;
+pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
+pub use limits::{Error, LEAST_TEXELS, check_side, check_size};
 pub use lookup::lookup;
 pub use picture::{Picture, TermChannels};
 pub use search::{
@@ -36,7 +40,7 @@ pub use search::{
 };
 pub use split_sum::{
     BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
-    WHITE_MEAN_LOST, check_side, compensation, series_of_bounces, term_range, white_mean,
+    WHITE_MEAN_LOST, term_range,
 };
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
-pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};
+pub use table::{Stored, Table};

@@ -7,7 +7,7 @@
 
 use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
 
-use super::format::Depth;
+use super::depth::Depth;
 use super::picture::Picture;
 use crate::physics::spectra::Space;
 

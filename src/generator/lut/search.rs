@@ -5,8 +5,9 @@
 //! uniform from 0 to 90 degrees.
 
 use super::axis::TableAxis;
-use super::format::{Depth, Error, Stored};
-use super::table::{LEAST_TEXELS, MOST_TEXELS, Table, centre};
+use super::depth::Depth;
+use super::limits::{Error, LEAST_TEXELS, MOST_TEXELS};
+use super::table::{Stored, Table, centre};
 use crate::generator::fit::{ModelError, error_of};
 use crate::generator::reference::{ReferenceCurve, reference_reflectance};
 use crate::language::ir::{Column, Value, Weights};
@@ -137,7 +138,7 @@ impl TableFamily<'_> {
         let Some(tables) = self.truths.iter().map(made).collect::<Option<Vec<Table>>>() else {
             return f64::INFINITY;
         };
-        let scale = self.depth.scale(&tables.iter().collect::<Vec<_>>());
+        let scale = Table::shared_scale(&tables.iter().collect::<Vec<_>>(), self.depth);
         let mut worst = 0.0f64;
         for (reference, table) in self.truths.iter().zip(&tables) {
             let stored = Stored::scaled(table, self.depth, scale);

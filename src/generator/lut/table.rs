@@ -1,10 +1,11 @@
-//! A table: reflectance at the centres of texels along an axis, and its filtered lookup.
+//! A table: reflectance at the centres of texels along an axis, the same rounded to a depth ([`Stored`]), and its filtered lookup.
 //!
 //! The lookup is that of a linear sampler that clamps to the edge. The coordinate is computed as in a shader, in binary32 and
 //! unfused. The texels are then mixed by [`filtered`].
 
 use super::axis::TableAxis;
-use super::format::{Error, Stored};
+use super::depth::Depth;
+use super::limits::{Error, check_size};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Weights, filtered};
 use crate::physics::num::Num;
@@ -18,23 +19,6 @@ pub struct Table {
     pub axis: TableAxis,
     /// Red, green and blue at each texel's centre, linear, in the gamut of the reference.
     pub texels: Vec<[f64; 3]>,
-}
-
-/// The fewest texels: one at each end.
-pub const LEAST_TEXELS: usize = 2;
-/// The most texels: the longest side of a texture that all today's GPUs take (Direct3D 11's limit; WebGL 2 asks for 2048).
-pub const MOST_TEXELS: usize = 16_384;
-
-/// Refuses a number of texels that a texture cannot have.
-///
-/// # Errors
-/// Fewer than [`LEAST_TEXELS`], or more than [`MOST_TEXELS`].
-pub fn check_size(texels: usize) -> Result<(), Error> {
-    if (LEAST_TEXELS..=MOST_TEXELS).contains(&texels) {
-        Ok(())
-    } else {
-        Err(Error::Size { texels })
-    }
 }
 
 impl Table {
@@ -56,6 +40,22 @@ impl Table {
             texels: (0..texels).map(texel).collect(),
         })
     }
+
+    /// The factor to store with tables in a depth: 1, or for integers the largest channel of all where that is above 1, rounded
+    /// up to binary32.
+    pub fn shared_scale(tables: &[&Table], depth: Depth) -> f32 {
+        if depth.largest().is_none() {
+            return 1.0;
+        }
+        let texels = tables.iter().flat_map(|table| &table.texels);
+        let most = texels.flatten().copied().fold(1.0, f64::max);
+        let near = most as f32;
+        if f64::from(near) < most {
+            near.next_up()
+        } else {
+            near
+        }
+    }
 }
 
 /// The cosine at the centre of a texel, or between two.
@@ -63,7 +63,40 @@ pub(super) fn centre(axis: TableAxis, texel: f64, texels: usize) -> f64 {
     axis.cosine(texel / (texels - 1) as f64)
 }
 
+/// A table as stored in a GPU texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stored {
+    /// The axis of cosines.
+    pub axis: TableAxis,
+    /// The number type.
+    pub depth: Depth,
+    /// value = texel × scale.
+    pub scale: f32,
+    /// The value of each texel that a sampler returns.
+    pub texels: Vec<[f32; 3]>,
+}
+
 impl Stored {
+    /// A table divided by its own scale and rounded.
+    pub fn new(table: &Table, depth: Depth) -> Stored {
+        Stored::scaled(table, depth, Table::shared_scale(&[table], depth))
+    }
+
+    /// A table divided by a scale that it may share with others, and rounded.
+    pub fn scaled(table: &Table, depth: Depth, scale: f32) -> Stored {
+        let rounded = |value: f64| depth.nearest(value / f64::from(scale));
+        Stored {
+            axis: table.axis,
+            depth,
+            scale,
+            texels: table
+                .texels
+                .iter()
+                .map(|texel| texel.map(rounded))
+                .collect(),
+        }
+    }
+
     /// The filtered lookup at a cosine, scale included. A NaN is looked up at 0.
     pub fn lookup(&self, weights: Weights, cos_theta: f32) -> [f32; 3] {
         self.sample(weights, self.coordinate(cos_theta))
@@ -84,6 +117,7 @@ impl Stored {
 
 #[cfg(test)]
 mod tests {
+    use super::super::limits::MOST_TEXELS;
     use super::*;
     use crate::language::methods::Light;
     use crate::physics::materials::{Channels, Surface};
@@ -106,12 +140,26 @@ mod tests {
             assert!(error.to_string().contains("2 to 16384"), "{error}");
         }
     }
-}
 
-#[cfg(test)]
-mod filter_tests {
-    use super::*;
-    use crate::generator::lut::format::Depth;
+    #[test]
+    fn integers_are_scaled_where_a_channel_is_above_one() {
+        let table = |normal: [f64; 3]| Table {
+            name: "invented".to_owned(),
+            axis: TableAxis::Cos,
+            texels: vec![[1.0; 3], normal],
+        };
+        let gold = table([1.058_7, 0.77, 0.31]);
+        for depth in Depth::ALL {
+            let stored = Stored::new(&gold, depth);
+            let is_integer = depth.largest().is_some();
+            assert_eq!(stored.scale > 1.0, is_integer, "{depth:?}");
+            let most = f64::from(stored.texels[1][0]) * f64::from(stored.scale);
+            assert!((most - 1.058_7).abs() < 4e-4, "{depth:?} {most}");
+            assert!(!is_integer || stored.texels[1][0] == 1.0);
+        }
+        let glass = table([0.04; 3]);
+        assert_eq!(Stored::new(&glass, Depth::Unorm8).scale, 1.0);
+    }
 
     fn ramp(axis: TableAxis, texels: usize) -> Stored {
         let value = |i: usize| [i as f32, 2.0 * i as f32, 1.0];

@@ -1,9 +1,9 @@
 //! Is each claim kept, and not slack? A promise is broken where the measured error exceeds it, and slack where it falls
 //! below nine tenths of it.
 
+mod over;
 mod search;
 
-use fresnel_gen::generator::fit::model_error_over;
 use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::verify::{
     coefficient_code_error, cosines, library_code_error, library_code_error_at, worst_media,
@@ -35,7 +35,7 @@ fn model_errors_are_what_methods_promise() {
     let methods = methods::ALL.iter();
     let claims = methods.flat_map(|method| method.claims.model.iter().map(move |c| (method, c)));
     expect_none(claims.filter_map(|(method, claim)| {
-        let error = model_error_over(method, claim.over);
+        let error = over::model_error_over(method, claim.over);
         let (promised, measured) = (claim.max_abs, error.max_abs);
         let degrees = error.worst_cos.acos().to_degrees();
         let fault = if promised == 0.0 {

@@ -9,9 +9,8 @@ use super::host::Host;
 use super::host::number;
 use super::host::shows_a_gold_sphere;
 use crate::catalogue::{evaluated, rows_named};
-use fresnel_gen::generator::lut::{
-    Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation,
-};
+use crate::compensation::compensation;
+use fresnel_gen::generator::lut::{Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingConditions};

@@ -1,8 +1,6 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use fresnel_gen::generator::emit::{
-    Bounds, FunctionForm, Naming, half_bounds, specialised_function,
-};
+use fresnel_gen::generator::emit::{Bounds, FunctionForm, Naming, specialised_function};
 use fresnel_gen::generator::flavours;
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::lab::cost::{self, FunctionId};
@@ -186,9 +184,18 @@ pub fn targets_table() -> String {
     )
 }
 
+/// A line of the record of bounds in half precision.
+#[derive(serde::Deserialize)]
+struct HalfBound {
+    material: String,
+    method: String,
+    max_abs: f64,
+}
+
 /// Half precision: what each method promises, and the largest error of its specialised functions over the catalogue.
 pub fn half_table() -> String {
-    let bounds = half_bounds();
+    let record = include_str!("../../../data/code-bounds-f16.csv");
+    let bounds: Vec<HalfBound> = fresnel_gen::physics::records::rows(record);
     let worst = |method: &Method| {
         let rows = bounds.iter().filter(|row| row.method == method.name);
         let largest = rows.max_by(|a, b| a.max_abs.total_cmp(&b.max_abs));

@@ -9,14 +9,15 @@
 
 use serde::Serialize;
 
-use super::{CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
+use super::row::{CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
 use crate::generator::emit::comment;
 use crate::generator::emit::detail::{CatalogueDetail, Detail};
+use crate::generator::emit::error::Error;
 use crate::generator::emit::figures::at_most;
-use crate::generator::emit::file::{Error, File};
+use crate::generator::emit::file::File;
 use crate::generator::emit::function::Naming;
-use crate::generator::emit::header::{OUTPUT_LICENCE, formula, source, start};
-use crate::generator::emit::page::{comments, finished, guard};
+use crate::generator::emit::header::{OUTPUT_LICENCE, formula, licence_line, source, start};
+use crate::generator::emit::page::{comments, guard, render_template};
 use crate::generator::fit::rounded_up;
 use crate::language::targets::{self, Target};
 
@@ -75,7 +76,7 @@ pub fn catalogue_array(
     check_names(&view)?;
     let name = format!("{CATALOGUE}.{}", target.extension);
     Ok(Some(File {
-        bytes: finished(template, &view, target.finish, &name)?,
+        bytes: render_template(template, &view, target.finish, &name)?,
         name,
         detail: Detail::Catalogue(CatalogueDetail {
             command: command.to_owned(),
@@ -158,7 +159,11 @@ fn remark(row: &CatalogueRow) -> String {
         format!("; {} at most {most}", better.method.name)
     });
     let better: String = better.collect();
-    format!("{}, {}{better}{held}", row.class, at_most(&row.error))
+    format!(
+        "{}, {}{better}{held}",
+        row.class.name(),
+        at_most(&row.error)
+    )
 }
 
 /// A colour in the shortest digits that give the same f32.
@@ -211,7 +216,7 @@ fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> 
         "Data: CC0-1.0, each with its reference: `fresnel-gen materials show {}`",
         rows[0].argument
     ));
-    lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
+    lines.push(licence_line());
     comment::lines(lines)
 }
 
@@ -255,20 +260,12 @@ pub struct BufferDetail {
 
 impl BufferDetail {
     /// The entry, which is the same for every catalogue.
-    pub fn new() -> BufferDetail {
-        BufferDetail {
-            file: CATALOGUE_BUFFER,
-            layout: "std430, little endian, no header: array<vec4<f32>>, c0 to c3 of each material",
-            stride: COEFFICIENTS * ELEMENT,
-            fourth: FOURTH,
-        }
-    }
-}
-
-impl Default for BufferDetail {
-    fn default() -> BufferDetail {
-        BufferDetail::new()
-    }
+    pub const ENTRY: BufferDetail = BufferDetail {
+        file: CATALOGUE_BUFFER,
+        layout: "std430, little endian, no header: array<vec4<f32>>, c0 to c3 of each material",
+        stride: COEFFICIENTS * ELEMENT,
+        fourth: FOURTH,
+    };
 }
 
 /// The file's bytes: rows in the order of the array.

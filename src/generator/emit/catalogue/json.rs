@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::{COEFFICIENTS, CatalogueRow, CloserFit, array, methods_of};
+use super::array;
+use super::row::{COEFFICIENTS, CatalogueRow, CloserFit, methods_of};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -69,7 +70,7 @@ impl CatalogueMaterial<'_> {
             name: &row.name,
             row: COEFFICIENTS * place,
             offset: array::offset(place),
-            class: row.class,
+            class: row.class.name(),
             method: row.method.name,
             coefficients: in_order(&row.coefficients),
             better: row.better.as_ref().map(CloserFitDetail::new),

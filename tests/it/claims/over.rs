@@ -1,13 +1,11 @@
-//! Model error of library functions over given sets of media. The claims of methods are checked against it.
+//! Model error of library functions over given sets of media.
 
-use super::derive::values;
-use super::model_error::{ModelError, difference};
-use super::rounded::texels;
-use crate::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
-use crate::language::ir::{Value, evaluate};
-use crate::language::methods::{Method, Over};
-use crate::physics::materials::{Channels, Surface};
-use crate::physics::num::each_channel;
+use fresnel_gen::generator::fit::{ModelError, difference, texels, values};
+use fresnel_gen::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods::{Method, Over};
+use fresnel_gen::physics::materials::{Channels, Surface};
+use fresnel_gen::physics::num::each_channel;
 
 /// Steps of eta, of n and of k when model errors are taken over a set.
 const STEPS: usize = 24;
