@@ -94,11 +94,8 @@ impl RenderFlags {
 }
 
 fn after_help() -> String {
-    let width = scene::ALL
-        .iter()
-        .map(|row| row.name.len())
-        .max()
-        .unwrap_or(0);
+    let width = scene::ALL.iter().map(|row| row.name.len());
+    let width = width.max().unwrap_or(0);
     let line = |row: &RenderRow| format!("  {:width$}  {}\n", row.name, row.summary);
     let names: String = scene::ALL.iter().map(line).collect();
     format!(
@@ -199,12 +196,11 @@ fn is_exr(file: &Path) -> Result<bool, Error> {
 
 /// The body's material.
 fn material(flags: &RenderFlags) -> Result<Material, Error> {
-    let own = || Ok(Source::Named(flags.name.material.to_owned()));
-    let named = flags
-        .material
-        .as_ref()
-        .map_or_else(own, |name| name.source())?;
-    let material = load(&named)?.material;
+    let source = match &flags.material {
+        Some(name) => name.source()?,
+        None => Source::Named(flags.name.material.to_owned()),
+    };
+    let material = load(&source)?.material;
     if flags.name.is_transparent() && material.kind != MaterialKind::Dielectric {
         return Err(Error::usage(format!(
             "the material `{}` is a {}; {} wants a dielectric",
@@ -235,41 +231,33 @@ pub const ERROR_SCALE: f64 = 20.0;
 /// The facts about a picture, a line each.
 pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
     let error = |of: Difference| format!("mean {:.2}, 99th percentile {:.2}", of.mean, of.p99);
+    let size = format!("{0} x {0} pixels", row.size);
+    let size = match row.samples {
+        1 => size,
+        samples => format!("{size} of {samples} samples"),
+    };
+    let body = format!("{} of {}, n {:.4}", row.body, row.material, row.n);
     let mut lines = vec![
         ("effect", row.effect.to_owned()),
-        (
-            "body",
-            format!("{} of {}, n {:.4}", row.body, row.material, row.n),
-        ),
-        (
-            "size",
-            match row.samples {
-                1 => format!("{0} x {0} pixels", row.size),
-                samples => format!("{0} x {0} pixels of {samples} samples", row.size),
-            },
-        ),
+        ("body", body),
+        ("size", size),
         ("drawn by", adapter.to_owned()),
         ("error", format!("{}: {}", row.metric, error(row.error))),
-        (
-            "own paths",
-            format!(
-                "{}, against light that goes as far as the effect follows it",
-                error(row.own_error)
-            ),
-        ),
-        ("wrong", row.wrong.to_owned()),
     ];
-    if row.searches {
-        lines.insert(lines.len() - 1, ("search", searched(row)));
-    }
     if let (Some(l1), Some(energy)) = (row.l1, row.energy) {
         let light = format!("relative L1 {}, energy {}", percent(l1), percent(energy));
-        lines.insert(5, ("light", light));
+        lines.push(("light", light));
+    }
+    let own = error(row.own_error) + ", against light that goes as far as the effect follows it";
+    lines.push(("own paths", own));
+    if row.searches {
+        lines.push(("search", searched(row)));
     }
     if let Some(leaks) = row.leaks {
         let samples = format!("{leaks} samples show what lies on the other side of the water");
-        lines.insert(lines.len() - 1, ("leaks", samples));
+        lines.push(("leaks", samples));
     }
+    lines.push(("wrong", row.wrong.to_owned()));
     let line = |(name, value): &(&str, String)| format!("{name:11}{value}\n");
     lines.iter().map(line).collect()
 }
@@ -313,11 +301,7 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
 /// # Errors
 /// The picture cannot be encoded; the text says why.
 pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
-    let radiance = |of: &[DVec3]| {
-        of.iter()
-            .map(|of| of.to_array().map(|v| v as f32))
-            .collect()
-    };
+    let radiance = |of: &[DVec3]| of.iter().map(|of| of.as_vec3().to_array()).collect();
     let panels: [Vec<[f32; 3]>; 3] = [
         radiance(&picture.drawn),
         radiance(&picture.truth),
@@ -325,17 +309,12 @@ pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
     ];
     let size = picture.row.size as usize;
     let pixels = beside(&panels, size);
-    let channel = |i: usize| pixels.iter().map(|pixel| pixel[i]).collect::<Vec<f32>>();
-    let channels = exr::prelude::AnyChannels::sort(
-        ["R", "G", "B"]
-            .into_iter()
-            .enumerate()
-            .map(|(i, name)| {
-                let samples = exr::prelude::FlatSamples::F32(channel(i));
-                exr::prelude::AnyChannel::new(name, samples)
-            })
-            .collect(),
-    );
+    let channel = |(i, name): (usize, &'static str)| {
+        let samples = pixels.iter().map(|pixel| pixel[i]).collect();
+        exr::prelude::AnyChannel::new(name, exr::prelude::FlatSamples::F32(samples))
+    };
+    let channels = ["R", "G", "B"].into_iter().enumerate().map(channel);
+    let channels = exr::prelude::AnyChannels::sort(channels.collect());
     let image = exr::prelude::Image::from_channels((3 * size, size), channels);
     let mut bytes = std::io::Cursor::new(Vec::new());
     let writer = exr::prelude::WritableImage::write(&image).non_parallel();

@@ -49,10 +49,6 @@ pub fn cost_page(families: &[Vec<CostRow>], command: &str) -> Result<String, Str
 fn section(rows: &[CostRow]) -> Option<FamilySection> {
     let family = rows.first()?.family;
     let known = rows.iter().find(|row| row.figures.is_ok());
-    let reason = match known {
-        Some(_) => None,
-        None => rows[0].figures.clone().err(),
-    };
     let longest = rows.iter().filter_map(|row| row.share).fold(0.0, f64::max);
     Some(FamilySection {
         name: family.name,
@@ -62,25 +58,25 @@ fn section(rows: &[CostRow]) -> Option<FamilySection> {
         compiler: known
             .and_then(|row| row.compiler.clone())
             .unwrap_or_default(),
-        lines: if reason.is_some() {
-            Vec::new()
-        } else {
-            rows.iter().map(|row| line(row, longest)).collect()
+        lines: match known {
+            Some(_) => rows.iter().map(|row| line(row, longest)).collect(),
+            None => Vec::new(),
         },
-        reason,
+        reason: match known {
+            Some(_) => None,
+            None => rows[0].figures.clone().err(),
+        },
     })
 }
 
 fn line(row: &CostRow, longest: f64) -> Line {
     let figures = row.figures.as_ref().ok();
     let share = row.share.unwrap_or(0.0);
+    let per_cent = row.share.map(|share| format!("{:.0}", 100.0 * share));
     Line {
         label: row.id.label(),
         cost: short(figures.map(|figures| figures.cost())),
-        share: row
-            .share
-            .map(|share| format!("{:.0}", 100.0 * share))
-            .unwrap_or_default(),
+        share: per_cent.unwrap_or_default(),
         length: format!("{:.1}", (100.0 * share / longest.max(1e-9)).max(0.0)),
         fetches: row.fetches,
         registers: short(figures.and_then(|figures| figures.registers)),
@@ -90,17 +86,14 @@ fn line(row: &CostRow, longest: f64) -> Line {
 
 /// A cost with at most two decimals.
 pub fn short(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |value| {
-        let rounded = (100.0 * value).round() / 100.0;
-        format!("{rounded}")
-    })
+    let rounded = value.map(|value| (100.0 * value).round() / 100.0);
+    rounded.map_or_else(String::new, |value| value.to_string())
 }
 
 /// The share of the exact law's cost in per cent, with a `+` for each fetch.
 pub fn percent(row: &CostRow) -> String {
-    let fetches = "+".repeat(row.fetches);
-    row.share.map_or_else(
-        || "?".to_owned(),
-        |share| format!("{:.0}{fetches}", 100.0 * share),
-    )
+    match row.share {
+        Some(share) => format!("{:.0}{}", 100.0 * share, "+".repeat(row.fetches)),
+        None => "?".to_owned(),
+    }
 }

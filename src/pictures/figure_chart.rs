@@ -1,7 +1,7 @@
 //! A figure of the thesis as a chart.
 
 use crate::lab::reproduce::{DrawnCurve, FIGURE_POINTS, ThesisFigure};
-use crate::pictures::plot::{ChartAxis, LineChart, Mark, Series, Style};
+use crate::pictures::plot::{ChartAxis, LineChart, Series, Style};
 
 /// The chart of a figure.
 pub fn figure_chart(figure: &ThesisFigure) -> LineChart {
@@ -9,17 +9,13 @@ pub fn figure_chart(figure: &ThesisFigure) -> LineChart {
     for (i, curve) in figure.curves.iter().enumerate() {
         all.push(series(curve, Style::Approximate(i)));
     }
-    let mark = |(at, label): &(f64, String)| Mark {
-        at: *at,
-        label: label.clone(),
-    };
     LineChart {
         title: format!("Figure {}: {}", figure.number, figure.subject),
         subtitle: subtitle(figure),
         x: ChartAxis::angle_of_incidence(),
         y: ChartAxis::new("unpolarised reflectance", [figure.low, 100.0], 5, "%"),
         series: all,
-        marks: figure.marks.iter().map(mark).collect(),
+        marks: figure.marks.clone(),
         foot: "fresnel-gen reproduce figures".to_owned(),
     }
 }

@@ -6,9 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use fresnel_gen::generator::emit::{
-    Artifact, CatalogueRow, fingerprint, recorded_catalogue,
-};
+use fresnel_gen::generator::emit::{Artifact, CatalogueRow, fingerprint, recorded_catalogue};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::catalogue::{add_catalogue, derived_rows};
 use fresnel_gen::generator::request::Request;

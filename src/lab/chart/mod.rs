@@ -92,7 +92,7 @@ pub struct UserFunction {
 }
 
 /// An axis of cost: that of an evaluation, by one measure.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct CostAxis {
     /// Its name on the command line: a family of GPUs, or `time`.
     pub name: &'static str,

@@ -4,7 +4,7 @@ use serde::Serialize;
 use tera::Context;
 
 use crate::generator::fit::MethodErrors;
-use crate::lab::chart::{ChartData, ChartEntry, ERRORS, FunctionOrigin, LEAST_ERROR};
+use crate::lab::chart::{ChartData, ChartEntry, CostAxis, ERRORS, FunctionOrigin, LEAST_ERROR};
 use crate::pictures::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
@@ -15,8 +15,8 @@ struct PageData<'a> {
     least_error: f64,
     as_near: f64,
     entries: Vec<EntryColumns<'a>>,
-    errors: Vec<[&'static str; 2]>,
-    costs: Vec<CostColumns<'a>>,
+    errors: [[&'static str; 2]; 4],
+    costs: &'a [CostAxis],
     sets: Vec<SetColumns<'a>>,
 }
 
@@ -32,14 +32,6 @@ struct EntryColumns<'a> {
     is_ours: bool,
     describes: Option<&'static str>,
     no_cost: Option<&'a str>,
-}
-
-#[derive(Serialize)]
-struct CostColumns<'a> {
-    name: &'a str,
-    title: &'a str,
-    holds_fetches: bool,
-    costs: &'a [Option<f64>],
 }
 
 #[derive(Serialize)]
@@ -66,12 +58,6 @@ pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<St
 }
 
 fn page_data(data: &ChartData) -> PageData<'_> {
-    let costs = data.costs.iter().map(|cost| CostColumns {
-        name: cost.name,
-        title: &cost.title,
-        holds_fetches: cost.holds_fetches,
-        costs: &cost.costs,
-    });
     let sets = data.sets.iter().map(|set| SetColumns {
         name: &set.name,
         title: &set.title,
@@ -83,11 +69,8 @@ fn page_data(data: &ChartData) -> PageData<'_> {
         least_error: LEAST_ERROR,
         as_near: crate::lab::cost::TIE,
         entries: data.entries.iter().map(entry_columns).collect(),
-        errors: ERRORS
-            .iter()
-            .map(|error| [error.short, error.title])
-            .collect(),
-        costs: costs.collect(),
+        errors: ERRORS.map(|error| [error.short, error.title]),
+        costs: &data.costs,
         sets: sets.collect(),
     }
 }

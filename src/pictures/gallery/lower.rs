@@ -4,7 +4,7 @@ use naga::back::glsl;
 use naga::compact::{KeepUnused, compact};
 use naga::proc::BoundsCheckPolicies;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{GlobalVariable, Handle, Module, ShaderStage};
+use naga::{GlobalVariable, Handle, Module};
 use serde::Serialize;
 
 use crate::generator::emit::validate_wgsl;
@@ -79,41 +79,39 @@ pub fn lowered(
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
     let info = validator.validate(&module);
     let info = info.map_err(|fault| LoweringFault(format!("{entry}: {fault}")))?;
-    let (text, names) = translated(&module, &info, entry, is_off_screen)?;
-    let text = own_names(text, functions);
-    let mut rest = text.as_str();
-    let mut program = GlesProgram {
-        before: String::new(),
-        functions: Vec::new(),
-        calls: false,
-        after: String::new(),
-        block: block(&module, &names),
-        textures: textures(&module, &names),
-    };
-    let mut kept = String::new();
+    let (mut text, names) = translated(&module, &info, entry, is_off_screen)?;
+    // naga appends a `_` to names that end in a digit.
+    for name in functions {
+        text = text.replace(&format!(" {name}_("), &format!(" {name}("));
+    }
     let all: Vec<&str> = functions.iter().map(String::as_str).chain(CALLS).collect();
-    let mut first = None;
+    let (mut kept, mut rest) = (String::new(), text.as_str());
+    let (mut first, mut own, mut calls) = (None, Vec::new(), false);
     while let Some((from, to, name)) = next_function(rest, &all) {
         kept += &rest[..from];
         first.get_or_insert(kept.len());
         rest = &rest[to..];
         if CALLS.contains(&name) {
-            program.calls = true
+            calls = true;
         } else {
-            program.functions.push(name.to_owned())
+            own.push(name.to_owned());
         }
     }
     kept += rest;
     let (before, after) = kept.split_at(first.unwrap_or(kept.len()));
-    (program.before, program.after) = (before.to_owned(), after.to_owned());
-    let knows_frame = program.before.contains(&format!(" {FRAGMENT_FRAME};"));
-    if program.calls && !knows_frame {
-        Err(LoweringFault(format!(
+    if calls && !before.contains(&format!(" {FRAGMENT_FRAME};")) {
+        return Err(LoweringFault(format!(
             "{entry} calls a method, and has no {FRAGMENT_FRAME}"
-        )))
-    } else {
-        Ok(program)
+        )));
     }
+    Ok(GlesProgram {
+        before: before.to_owned(),
+        functions: own,
+        calls,
+        after: after.to_owned(),
+        block: block(&module, &names),
+        textures: textures(&module, &names),
+    })
 }
 
 fn translated(
@@ -122,12 +120,8 @@ fn translated(
     entry: &str,
     is_off_screen: bool,
 ) -> Result<(String, glsl::ReflectionInfo), LoweringFault> {
-    let mut points = module.entry_points.iter();
-    let stage = points
-        .find(|point| point.name == entry)
-        .map(|point| point.stage);
-    let stage = stage.ok_or_else(|| LoweringFault(format!("the module has no {entry}")))?;
-    debug_assert!(stage == ShaderStage::Vertex || stage == ShaderStage::Fragment);
+    let point = module.entry_points.first();
+    let point = point.ok_or_else(|| LoweringFault(format!("the module has no {entry}")))?;
     let flags = if is_off_screen {
         glsl::WriterFlags::ADJUST_COORDINATE_SPACE
     } else {
@@ -139,24 +133,15 @@ fn translated(
         ..Default::default()
     };
     let pipeline = glsl::PipelineOptions {
-        shader_stage: stage,
+        shader_stage: point.stage,
         entry_point: entry.to_owned(),
         multiview: None,
     };
-    let refused = |fault: glsl::Error| LoweringFault(format!("{entry}: {fault}"));
     let (mut text, checks) = (String::new(), BoundsCheckPolicies::default());
     let names = glsl::Writer::new(&mut text, module, info, &options, &pipeline, checks)
         .and_then(|mut writer| writer.write())
-        .map_err(refused)?;
+        .map_err(|fault| LoweringFault(format!("{entry}: {fault}")))?;
     Ok((text, names))
-}
-
-/// naga appends a `_` to names that end in a digit.
-fn own_names(mut text: String, functions: &[String]) -> String {
-    for name in functions {
-        text = text.replace(&format!(" {name}_("), &format!(" {name}("));
-    }
-    text
 }
 
 /// The first of these functions in the text: where it begins, where the text goes on, and its name.

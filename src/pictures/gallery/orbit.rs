@@ -49,7 +49,7 @@ impl Orbit {
             orbits.push(Orbit::of_light(row, receiver));
             return orbits.len() - 1;
         }
-        let size = row.body.body().radius();
+        let size = row.body.radius();
         let mut views = Vec::new();
         for pass in row.passes {
             if !views.contains(&pass.view) {

@@ -9,7 +9,7 @@ use half::f16;
 use serde::Serialize;
 
 use crate::pictures::scene::{
-    Body, BodyName, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky_of, vertex_numbers,
+    Body, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky_of, vertex_numbers,
 };
 
 /// Bytes as a page holds them.
@@ -75,7 +75,7 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
         );
         all.insert(Slot::Relief, dents);
     }
-    for (slot, table) in reduced_tables(&row.body.body()) {
+    for (slot, table) in reduced_tables(row.body) {
         let name = format!("{} {slot:?}", row.body.name());
         all.insert(slot, texture(name, &table));
     }
@@ -83,7 +83,7 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
 }
 
 /// The tables of a body as the page holds them.
-pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'static, Texels>)> {
+pub fn reduced_tables(body: Body) -> Vec<(Slot, Cow<'static, Texels>)> {
     let reduced = |(slot, table): (Slot, &Texels)| {
         let [colours, others] = WIDEST;
         let widest = if is_opaque(table) { colours } else { others };
@@ -197,20 +197,20 @@ const ROWS: usize = 128;
 
 impl PackedMesh {
     /// A body.
-    pub fn solid(name: BodyName) -> PackedMesh {
-        if name == BodyName::Ball {
+    pub fn solid(body: Body) -> PackedMesh {
+        if body == Body::Ball {
             return PackedMesh {
-                name: name.name().to_owned(),
+                name: body.name().to_owned(),
                 ball: Some(ROWS),
                 vertices: None,
             };
         }
-        PackedMesh::new(name.name().to_owned(), &name.body().triangles())
+        PackedMesh::new(body.name().to_owned(), &body.triangles())
     }
 
     /// A body's water.
-    pub fn water(name: BodyName) -> PackedMesh {
-        PackedMesh::new(format!("{} water", name.name()), &name.body().water())
+    pub fn water(body: Body) -> PackedMesh {
+        PackedMesh::new(format!("{} water", body.name()), &body.water())
     }
 
     fn new(name: String, triangles: &[[Vertex; 3]]) -> PackedMesh {

@@ -13,7 +13,7 @@ mod ticks;
 
 pub use axes::{Area, Axes, Scale, Tick, labelled};
 pub use layout::{Layout, PanelFrame};
-pub use line_chart::{ChartAxis, LineChart, Mark, Series};
+pub use line_chart::{ChartAxis, LineChart, Series};
 pub use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
 pub use palette::{Look, Style};
 pub use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};

@@ -1,115 +1,85 @@
 //! The bodies that pictures show: convex bodies, as triangles to draw and as crossings for rays; a pool; a window.
-//!
-//! The brilliant is an intersection of half-spaces; its facets are the polygons that the half-spaces cut from each other. Its
-//! angles are near those that the trade calls ideal: table 57 % of the girdle, crown 34.5 degrees, pavilion 40.75 degrees (M.
-//! Tolkowsky, *Diamond Design*, Spon, 1919, <https://www.folds.net/diamond_design/>).
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::DVec3;
 
-use super::pool::Pool;
-use super::table::Slot;
-use super::texels::Texels;
-use super::window::Window;
+use super::gem::{Crossing, GEM};
+use super::mesh::{Vertex, ball_triangles};
+use super::pool::{self, POOL};
+use super::texels::{Slot, Texels};
+use super::window::{self, WINDOW};
 
 /// The body of a picture, around the origin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
     /// The ball of radius 1.
     Ball,
-    /// A body with plane facets.
-    Gem(Facets),
-    /// A pool: its solid parts and its water.
-    Pool(&'static Pool),
-    /// A window of stained glass.
-    Window(&'static Window),
-}
-
-/// Where a line enters a convex body and where it leaves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// The distance to the entry, and the normal there.
-    pub entry: (f64, DVec3),
-    /// The distance to the exit, and the outward normal there.
-    pub exit: (f64, DVec3),
-}
-
-/// A vertex of a triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
-    /// Its position.
-    pub position: DVec3,
-    /// The outward normal.
-    pub normal: DVec3,
-    /// Along growing u, and the sign of the bitangent.
-    pub tangent: DVec4,
-    /// Texture coordinates.
-    pub uv: DVec2,
-}
-
-/// The numbers of each vertex: position, normal, tangent with the bitangent's sign, texture coordinates.
-pub fn vertex_numbers(triangles: &[[Vertex; 3]]) -> Vec<[f32; 12]> {
-    let numbers = |vertex: &Vertex| {
-        let (p, n, t, uv) = (vertex.position, vertex.normal, vertex.tangent, vertex.uv);
-        let all = [p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uv.x, uv.y];
-        all.map(|value| value as f32)
-    };
-    triangles.iter().flatten().map(numbers).collect()
+    /// The brilliant.
+    Gem,
+    /// The pool: its solid parts and its water.
+    Pool,
+    /// The window of stained glass.
+    Window,
 }
 
 /// Rows of triangles from pole to pole. There are twice as many columns around.
 const ROWS: usize = 256;
 
 impl Body {
-    /// The gem of the pictures.
-    pub fn gem() -> Body {
-        Body::Gem(brilliant())
+    /// The body in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Body::Ball => "ball",
+            Body::Gem => "gem",
+            Body::Pool => "pool",
+            Body::Window => "window",
+        }
     }
 
     /// The radius of the ball around the origin that holds it.
-    pub fn radius(&self) -> f64 {
+    pub fn radius(self) -> f64 {
         match self {
             Body::Ball => 1.0,
-            Body::Gem(facets) => facets.radius(),
-            Body::Pool(_) => Pool::RADIUS,
-            Body::Window(_) => Window::RADIUS,
+            Body::Gem => GEM.radius(),
+            Body::Pool => pool::RADIUS,
+            Body::Window => window::RADIUS,
         }
     }
 
     /// Where a line crosses a convex body, if it does; the direction is of unit length. Pool and window are not convex.
-    pub fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
+    pub fn crossing(self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
         match self {
             Body::Ball => ball(origin, direction),
-            Body::Gem(facets) => facets.crossing(origin, direction),
-            Body::Pool(_) | Body::Window(_) => None,
+            Body::Gem => GEM.crossing(origin, direction),
+            Body::Pool | Body::Window => None,
         }
     }
 
     /// Its triangles.
-    pub fn triangles(&self) -> Vec<[Vertex; 3]> {
+    pub fn triangles(self) -> Vec<[Vertex; 3]> {
         match self {
             Body::Ball => ball_triangles(ROWS),
-            Body::Gem(facets) => facets.triangles(),
-            Body::Pool(pool) => pool.solids(),
-            Body::Window(window) => window.triangles(),
+            Body::Gem => GEM.triangles(),
+            Body::Pool => pool::solids(),
+            Body::Window => window::triangles(),
         }
     }
 
     /// The triangles of its water.
-    pub fn water(&self) -> Vec<[Vertex; 3]> {
+    pub fn water(self) -> Vec<[Vertex; 3]> {
         match self {
-            Body::Pool(pool) => pool.surface(),
-            Body::Ball | Body::Gem(_) | Body::Window(_) => Vec::new(),
+            Body::Pool => pool::surface(),
+            Body::Ball | Body::Gem | Body::Window => Vec::new(),
         }
     }
 
     /// The tables that belong to it.
-    pub fn tables(&self) -> Vec<(Slot, &Texels)> {
-        match self {
-            Body::Ball | Body::Gem(_) => Vec::new(),
-            Body::Pool(Pool { paint, normals, .. }) | Body::Window(Window { paint, normals }) => {
-                vec![(Slot::Paint, paint), (Slot::Relief, normals)]
-            }
-        }
+    pub fn tables(self) -> Vec<(Slot, &'static Texels)> {
+        let (paint, normals) = match self {
+            Body::Ball | Body::Gem => return Vec::new(),
+            Body::Pool => (&POOL.paint, &POOL.normals),
+            Body::Window => (&WINDOW.paint, &WINDOW.normals),
+        };
+        vec![(Slot::Paint, paint), (Slot::Relief, normals)]
     }
 }
 
@@ -123,206 +93,4 @@ fn ball(origin: DVec3, direction: DVec3) -> Option<Crossing> {
         entry: at(along - half),
         exit: at(along + half),
     })
-}
-
-/// A ball as quads between this many circles of latitude, two triangles each.
-pub(super) fn ball_triangles(rows: usize) -> Vec<[Vertex; 3]> {
-    let columns = 2 * rows;
-    let at = |row: usize, column: usize| {
-        let uv = DVec2::new(column as f64 / columns as f64, row as f64 / rows as f64);
-        let (sin_v, cos_v) = libm::sincos(std::f64::consts::PI * uv.y);
-        let (sin_u, cos_u) = libm::sincos(std::f64::consts::TAU * uv.x);
-        let normal = DVec3::new(sin_u * sin_v, cos_v, -cos_u * sin_v);
-        Vertex {
-            position: normal,
-            normal,
-            tangent: DVec4::new(cos_u, 0.0, sin_u, 1.0),
-            uv,
-        }
-    };
-    let mut triangles = Vec::with_capacity(2 * rows * columns);
-    for row in 0..rows {
-        for column in 0..columns {
-            let corners = [
-                at(row, column),
-                at(row, column + 1),
-                at(row + 1, column),
-                at(row + 1, column + 1),
-            ];
-            triangles.push([corners[0], corners[1], corners[2]]);
-            triangles.push([corners[2], corners[1], corners[3]]);
-        }
-    }
-    triangles
-}
-
-/// The half-space normal · x <= distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
-    normal: DVec3,
-    distance: f64,
-}
-
-/// A body of plane facets.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Facets(Vec<Plane>);
-
-/// The girdle has radius 1 and this height.
-const GIRDLE: f64 = 0.04;
-/// The table's radius.
-const TABLE: f64 = 0.57;
-const CROWN: f64 = 34.5;
-const PAVILION: f64 = 40.75;
-/// How far the body is raised, so that its middle is near the origin.
-const LIFT: f64 = 0.25;
-/// The polygon of a facet begins with a square of this half side.
-const LARGE: f64 = 10.0;
-
-/// The gem, 1 in radius.
-pub fn brilliant() -> Facets {
-    let table_height = GIRDLE + (1.0 - TABLE) * f64::tan(CROWN.to_radians());
-    let mut planes = vec![Plane {
-        normal: DVec3::Y,
-        distance: table_height,
-    }];
-    // Facets around the axis: their number, the azimuth of the first, their angle, and a point that they pass through.
-    let rings = [
-        (8, 0.0, CROWN, 1.0, GIRDLE),
-        (16, 11.25, 40.0, 1.0, GIRDLE),
-        (8, 22.5, 22.0, TABLE * 0.98, table_height),
-        (32, 5.625, 90.0, 0.985, 0.0),
-        (8, 0.0, 180.0 - PAVILION, 1.0, 0.0),
-        (16, 11.25, 180.0 - 42.0, 1.0, 0.0),
-    ];
-    for (count, first, angle, radius, height) in rings {
-        let (sin, cos) = libm::sincos(f64::to_radians(angle));
-        planes.extend((0..count).map(|i| {
-            let azimuth = f64::to_radians(first + 360.0 / f64::from(count) * f64::from(i));
-            let (along_z, along_x) = libm::sincos(azimuth);
-            Plane {
-                normal: DVec3::new(sin * along_x, cos, sin * along_z),
-                distance: sin * radius + cos * height,
-            }
-        }));
-    }
-    for plane in &mut planes {
-        plane.distance += LIFT * plane.normal.y;
-    }
-    Facets(planes)
-}
-
-impl Facets {
-    /// The radius of the ball around the origin that holds it.
-    pub fn radius(&self) -> f64 {
-        let corners = self.polygons().into_iter().flat_map(|(_, polygon)| polygon);
-        corners.map(DVec3::length).fold(0.0, f64::max)
-    }
-
-    /// Where a line crosses the body. It enters by the last facet that faces it, and leaves by the first that does not.
-    pub fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
-        let mut entry = (f64::NEG_INFINITY, DVec3::ZERO);
-        let mut exit = (f64::INFINITY, DVec3::ZERO);
-        for plane in &self.0 {
-            let slope = plane.normal.dot(direction);
-            let height = plane.distance - plane.normal.dot(origin);
-            if slope == 0.0 {
-                if height < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let at = (height / slope, plane.normal);
-            if slope < 0.0 && at.0 > entry.0 {
-                entry = at;
-            } else if slope > 0.0 && at.0 < exit.0 {
-                exit = at;
-            }
-        }
-        (entry.0 < exit.0).then_some(Crossing { entry, exit })
-    }
-
-    /// Its triangles: a fan for each facet.
-    pub fn triangles(&self) -> Vec<[Vertex; 3]> {
-        let mut triangles = Vec::new();
-        for (plane, polygon) in self.polygons() {
-            let along = plane.normal.any_orthonormal_vector();
-            let vertex = |position: DVec3| Vertex {
-                position,
-                normal: plane.normal,
-                tangent: DVec4::new(along.x, along.y, along.z, 1.0),
-                uv: DVec2::ZERO,
-            };
-            for pair in polygon[1..].windows(2) {
-                triangles.push([vertex(polygon[0]), vertex(pair[0]), vertex(pair[1])]);
-            }
-        }
-        triangles
-    }
-
-    /// The plane and the polygon of each facet.
-    fn polygons(&self) -> Vec<(Plane, Vec<DVec3>)> {
-        let polygon = |plane: &Plane| {
-            let (u, v) = plane.normal.any_orthonormal_pair();
-            let corner = |x: f64, y: f64| plane.normal * plane.distance + LARGE * (x * u + y * v);
-            let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-            let mut polygon: Vec<DVec3> = square.map(|(x, y)| corner(x, y)).to_vec();
-            for other in self.0.iter().filter(|other| *other != plane) {
-                polygon = other.cut(&polygon);
-            }
-            (polygon.len() > 2).then_some((*plane, polygon))
-        };
-        self.0.iter().filter_map(polygon).collect()
-    }
-}
-
-impl Plane {
-    /// The part of a polygon within the half-space.
-    fn cut(&self, polygon: &[DVec3]) -> Vec<DVec3> {
-        let height = |corner: DVec3| self.normal.dot(corner) - self.distance;
-        let mut kept = Vec::new();
-        for (i, corner) in polygon.iter().enumerate() {
-            let next = polygon[(i + 1) % polygon.len()];
-            let (here, there) = (height(*corner), height(next));
-            if here <= 0.0 {
-                kept.push(*corner);
-            }
-            if (here < 0.0) != (there < 0.0) && here != there {
-                kept.push(*corner + (next - *corner) * (here / (here - there)));
-            }
-        }
-        kept
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// For the polygons, by the divergence theorem: the sum of area times distance is three times the volume, and the areas along
-    /// the normals cancel.
-    #[test]
-    fn facets_close_the_body() {
-        let gem = brilliant();
-        let mut sum = DVec3::ZERO;
-        for [a, b, c] in gem.triangles() {
-            let area = (b.position - a.position)
-                .cross(c.position - a.position)
-                .length()
-                / 2.0;
-            sum += area * a.normal;
-        }
-        assert!(sum.length() < 1e-9, "{sum}");
-        assert!((0.9..1.1).contains(&gem.radius()), "{}", gem.radius());
-    }
-
-    #[test]
-    fn a_line_through_the_middle_crosses_from_facet_to_facet() {
-        let gem = brilliant();
-        let down = gem
-            .crossing(DVec3::new(0.01, 5.0, 0.02), DVec3::NEG_Y)
-            .unwrap();
-        assert_eq!(down.entry.1, DVec3::Y);
-        assert!(down.exit.1.y < -0.7, "{down:?}");
-        assert_eq!(gem.crossing(DVec3::new(3.0, 5.0, 0.0), DVec3::NEG_Y), None);
-    }
 }

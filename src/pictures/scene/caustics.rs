@@ -2,9 +2,10 @@
 //!
 //! Light of irradiance 1 falls along -z on the ball of radius 1. The receiver lies below it, square to the light.
 
-use super::body::{Body, vertex_numbers};
+use super::body::Body;
 use super::frame::{BACK, LightBlock, PHOTONS};
 use super::material::OpticalMaterial;
+use super::mesh::vertex_numbers;
 use super::table::find;
 use super::texels::square_means;
 use super::text::RowText;

@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::body::vertex_numbers;
 use super::environment::Environment;
 use super::frame::{Camera, frame};
+use super::mesh::vertex_numbers;
 use super::room::room_cube;
-use super::table::{DrawnSurface, RenderRow, Slot};
-use super::texels::Texels;
+use super::table::{DrawnSurface, RenderRow};
+use super::texels::{Slot, Texels};
 use super::text::{INPUTS, RowText};
 use super::trace::Things;
 use crate::lab::fault::Fault;

@@ -19,19 +19,6 @@ pub struct Environment {
     pub table: Texels,
 }
 
-/// Why a picture is no environment.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum EnvironmentFault {
-    /// It cannot be read.
-    #[error("{}", Foreign(_0))]
-    Unreadable(String),
-    /// It has the wrong shape.
-    #[error(
-        "it has {0} x {1} pixels; an environment is twice as wide as high, 2 to 16384 pixels wide"
-    )]
-    Shape(usize, usize),
-}
-
 /// The most texels in a row of a user's picture.
 const LARGEST: usize = 16384;
 
@@ -58,18 +45,20 @@ impl Environment {
     /// to the space.
     ///
     /// # Errors
-    /// The picture cannot be read, states an encoding that cannot be followed, or is not twice as wide as high.
-    pub fn read(bytes: &[u8], space: Space) -> Result<Environment, EnvironmentFault> {
+    /// In words: the picture cannot be read, states an encoding that cannot be followed, or is not twice as wide as high.
+    pub fn read(bytes: &[u8], space: Space) -> Result<Environment, String> {
         // Radiance pictures begin with one of two names of the format; the crate knows the first.
         let renamed = bytes
             .strip_prefix(b"#?RGBE")
             .map(|rest| [b"#?RADIANCE", rest].concat());
         let bytes = renamed.as_deref().unwrap_or(bytes);
-        let file = LightFile::read(bytes, space).map_err(EnvironmentFault::Unreadable)?;
+        let file = LightFile::read(bytes, space).map_err(|why| Foreign(why).to_string())?;
         let (width, height) = file.picture.dimensions();
         let (width, height) = (width as usize, height as usize);
         if width != 2 * height || !(2..=LARGEST).contains(&width) {
-            return Err(EnvironmentFault::Shape(width, height));
+            return Err(format!(
+                "it has {width} x {height} pixels; an environment is twice as wide as high, 2 to {LARGEST} pixels wide"
+            ));
         }
         let greatest = DVec3::splat(f64::from(f16::MAX));
         let texel = |column: usize, row: usize| {

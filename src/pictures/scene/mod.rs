@@ -6,9 +6,12 @@ mod caustics;
 mod draw;
 mod environment;
 mod frame;
+mod gem;
 mod icc;
+mod light;
 mod light_file;
 mod material;
+mod mesh;
 mod picture;
 mod pool;
 mod room;
@@ -18,7 +21,7 @@ mod text;
 mod trace;
 mod window;
 
-pub use body::{Body, Vertex, vertex_numbers};
+pub use body::Body;
 pub use caustics::{
     Gathering, Photons, TRIANGLES, Window, caustic_error, caustics, exact_caustics,
 };
@@ -27,18 +30,18 @@ pub use environment::{Environment, sky, sky_of};
 pub use frame::{
     ABSORPTION_AT, BACK, Camera, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
+pub use light::{Around, Paths};
 pub use light_file::is_deep;
 pub use material::OpticalMaterial;
+pub use mesh::{Vertex, vertex_numbers};
 pub use picture::{
     Difference, Display, Picture, PictureRequest, RenderedRow, TONE_CURVES, ToneCurve, render,
 };
 pub use room::{ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
-pub use table::{
-    ALL, BodyName, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, Slot, View, find,
-};
-pub use texels::Texels;
+pub use table::{ALL, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, View, find};
+pub use texels::{Slot, Texels};
 pub use text::{FRAME, INPUTS, RowText};
-pub use trace::{Around, Paths, Things, trace};
+pub use trace::{Things, trace};
 
 /// Samples of a pixel along each side, in the drawn picture and in its truth.
 pub const SAMPLES: u32 = 2;

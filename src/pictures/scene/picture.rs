@@ -9,12 +9,13 @@ use super::caustics::{FOUR_PICTURES, TRIANGLES, Window, caustic_error, caustics,
 use super::draw::{Scenery, draw};
 use super::environment::Environment;
 use super::frame::Camera;
+use super::light::{Around, Traced};
 use super::material::OpticalMaterial;
 use super::room::Relief;
 use super::table::RenderRow;
 use super::texels::square_means;
 use super::text::RowText;
-use super::trace::{Around, Things, Traced, trace};
+use super::trace::{Things, trace};
 use crate::lab::fault::Fault;
 use crate::lab::gpu::Device;
 use crate::physics::spectra::{Lab, Space, ciede2000};
@@ -114,11 +115,10 @@ pub fn render(
     if let Some(receiver) = row.receiver {
         return received(device, request, receiver);
     }
-    let body = row.body.body();
     let relief = row.dents.map(Relief::hammered);
     let flat = request.material.at_one_index();
     let things = Things {
-        body: &body,
+        body: row.body,
         material: if row.disperses {
             request.material
         } else {
@@ -131,7 +131,7 @@ pub fn render(
         },
         relief: relief.as_ref(),
     };
-    let camera = Camera::around(DVec3::from_array(row.eye), body.radius());
+    let camera = Camera::around(DVec3::from_array(row.eye), row.body.radius());
     let side = request.size * SAMPLES;
     let clamped = request.is_ldr.then(|| request.environment.clamped());
     let environment = clamped.as_ref().unwrap_or(request.environment);

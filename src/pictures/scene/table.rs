@@ -1,9 +1,8 @@
 //! The table of pictures: a row for each effect, with its passes, what they read and write, and its scene.
 
 use super::body::Body;
-use super::pool::pool;
-use super::trace::Paths;
-use super::window::window;
+use super::light::Paths;
+use super::texels::Slot;
 use crate::lab::gpu::Depth;
 
 /// The sky behind everything.
@@ -91,7 +90,7 @@ const BALL: RenderRow = RenderRow {
     method: "dielectric_exact",
     text: "",
     passes: &[SKY, FRONT],
-    body: BodyName::Ball,
+    body: Body::Ball,
     material: "bk7",
     disperses: false,
     own_paths: Paths::TwoSurfaces,
@@ -135,7 +134,7 @@ pub static ALL: &[RenderRow] = &[
             include_str!("passes/double_refraction.wgsl")
         ),
         passes: &[SKY, BACK, THROUGH],
-        body: BodyName::Gem,
+        body: Body::Gem,
         material: "diamond",
         eye: FROM_ABOVE,
         wrong: "rays that are reflected totally leave after one reflection; edges between facets",
@@ -265,7 +264,7 @@ pub static ALL: &[RenderRow] = &[
         effects: &["interface", "interior", "water", "normal_mapping"],
         text: include_str!("passes/water.wgsl"),
         passes: &WATER,
-        body: BodyName::Pool,
+        body: Body::Pool,
         material: "water",
         own_paths: Paths::OneSurface,
         true_paths: Paths::OneSurface,
@@ -285,7 +284,7 @@ pub static ALL: &[RenderRow] = &[
                 ..FRONT
             },
         ],
-        body: BodyName::Window,
+        body: Body::Window,
         material: "soda_lime_glass",
         eye: BEFORE_THE_WINDOW,
         wrong: "glass has no thickness: beside leads; light that is reflected between its surfaces is missing",
@@ -314,7 +313,7 @@ pub struct RenderRow {
     /// The draws in order.
     pub passes: &'static [PassRow],
     /// The body.
-    pub body: BodyName,
+    pub body: Body,
     /// The material's name in the catalogue.
     pub material: &'static str,
     /// Whether the index depends on the wavelength.
@@ -333,67 +332,6 @@ pub struct RenderRow {
     pub receiver: Option<[f64; 2]>,
     /// Where it must be wrong, in one line.
     pub wrong: &'static str,
-}
-
-/// The name of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BodyName {
-    /// The ball of radius 1.
-    Ball,
-    /// The brilliant.
-    Gem,
-    /// The pool.
-    Pool,
-    /// The window of stained glass.
-    Window,
-}
-
-impl BodyName {
-    /// The body.
-    pub fn body(self) -> Body {
-        match self {
-            BodyName::Ball => Body::Ball,
-            BodyName::Gem => Body::gem(),
-            BodyName::Pool => Body::Pool(pool()),
-            BodyName::Window => Body::Window(window()),
-        }
-    }
-
-    /// The body in words.
-    pub fn name(self) -> &'static str {
-        match self {
-            BodyName::Ball => "ball",
-            BodyName::Gem => "gem",
-            BodyName::Pool => "pool",
-            BodyName::Window => "window",
-        }
-    }
-}
-
-/// A picture that a pass writes or reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Slot {
-    /// The shown picture; alpha says what each pixel shows.
-    Colour,
-    /// Positions of the body's back.
-    BackPositions,
-    /// Normals of the body's back.
-    BackNormals,
-    /// What lies below the water, with 1 in alpha; 0 for what stands in front of it.
-    Below,
-    /// Positions of what lies below the water.
-    BelowPositions,
-    /// The scene above the water, mirrored in it.
-    Mirror,
-    /// Positions of what is mirrored, with 1 in alpha; 0 where there is only the sky.
-    MirrorPositions,
-    /// The cube map of the room.
-    Room,
-    /// The normal map.
-    Relief,
-    /// The radiance of solid things, by their texture coordinates. For a window the colours: of glass with 1 in alpha, of lead
-    /// and stone with 0.
-    Paint,
 }
 
 /// What a pass draws.
@@ -466,7 +404,7 @@ impl RenderRow {
 
     /// Whether the scene has water.
     pub fn has_water(&self) -> bool {
-        self.body == BodyName::Pool
+        self.body == Body::Pool
     }
 
     /// Whether the environment is visible.

@@ -98,6 +98,32 @@ impl Texels {
     }
 }
 
+/// A picture that a pass writes or reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Slot {
+    /// The shown picture; alpha says what each pixel shows.
+    Colour,
+    /// Positions of the body's back.
+    BackPositions,
+    /// Normals of the body's back.
+    BackNormals,
+    /// What lies below the water, with 1 in alpha; 0 for what stands in front of it.
+    Below,
+    /// Positions of what lies below the water.
+    BelowPositions,
+    /// The scene above the water, mirrored in it.
+    Mirror,
+    /// Positions of what is mirrored, with 1 in alpha; 0 where there is only the sky.
+    MirrorPositions,
+    /// The cube map of the room.
+    Room,
+    /// The normal map.
+    Relief,
+    /// The radiance of solid things, by their texture coordinates. For a window the colours: of glass with 1 in alpha, of lead
+    /// and stone with 0.
+    Paint,
+}
+
 /// The means of squares of this many samples a side, of a square picture.
 pub fn square_means<T>(samples: &[T], each: usize) -> Vec<T>
 where

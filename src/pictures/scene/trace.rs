@@ -4,69 +4,26 @@
 use glam::DVec3;
 
 use super::body::Body;
-use super::environment::Environment;
 use super::frame::Camera;
+use super::light::{Around, Paths, Traced, mirrored, refracted};
 use super::material::OpticalMaterial;
-use super::room::{Relief, room_radiance};
+use super::pool::POOL;
+use super::room::Relief;
+use super::window::WINDOW;
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
-
-/// How far light is followed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Paths {
-    /// Until less than a ten-thousandth is left, or for 64 reflections inside.
-    All,
-    /// A ray that is refracted once counts as outside.
-    OneSurface,
-    /// A ray is refracted at the second surface too. Where it is reflected totally there, it counts as outside after that.
-    TwoSurfaces,
-    /// Only what is reflected outside; nothing enters.
-    Mirror,
-}
-
-/// The result of a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Traced {
-    /// Radiance by the first of the two kinds of paths.
-    pub colour: DVec3,
-    /// Radiance by the second kind.
-    pub own: DVec3,
-    /// Whether it shows the body.
-    pub is_body: bool,
-    /// Whether the ray inside of the middle wavelength is reflected totally where it first meets the surface.
-    pub is_total: bool,
-}
 
 /// The contents of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Things<'a> {
     /// The body.
-    pub body: &'a Body,
+    pub body: Body,
     /// Its material.
     pub material: &'a OpticalMaterial,
     /// Its surroundings.
     pub around: Around<'a>,
     /// Dents of its surface, seen from outside and inside; only for a ball.
     pub relief: Option<&'a Relief>,
-}
-
-/// The surroundings of a body.
-#[derive(Clone, Copy, Debug)]
-pub enum Around<'a> {
-    /// An environment, whose radiance depends on the direction alone.
-    Far(&'a Environment),
-    /// The room.
-    Room,
-}
-
-impl Around<'_> {
-    /// The radiance that reaches a place along a direction that points away from it.
-    pub(super) fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
-        match self {
-            Around::Far(environment) => environment.radiance(direction),
-            Around::Room => room_radiance(place, direction),
-        }
-    }
 }
 
 /// A scene and the two kinds of paths that are followed.
@@ -100,10 +57,10 @@ impl Scene<'_> {
     /// What a ray from the eye shows.
     fn seen(&self, eye: DVec3, direction: DVec3) -> Traced {
         let (material, around) = (self.things.material, self.things.around);
-        match *self.things.body {
-            Body::Pool(pool) => pool.seen(material, around, eye, direction),
-            Body::Window(window) => window.seen(material, around, eye, direction),
-            Body::Ball | Body::Gem(_) => self.convex(eye, direction),
+        match self.things.body {
+            Body::Pool => POOL.seen(material, around, eye, direction),
+            Body::Window => WINDOW.seen(material, around, eye, direction),
+            Body::Ball | Body::Gem => self.convex(eye, direction),
         }
     }
 
@@ -111,21 +68,14 @@ impl Scene<'_> {
     fn convex(&self, eye: DVec3, direction: DVec3) -> Traced {
         let crossing = self.things.body.crossing(eye, direction);
         let Some(crossing) = crossing.filter(|crossing| crossing.entry.0 > 0.0) else {
-            let colour = self.things.around.radiance(eye, direction);
-            return Traced {
-                colour,
-                own: colour,
-                ..Traced::default()
-            };
+            return Traced::beside(self.things.around.radiance(eye, direction));
         };
         let (distance, normal) = crossing.entry;
         let place = eye + distance * direction;
         let normal = self.dented(normal);
         let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
-        let mirrored = self
-            .things
-            .around
-            .radiance(place, mirrored(direction, normal));
+        let up = mirrored(direction, normal);
+        let mirrored = self.things.around.radiance(place, up);
         let mut seen = Traced {
             is_body: true,
             ..Traced::default()
@@ -139,8 +89,8 @@ impl Scene<'_> {
                 let (inside, is_total) = bent.map_or(([DVec3::ZERO; 2], false), |inside| {
                     self.inside(place, inside, ray.index.n)
                 });
-                let all = colours.iter_mut().zip(inside);
-                all.for_each(|(colour, inside)| *colour += (1.0 - r) * inside);
+                colours[0] += (1.0 - r) * inside[0];
+                colours[1] += (1.0 - r) * inside[1];
                 seen.is_total |= i == middle && is_total;
             }
             seen.colour += ray.weight * colours[0];
@@ -183,8 +133,8 @@ impl Scene<'_> {
             let (distance, smooth) = crossing.exit;
             let normal = self.dented(smooth);
             place += distance * direction;
-            let r = optics::dielectric(1.0 / n, direction.dot(normal).clamp(0.0, 1.0));
-            let r = r.unpolarised();
+            let cosine = direction.dot(normal).clamp(0.0, 1.0);
+            let r = optics::dielectric(1.0 / n, cosine).unpolarised();
             let out = refracted(direction, -normal, 1.0 / n);
             let bounced = mirrored(direction, normal);
             // Where a dent would send the ray out of the body, the smooth surface keeps it inside.
@@ -198,10 +148,9 @@ impl Scene<'_> {
             }
             if turn == 0 {
                 is_total = out.is_none();
-                two = if is_total {
-                    self.things.around.radiance(place, direction)
-                } else {
-                    all
+                two = match out {
+                    Some(_) => all,
+                    None => self.things.around.radiance(place, direction),
                 };
             }
             left *= r;
@@ -211,16 +160,4 @@ impl Scene<'_> {
         }
         (two, all, is_total)
     }
-}
-
-/// The law of reflection.
-pub(super) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - 2.0 * direction.dot(normal) * normal
-}
-
-/// Snell's law: the part along the surface is scaled by the ratio of indices. `None` past the critical angle.
-pub(super) fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
-    let along = (direction - direction.dot(normal) * normal) / eta;
-    let rest = 1.0 - along.length_squared();
-    (rest > 0.0).then(|| along - rest.sqrt() * normal)
 }

@@ -41,8 +41,8 @@ pub fn stability_page(
 ) -> Result<String, String> {
     let mut methods: Vec<&'static str> = rows.iter().map(|row| row.method).collect();
     methods.dedup();
-    let sections: Vec<MethodSection> = methods
-        .into_iter()
+    let sections = methods.into_iter();
+    let sections: Vec<MethodSection> = sections
         .map(|method| section(method, rows, pictures))
         .collect();
     let mut context = Context::new();
@@ -57,38 +57,32 @@ fn section(
     rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
 ) -> MethodSection {
+    let own = rows.iter().filter(|row| row.method == method);
+    let findings: Vec<&Finding> = own.filter_map(|row| row.finding.as_ref()).collect();
     let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
-        let findings = rows
-            .iter()
-            .filter(|row| row.method == method)
-            .filter_map(|row| row.finding.as_ref());
-        findings
-            .filter(|finding| wanted(finding))
-            .map(sentence)
-            .collect()
+        let findings = findings.iter().filter(|finding| wanted(finding));
+        findings.map(|finding| sentence(finding)).collect()
     };
     let own = pictures.iter().filter(|(of, _, _)| *of == method);
+    let picture = |(_, over, png): &(&str, &str, Vec<u8>)| Picture {
+        about: format!("Errors of {method} over angle and {over}"),
+        data: BASE64_STANDARD.encode(png),
+    };
     MethodSection {
         method,
         summary: crate::language::methods::find(method).map_or("", |method| method.summary),
         formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),
         rounding: sentences(|finding| finding.is_media && !finding.failure.is_of_the_model()),
         arguments: sentences(|finding| !finding.is_media),
-        pictures: own
-            .map(|(_, over, png)| Picture {
-                about: format!("Errors of {method} over angle and {over}"),
-                data: BASE64_STANDARD.encode(png),
-            })
-            .collect(),
+        pictures: own.map(picture).collect(),
     }
 }
 
 /// A finding as a sentence.
 fn sentence(finding: &Finding) -> String {
-    let share = if finding.share >= 1.0 {
-        String::new()
-    } else {
-        format!(" ({} of it)", percent(finding.share))
+    let share = match finding.share {
+        1.0.. => String::new(),
+        share => format!(" ({} of it)", percent(share)),
     };
     format!(
         "{}: {}{share}; worst at {}",
@@ -100,21 +94,19 @@ fn sentence(finding: &Finding) -> String {
 
 /// The share of a region that fails.
 pub fn percent(share: f64) -> String {
-    let percent = (100.0 * share).round();
-    if share >= 1.0 {
-        "all".to_owned()
-    } else {
-        format!("{} %", percent.clamp(1.0, 99.0))
+    match share {
+        1.0.. => "all".to_owned(),
+        share => format!("{} %", (100.0 * share).round().clamp(1.0, 99.0)),
     }
 }
 
 /// Where it is worst, and the result there.
 pub fn worst(finding: &Finding) -> String {
-    let at = finding
-        .worst
-        .iter()
-        .map(|(name, value)| format!("{name} {}", short(*value)));
-    let at = at.collect::<Vec<_>>().join(", ");
+    let at = finding.worst.iter();
+    let at: Vec<String> = at
+        .map(|(name, x)| format!("{name} {}", short(*x)))
+        .collect();
+    let at = at.join(", ");
     let what = match (finding.failure, finding.point) {
         (Failure::Digits(_), _) => format!("{} ulp", rounded(finding.amount)),
         (Failure::Error(_), Some(shown)) => {

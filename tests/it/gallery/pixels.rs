@@ -108,10 +108,10 @@ impl Held {
     ) -> Option<Vec<DVec3>> {
         let device = self.device.as_ref()?;
         let flat = material.at_one_index();
-        let body = row.body.body();
+        let body = row.body;
         let relief = row.dents.map(scene::Relief::hammered);
         let things = Things {
-            body: &body,
+            body,
             material: if row.disperses { material } else { &flat },
             around: if row.in_room {
                 Around::Room
@@ -123,7 +123,7 @@ impl Held {
         let text = RowText::usual(row);
         let inputs = text.inputs(&values_for_material(subject, text.method));
         let scenery = Scenery {
-            tables: reduced_tables(&body),
+            tables: reduced_tables(body),
             cube: CUBE,
             ..Scenery::of(things, &self.sky)
         };

@@ -81,7 +81,6 @@ fn the_rim_of_a_ball_is_a_mirror() {
     let side = 4096;
     let eye = DVec3::from_array(row("double_refraction").eye);
     let camera = Camera::around(eye, 1.0);
-    let body = row("double_refraction").body.body();
     let height = |x: f64| {
         let direction = camera.direction(x, 0.5);
         (eye - eye.dot(direction) * direction).length()
@@ -94,7 +93,7 @@ fn the_rim_of_a_ball_is_a_mirror() {
         .expect("the ball");
     let r = optics::dielectric(N, (1.0 - rim * rim).sqrt()).unpolarised();
     assert!(r > 0.7, "{rim}: {r}");
-    assert_eq!(body.radius(), 1.0);
+    assert_eq!(row("double_refraction").body.radius(), 1.0);
     let seen =
         [white, black].map(|world| traced("double_refraction", N, &world, 64, Paths::Mirror));
     // What is mirrored alone: R in a white world, nothing in a black one.

@@ -87,11 +87,11 @@ fn the_truth_of_a_metal_is_the_law_at_each_wavelength() {
         let material = materials::find(name).unwrap().unwrap();
         let surface = Surface::new(&material, None, &ViewingConditions::default()).unwrap();
         let (body, glass) = (
-            super::row("complex_f0").body.body(),
+            super::row("complex_f0").body,
             OpticalMaterial::of_surface(&surface),
         );
         let things = Things {
-            body: &body,
+            body,
             material: &glass,
             around: Around::Far(&white),
             relief: None,

@@ -101,9 +101,9 @@ fn at(picture: &[DVec3], x: f64, y: f64) -> DVec3 {
 
 /// What is seen of a ball by a tracer along the picture's pixels.
 fn traced(name: &str, n: f64, environment: &Environment, side: usize, paths: Paths) -> Vec<DVec3> {
-    let (body, glass) = (row(name).body.body(), OpticalMaterial::of_index(n));
+    let (body, glass) = (row(name).body, OpticalMaterial::of_index(n));
     let things = Things {
-        body: &body,
+        body,
         material: &glass,
         around: Around::Far(environment),
         relief: None,

@@ -159,7 +159,7 @@ fn the_foot_of_a_post_is_lifted() {
 fn camera() -> Camera {
     Camera::around(
         DVec3::from_array(row("water").eye),
-        row("water").body.body().radius(),
+        row("water").body.radius(),
     )
 }
 

@@ -7,7 +7,7 @@ use super::device;
 use super::pictured;
 use super::row;
 use fresnel_gen::physics::optics;
-use fresnel_gen::pictures::scene::{Body, Camera, OpticalMaterial, Picture};
+use fresnel_gen::pictures::scene::{Camera, OpticalMaterial, Picture, Slot};
 
 const N: f64 = 1.525;
 const SIZE: u32 = 128;
@@ -54,9 +54,11 @@ fn the_golden_pane_transmits_what_its_tint_says() {
     let (Some(white), Some(black)) = (lit_by(1.0), lit_by(0.0)) else {
         return;
     };
-    let Body::Window(window) = row("stained_glass").body.body() else {
-        panic!("a window")
-    };
+    let tables = row("stained_glass").body.tables();
+    let (_, paint) = tables
+        .iter()
+        .find(|(slot, _)| *slot == Slot::Paint)
+        .expect("its paint");
     let eye = DVec3::from_array(row("stained_glass").eye);
     let camera = Camera::around(eye, 1.02);
     let mut means = [DVec3::ZERO; 3];
@@ -73,10 +75,7 @@ fn the_golden_pane_transmits_what_its_tint_says() {
         let cosine = (at - eye).normalize().dot(outward);
         let inside = (1.0 - (1.0 - cosine * cosine) / (N * N)).sqrt();
         let r = optics::dielectric(N, cosine).unpolarised();
-        let tint = window
-            .paint
-            .at(DVec2::new(0.5, 0.5 - 0.5 * at.y / 1.9))
-            .truncate();
+        let tint = paint.at(DVec2::new(0.5, 0.5 - 0.5 * at.y / 1.9)).truncate();
         means[2] += (1.0 - r) * (1.0 - r) * tint.powf(1.0 / inside);
         count += 1.0;
     }

@@ -9,7 +9,7 @@ use super::{PlanReport, named};
 use crate::physics::spectra::srgb_byte;
 use crate::pictures::html;
 use crate::pictures::plan::{AngleCurve, MaterialView, PlanRow, ViewPicture};
-use crate::pictures::plot::{ChartAxis, LineChart, Look, Mark, Series, Style, ticks};
+use crate::pictures::plot::{ChartAxis, LineChart, Look, Series, Style, ticks};
 use crate::pictures::png::rgb_png;
 use crate::pictures::table::short_number;
 
@@ -153,7 +153,7 @@ fn chart(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> LineChart {
             unit: "",
         },
         series,
-        marks: Vec::<Mark>::new(),
+        marks: Vec::new(),
         foot: String::new(),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::pictures::plot::axes::{Area, Axes, Scale, TICK_GAP};
 use crate::pictures::plot::layout::{Layout, PanelFrame, paragraph_height};
-use crate::pictures::plot::line_chart::{LineChart, Mark, Series};
+use crate::pictures::plot::line_chart::{LineChart, Series};
 use crate::pictures::plot::palette::Style;
 use crate::pictures::plot::text::{AXIS, FOOT, Font, LEGEND, MARK, PANEL, SUBTITLE, TICK, TITLE};
 
@@ -176,18 +176,15 @@ fn curves(series: &[Series], Axes { area, x, y }: &Axes, clip: &str) -> Vec<Stri
 }
 
 /// The labels of the guide lines in one row, in order and clear of each other.
-fn place_labels(marks: &[Mark], x: Scale, left: f64, right: f64) -> Vec<Label> {
-    let mut shown: Vec<&Mark> = marks.iter().filter(|mark| x.holds(mark.at)).collect();
-    shown.sort_by(|one, other| x.fraction(one.at).total_cmp(&x.fraction(other.at)));
+fn place_labels(marks: &[(f64, String)], x: Scale, left: f64, right: f64) -> Vec<Label> {
+    let mut shown: Vec<&(f64, String)> = marks.iter().filter(|(at, _)| x.holds(*at)).collect();
+    shown.sort_by(|(one, _), (other, _)| x.fraction(*one).total_cmp(&x.fraction(*other)));
     // With no more than an equal share each, the labels fit side by side.
     let share = (right - left) / shown.len().max(1) as f64 - LABEL_GAP;
-    let label = |mark: &Mark| {
-        let at = x.at(mark.at);
-        Label {
-            lines: MARK.wrap(&mark.label, share),
-            at,
-            centre: at,
-        }
+    let label = |(at, label): &(f64, String)| Label {
+        lines: MARK.wrap(label, share),
+        at: x.at(*at),
+        centre: x.at(*at),
     };
     let mut labels: Vec<Label> = shown.into_iter().map(label).collect();
     spread(&mut labels, left, right + RIGHT_GAP);
@@ -216,11 +213,10 @@ mod tests {
 
     fn placed(marks: &[(f64, &str)]) -> Vec<Label> {
         let x = Scale::linear([0.0, 90.0], [80.0, 688.0]);
-        let mark = |&(at, label): &(f64, &str)| Mark {
-            at,
-            label: label.into(),
-        };
-        let marks: Vec<Mark> = marks.iter().map(mark).collect();
+        let marks: Vec<(f64, String)> = marks
+            .iter()
+            .map(|(at, label)| (*at, (*label).to_owned()))
+            .collect();
         place_labels(&marks, x, 80.0, 688.0)
     }
 

@@ -19,8 +19,9 @@ pub struct LineChart {
     pub y: ChartAxis,
     /// The curves, in legend order.
     pub series: Vec<Series>,
-    /// Vertical guide lines; those outside the horizontal axis are left out.
-    pub marks: Vec<Mark>,
+    /// Vertical guide lines: the position on the horizontal axis, and the label above the plot, such as "81.37°". Those outside the
+    /// axis are left out.
+    pub marks: Vec<(f64, String)>,
     /// The command that makes the chart.
     pub foot: String,
 }
@@ -51,20 +52,11 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// A vertical guide line with a label above the plot.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
-    /// The position on the horizontal axis.
-    pub at: f64,
-    /// The text above the line, such as "81.37°".
-    pub label: String,
-}
-
 impl LineChart {
     /// What a reader who does not see the chart should hear.
     pub fn description(&self) -> String {
         let names: Vec<&str> = self.series.iter().map(|one| one.name.as_str()).collect();
-        let marks: Vec<&str> = self.marks.iter().map(|one| one.label.as_str()).collect();
+        let marks: Vec<&str> = self.marks.iter().map(|(_, label)| label.as_str()).collect();
         let mut parts = vec![
             self.subtitle.clone(),
             format!("Vertical: {}", self.y.description()),
@@ -201,12 +193,7 @@ mod tests {
     fn ticks_and_marks_off_the_axis_are_left_out() {
         let mut wide = chart();
         wide.x.ticks.push(120.0);
-        wide.marks = [30.0, 95.0]
-            .map(|at| Mark {
-                at,
-                label: format!("at {at}"),
-            })
-            .into();
+        wide.marks = [30.0, 95.0].map(|at| (at, format!("at {at}"))).to_vec();
         let svg = wide.svg();
         assert!(!svg.contains(">120°<"));
         assert!(svg.contains(">at 30<") && !svg.contains(">at 95<"));

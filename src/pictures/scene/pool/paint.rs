@@ -11,8 +11,8 @@ use super::{BASIN_MAX, BASIN_MIN};
 use crate::physics::num::in_parallel;
 use crate::physics::optics;
 use crate::pictures::scene::environment::to_sun;
+use crate::pictures::scene::light::refracted;
 use crate::pictures::scene::texels::{Texels, scattered, smooth_noise};
-use crate::pictures::scene::trace::refracted;
 
 /// The radiance of white: from the sun at normal incidence, and from the sky.
 const SUN: DVec3 = DVec3::new(0.95, 0.9, 0.8);

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::{BASIN_MAX, BASIN_MIN};
-use crate::pictures::scene::body::{Vertex, ball_triangles};
+use super::{BASIN_MAX, BASIN_MIN, is_within_sides};
+use crate::pictures::scene::mesh::{Vertex, ball_triangles, quad};
 
 /// The court around the basin, in squares of a metre.
 const COURT_MIN: DVec2 = DVec2::new(-12.0, -9.0);
@@ -139,110 +139,91 @@ pub fn hit(origin: DVec3, direction: DVec3) -> Option<Hit> {
         let bound = if is_low { BASIN_MIN } else { BASIN_MAX };
         if axis != 1 || is_low {
             let distance = (bound[axis] - origin[axis]) / direction[axis];
-            hits.extend(in_basin(
-                axis,
-                is_low,
-                distance,
-                origin + distance * direction,
-            ));
+            let place = origin + distance * direction;
+            hits.extend(in_basin(axis, is_low, place).map(|on| (distance, on)));
         }
     }
     let distance = (BASIN_MAX.y - origin.y) / direction.y;
-    hits.extend(on_court(distance, origin + distance * direction));
+    hits.extend(on_court(origin + distance * direction).map(|on| (distance, on)));
     let distance = (COURT_MIN.y - origin.z) / direction.z;
-    hits.extend(on_garden_wall(distance, origin + distance * direction));
-    for post in POSTS {
-        hits.extend(on_post(post, origin, direction));
-    }
+    hits.extend(on_garden_wall(origin + distance * direction).map(|on| (distance, on)));
+    hits.extend(
+        POSTS
+            .into_iter()
+            .filter_map(|post| on_post(post, origin, direction)),
+    );
     hits.extend(on_ball(origin, direction));
-    let ahead = hits.into_iter().filter(|hit| hit.distance > 1e-9);
-    ahead.min_by(|one, other| one.distance.total_cmp(&other.distance))
+    hits.into_iter()
+        .filter(|(distance, _)| *distance > 1e-9 && distance.is_finite())
+        .min_by(|one, other| one.0.total_cmp(&other.0))
+        .map(|(distance, (part, at))| Hit { distance, part, at })
 }
 
-/// A hit on the floor or a wall.
-fn in_basin(axis: usize, is_low: bool, distance: f64, place: DVec3) -> Option<Hit> {
+/// A part of the pool, and a place in it.
+type PlaceOn = (Part, DVec2);
+
+/// A place on the floor or on a wall.
+fn in_basin(axis: usize, is_low: bool, place: DVec3) -> Option<PlaceOn> {
     let share = (place - BASIN_MIN) / (BASIN_MAX - BASIN_MIN);
     let within = |axis: usize| (0.0..=1.0).contains(&share[axis]);
-    let is_within = (0..3).all(|other| other == axis || within(other));
-    let (part, at) = match axis {
-        0 => (
-            Part::Wall(usize::from(!is_low)),
-            DVec2::new(share.z, 1.0 - share.y),
-        ),
+    let side = usize::from(!is_low);
+    let on = match axis {
+        0 => (Part::Wall(side), DVec2::new(share.z, 1.0 - share.y)),
         1 => (Part::Floor, DVec2::new(share.z, share.x)),
-        _ => (
-            Part::Wall(2 + usize::from(!is_low)),
-            DVec2::new(share.x, 1.0 - share.y),
-        ),
+        _ => (Part::Wall(2 + side), DVec2::new(share.x, 1.0 - share.y)),
     };
-    (distance.is_finite() && is_within).then_some(Hit { distance, part, at })
+    (0..3)
+        .all(|other| other == axis || within(other))
+        .then_some(on)
 }
 
-fn on_court(distance: f64, place: DVec3) -> Option<Hit> {
-    let (x, z) = (place.x, place.z);
-    let is_over_basin =
-        (BASIN_MIN.x..BASIN_MAX.x).contains(&x) && (BASIN_MIN.z..BASIN_MAX.z).contains(&z);
+fn on_court(place: DVec3) -> Option<PlaceOn> {
+    let at = DVec2::new(place.x, place.z);
     let is_court =
-        (COURT_MIN.x..COURT_MAX.x).contains(&x) && (COURT_MIN.y..COURT_MAX.y).contains(&z);
-    (distance.is_finite() && is_court && !is_over_basin).then(|| Hit {
-        distance,
-        part: Part::Court,
-        at: DVec2::new(x - x.floor(), z - z.floor()),
-    })
+        (COURT_MIN.x..COURT_MAX.x).contains(&at.x) && (COURT_MIN.y..COURT_MAX.y).contains(&at.y);
+    (is_court && !is_within_sides(place)).then(|| (Part::Court, at - at.floor()))
 }
 
-fn on_garden_wall(distance: f64, place: DVec3) -> Option<Hit> {
+fn on_garden_wall(place: DVec3) -> Option<PlaceOn> {
     let at = DVec2::new(
         (place.x - COURT_MIN.x) / (COURT_MAX.x - COURT_MIN.x),
         (place.y - GARDEN_WALL) / (BASIN_MAX.y - GARDEN_WALL),
     );
     let is_wall = (0.0..=1.0).contains(&at.x) && (0.0..=1.0).contains(&at.y);
-    (distance.is_finite() && is_wall).then_some(Hit {
-        distance,
-        part: Part::Garden,
-        at,
-    })
+    is_wall.then_some((Part::Garden, at))
 }
 
-fn on_post([x, z, top]: [f64; 3], origin: DVec3, direction: DVec3) -> Option<Hit> {
-    let (from, along) = (
-        DVec2::new(origin.x - x, origin.z - z),
-        DVec2::new(direction.x, direction.z),
-    );
+/// The height of a place of a post, as a share of what is painted.
+fn painted(y: f64) -> f64 {
+    (PAINTED[1] - y) / (PAINTED[1] - PAINTED[0])
+}
+
+fn on_post([x, z, top]: [f64; 3], origin: DVec3, direction: DVec3) -> Option<(f64, PlaceOn)> {
+    let from = DVec2::new(origin.x - x, origin.z - z);
+    let along = DVec2::new(direction.x, direction.z);
     let to_top = (top - origin.y) / direction.y;
     let across = from + to_top * along;
     if direction.y < 0.0 && to_top > 0.0 && across.length() < POST_RADIUS {
-        return Some(Hit {
-            distance: to_top,
-            part: Part::Top,
-            at: across / (2.0 * POST_RADIUS) + 0.5,
-        });
+        return Some((to_top, (Part::Top, across / (2.0 * POST_RADIUS) + 0.5)));
     }
     let (a, b) = (along.length_squared(), from.dot(along));
     let under = b * b - a * (from.length_squared() - POST_RADIUS * POST_RADIUS);
     let distance = (-b - under.max(0.0).sqrt()) / a;
     let y = origin.y + distance * direction.y;
-    let place = from + distance * along;
+    let at = DVec2::new(around(from + distance * along), painted(y));
     let is_post = under > 0.0 && distance > 0.0 && (BASIN_MIN.y..top).contains(&y);
-    is_post.then(|| Hit {
-        distance,
-        part: Part::Post,
-        at: DVec2::new(around(place), (PAINTED[1] - y) / (PAINTED[1] - PAINTED[0])),
-    })
+    is_post.then_some((distance, (Part::Post, at)))
 }
 
-fn on_ball(origin: DVec3, direction: DVec3) -> Option<Hit> {
+fn on_ball(origin: DVec3, direction: DVec3) -> Option<(f64, PlaceOn)> {
     let from = origin - BALL_CENTRE;
     let b = from.dot(direction);
     let under = b * b - from.length_squared() + BALL_RADIUS * BALL_RADIUS;
     let distance = -b - under.max(0.0).sqrt();
     let normal = (from + distance * direction) / BALL_RADIUS;
     let latitude = libm::acos(normal.y.clamp(-1.0, 1.0)) / std::f64::consts::PI;
-    (under > 0.0 && distance > 0.0).then(|| Hit {
-        distance,
-        part: Part::Ball,
-        at: DVec2::new(around(DVec2::new(normal.x, normal.z)), latitude),
-    })
+    let at = DVec2::new(around(DVec2::new(normal.x, normal.z)), latitude);
+    (under > 0.0 && distance > 0.0).then_some((distance, (Part::Ball, at)))
 }
 
 /// The share of a turn from -z through +x.
@@ -262,10 +243,7 @@ pub fn triangles() -> Vec<[Vertex; 3]> {
     for x in COURT_MIN.x as i32..COURT_MAX.x as i32 {
         for z in COURT_MIN.y as i32..COURT_MAX.y as i32 {
             let corner = DVec3::new(x.into(), BASIN_MAX.y, z.into());
-            let (x, z) = (corner.x, corner.z);
-            let is_over_basin =
-                (BASIN_MIN.x..BASIN_MAX.x).contains(&x) && (BASIN_MIN.z..BASIN_MAX.z).contains(&z);
-            if !is_over_basin {
+            if !is_within_sides(corner) {
                 let corners = square.map(|at| corner + DVec3::new(at.x, 0.0, at.y));
                 all.extend(flat(Part::Court, corners, square));
             }
@@ -289,25 +267,8 @@ fn flat(part: Part, corners: [DVec3; 4], places: [DVec2; 4]) -> [[Vertex; 3]; 2]
     quad(corners, places.map(|at| part.uv(at)), normal, DVec4::ZERO)
 }
 
-/// A rectangle, by its corners in order.
-pub fn quad(
-    corners: [DVec3; 4],
-    uvs: [DVec2; 4],
-    normal: DVec3,
-    tangent: DVec4,
-) -> [[Vertex; 3]; 2] {
-    let corner = |i: usize| Vertex {
-        position: corners[i],
-        normal,
-        tangent,
-        uv: uvs[i],
-    };
-    [[0, 1, 2], [0, 2, 3]].map(|triangle| triangle.map(corner))
-}
-
 fn post_triangles([x, z, top]: [f64; 3]) -> Vec<[Vertex; 3]> {
     let mut all = Vec::new();
-    let painted = |y: f64| (PAINTED[1] - y) / (PAINTED[1] - PAINTED[0]);
     let middle = DVec3::new(x, top, z);
     for column in 0..COLUMNS {
         let turns = [column, column + 1].map(|column| column as f64 / COLUMNS as f64);

@@ -3,13 +3,13 @@
 //!
 //! The waves are a sum of sines. Their height is the surface of the truth; their slopes are the normal map of the drawn picture.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::solids::{Hit, hit};
-use super::{BASIN_MAX, BASIN_MIN, Pool};
+use super::{BASIN_MAX, BASIN_MIN, Pool, is_within_sides};
 use crate::physics::optics;
+use crate::pictures::scene::light::{Around, Traced, mirrored, refracted};
 use crate::pictures::scene::material::OpticalMaterial;
-use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
 
 /// How many places are tried along a ray between the highest crest and the lowest trough, and the steps of the search between two
 /// of them.
@@ -115,13 +115,12 @@ impl Light<'_> {
     }
 
     fn normal(&self, surface: Surface, place: DVec3) -> DVec3 {
-        let place = DVec2::new(place.x, place.z);
+        let place = place.xz();
         match surface {
             Surface::Waves => self.pool.waves.normal(place),
             Surface::Plane => {
-                let (min, max) = (BASIN_MIN, BASIN_MAX);
-                let size = DVec2::new(max.x - min.x, max.z - min.z);
-                let uv = (place - DVec2::new(min.x, min.z)) / size;
+                let [min, max] = [BASIN_MIN, BASIN_MAX].map(|corner| corner.xz());
+                let uv = (place - min) / (max - min);
                 let mapped = self.pool.normals.at(uv);
                 DVec3::new(mapped.x, mapped.z, mapped.y).normalize()
             }
@@ -137,10 +136,7 @@ impl Light<'_> {
             Surface::Plane => Some(-origin.y / direction.y).filter(|distance| *distance > 1e-5),
             Surface::Waves => self.meets_waves(origin, direction),
         }?;
-        let place = origin + distance * direction;
-        let is_within = (BASIN_MIN.x..BASIN_MAX.x).contains(&place.x)
-            && (BASIN_MIN.z..BASIN_MAX.z).contains(&place.z);
-        is_within.then_some(distance)
+        is_within_sides(origin + distance * direction).then_some(distance)
     }
 
     /// Finds the first sample below the surface, and searches between it and the one before.
@@ -150,7 +146,7 @@ impl Light<'_> {
         let (first, last) = (to_height(waves.highest), to_height(-waves.highest));
         let above = |distance: f64| {
             let place = origin + distance * direction;
-            place.y - waves.height(DVec2::new(place.x, place.z))
+            place.y - waves.height(place.xz())
         };
         let mut before = (first, above(first));
         if before.1 <= 0.0 {

@@ -10,20 +10,6 @@ const ROSE: f64 = 1.0;
 const MIDDLE: f64 = 0.2;
 /// The medallions of each part: their distance from the middle, and their radius.
 const MEDALLIONS: [[f64; 2]; 2] = [[0.47, 0.088], [0.79, 0.13]];
-/// The seeds of the mosaic's pieces of each part: their distance from the middle, and their angle in degrees.
-const SEEDS: [[f64; 2]; 11] = [
-    [0.25, 15.0],
-    [0.32, 0.0],
-    [0.38, 15.0],
-    [0.52, 15.0],
-    [0.62, 0.0],
-    [0.66, 15.0],
-    [0.80, 15.0],
-    [0.73, 9.0],
-    [0.73, -9.0],
-    [0.94, 15.0],
-    [0.97, 0.0],
-];
 /// Half the width of the leads between pieces, and of those around medallions.
 const LEAD: f64 = 0.0075;
 const THICK_LEAD: f64 = 0.012;
@@ -40,6 +26,22 @@ const AZURE: DVec3 = DVec3::new(0.15, 0.45, 0.92);
 const EMERALD: DVec3 = DVec3::new(0.05, 0.55, 0.18);
 const VIOLET: DVec3 = DVec3::new(0.35, 0.08, 0.6);
 const PEARL: DVec3 = DVec3::new(0.88, 0.9, 0.8);
+
+/// The seeds of the mosaic's pieces of each part: their distance from the middle, and their angle in degrees; and the colours of
+/// the piece in parts of even number and of odd.
+const SEEDS: [([f64; 2], [DVec3; 2]); 11] = [
+    ([0.25, 15.0], [AZURE, AZURE]),
+    ([0.32, 0.0], [RUBY, VIOLET]),
+    ([0.38, 15.0], [COBALT, COBALT]),
+    ([0.52, 15.0], [COBALT, COBALT]),
+    ([0.62, 0.0], [GOLD, GOLD]),
+    ([0.66, 15.0], [AZURE, AZURE]),
+    ([0.80, 15.0], [EMERALD, RUBY]),
+    ([0.73, 9.0], [COBALT, COBALT]),
+    ([0.73, -9.0], [COBALT, COBALT]),
+    ([0.94, 15.0], [VIOLET, VIOLET]),
+    ([0.97, 0.0], [AZURE, AZURE]),
+];
 
 /// The piece at a place of the wall.
 struct Piece {
@@ -165,12 +167,9 @@ fn piece(place: DVec2) -> Piece {
 impl Piece {
     /// The piece with another lead, given the distance to it and half its width.
     fn with(self, [to_lead, half_lead]: [f64; 2]) -> Piece {
-        let is_nearer = to_lead - half_lead < self.to_lead - self.half_lead;
-        let (to_lead, half_lead) = if is_nearer {
-            (to_lead, half_lead)
-        } else {
-            (self.to_lead, self.half_lead)
-        };
+        if to_lead - half_lead >= self.to_lead - self.half_lead {
+            return self;
+        }
         Piece {
             to_lead,
             half_lead,
@@ -205,7 +204,7 @@ fn medallion(from: DVec2, size: f64, petals: f64, id: [i64; 2], colours: [DVec3;
 fn mosaic(local: DVec2, part: i64) -> Piece {
     let mut seeds = Vec::with_capacity(3 * SEEDS.len());
     for shift in -1..=1 {
-        for (i, [far, angle]) in SEEDS.into_iter().enumerate() {
+        for (i, ([far, angle], _)) in SEEDS.into_iter().enumerate() {
             let turned = f64::to_radians(angle + f64::from(shift) * 360.0 / PARTS);
             let seed = far * DVec2::from_angle(turned);
             seeds.push((seed, i, i64::from(shift)));
@@ -224,32 +223,8 @@ fn mosaic(local: DVec2, part: i64) -> Piece {
         }
     }
     let part = (part + shift).rem_euclid(PARTS as i64);
-    let is_even = part % 2 == 0;
-    let colour = match kind {
-        0 => AZURE,
-        1 => {
-            if is_even {
-                RUBY
-            } else {
-                VIOLET
-            }
-        }
-        2 | 3 => COBALT,
-        4 => GOLD,
-        5 => AZURE,
-        6 => {
-            if is_even {
-                EMERALD
-            } else {
-                RUBY
-            }
-        }
-        7 | 8 => COBALT,
-        9 => VIOLET,
-        _ => AZURE,
-    };
     Piece {
-        colour,
+        colour: SEEDS[kind].1[(part % 2) as usize],
         number: [kind as i64, part],
         to_lead,
         half_lead: LEAD,

@@ -6,12 +6,11 @@
 mod design;
 mod truth;
 
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::body::Vertex;
-use super::pool::quad;
+use super::mesh::{Vertex, quad};
 use super::texels::Texels;
 
 /// Texels along a side of the tables.
@@ -33,23 +32,33 @@ pub struct Window {
 }
 
 /// The window of the pictures.
-pub fn window() -> &'static Window {
-    static WINDOW: OnceLock<Window> = OnceLock::new();
-    WINDOW.get_or_init(|| {
-        let place = |column: usize, row: usize| {
-            let share = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) / SIDE as f64;
-            DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) * HALF - CENTRE
-        };
-        let normal = |column, row| {
-            let slope = design::slope(place(column, row));
-            let normal = DVec3::new(-slope.x, slope.y, 1.0).normalize();
-            normal.extend(1.0)
-        };
-        Window {
-            paint: Texels::baked([SIDE; 2], |column, row| design::paint(place(column, row))),
-            normals: Texels::baked([SIDE; 2], normal),
-        }
-    })
+pub static WINDOW: LazyLock<Window> = LazyLock::new(|| {
+    let place = |column: usize, row: usize| {
+        let share = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) / SIDE as f64;
+        DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) * HALF - CENTRE
+    };
+    let normal = |column, row| {
+        let slope = design::slope(place(column, row));
+        let normal = DVec3::new(-slope.x, slope.y, 1.0).normalize();
+        normal.extend(1.0)
+    };
+    Window {
+        paint: Texels::baked([SIDE; 2], |column, row| design::paint(place(column, row))),
+        normals: Texels::baked([SIDE; 2], normal),
+    }
+});
+
+/// The picture shows a ball of this radius around the origin.
+pub const RADIUS: f64 = 1.02;
+
+/// The triangles of the wall.
+pub fn triangles() -> Vec<[Vertex; 3]> {
+    let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+    let corners = corners.map(|(x, y)| WALL * DVec2::new(x, y));
+    let places = corners.map(|at| at.x * right() + at.y * DVec3::Y);
+    // v grows downward, and cross(normal, tangent) points upward.
+    let tangent = right().extend(-1.0);
+    quad(places, corners.map(uv), -outward(), tangent).to_vec()
 }
 
 /// The direction out of the room: level, toward the sun.
@@ -68,19 +77,6 @@ fn uv(place: DVec2) -> DVec2 {
 }
 
 impl Window {
-    /// The picture shows a ball of this radius around the origin.
-    pub const RADIUS: f64 = 1.02;
-
-    /// The triangles of the wall.
-    pub fn triangles(&self) -> Vec<[Vertex; 3]> {
-        let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
-        let corners = corners.map(|(x, y)| WALL * DVec2::new(x, y));
-        let places = corners.map(|at| at.x * right() + at.y * DVec3::Y);
-        // v grows downward, and cross(normal, tangent) points upward.
-        let tangent = right().extend(-1.0);
-        quad(places, corners.map(uv), -outward(), tangent).to_vec()
-    }
-
     /// Its colour at a place.
     fn paint_at(&self, place: DVec2) -> DVec4 {
         self.paint.at(uv(place))

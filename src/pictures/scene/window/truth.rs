@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 
 use super::{WALL, Window, outward, right};
 use crate::physics::optics;
+use crate::pictures::scene::light::{Around, Traced, mirrored, refracted};
 use crate::pictures::scene::material::OpticalMaterial;
-use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
 
 /// The thickness of the glass.
 const THICKNESS: f64 = 0.006;
@@ -30,21 +30,11 @@ impl Window {
         let place = eye + distance * direction;
         let at = DVec2::new(place.dot(right()), place.y);
         if distance <= 0.0 || at.abs().max_element() > WALL {
-            let colour = around.radiance(eye, direction);
-            return Traced {
-                colour,
-                own: colour,
-                ..Traced::default()
-            };
+            return Traced::beside(around.radiance(eye, direction));
         }
         let (paint, normal) = (self.paint_at(at), self.normal_at(at));
         if paint.w < 0.5 {
-            let colour = paint.truncate() * room(normal);
-            return Traced {
-                colour,
-                own: colour,
-                ..Traced::default()
-            };
+            return Traced::beside(paint.truncate() * room(normal));
         }
         let n = glass.n.y;
         let r = optics::dielectric(n, (-direction.dot(normal)).clamp(0.0, 1.0)).unpolarised();
@@ -75,12 +65,12 @@ impl Window {
             let r = optics::dielectric(1.0 / n, cosine.min(1.0)).unpolarised();
             if let Some(out) = refracted(direction, -outward(), 1.0 / n) {
                 let light = left * (1.0 - r) * around.radiance(DVec3::ZERO, out);
-                once += if turn == 0 { light } else { DVec3::ZERO };
-                all += if self.is_glass(at) {
-                    light
-                } else {
-                    DVec3::ZERO
-                };
+                if turn == 0 {
+                    once = light;
+                }
+                if self.is_glass(at) {
+                    all += light;
+                }
             }
             left *= r;
             direction = mirrored(direction, outward());
