@@ -22,7 +22,8 @@ use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::shader;
 use crate::generator::request::{Materials, Request};
 use crate::lab::audit::{
-    Audit, AuditCost, AuditRow, AuditRows, ConditionRow, Define, ExactFit, Given, Language, serve,
+    self, Audit, AuditCost, AuditRow, AuditRows, Condition, Define, ExactFit, Given, Language,
+    serve,
 };
 use crate::lab::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::lab::cost::{self, FAMILIES, Family};
@@ -228,7 +229,7 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     let file = flags.file.clone().unwrap_or_default();
     let language = match flags.language {
         Some((_, language)) => language,
-        None => Language::of_file(&file)?,
+        None => Language::of_file(&file).ok_or_else(|| audit::Error::NoLanguage(file.clone()))?,
     };
     let given = flags.arg.iter().map(|word| Given::read(word));
     let given = given.collect::<Result<Vec<Given>, _>>()?;
@@ -348,8 +349,8 @@ fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
 }
 
 /// How the conditional compilation around a function and in it was decided.
-fn conditions(all: &[ConditionRow]) -> String {
-    let words = |one: &ConditionRow| {
+fn conditions(all: &[Condition]) -> String {
+    let words = |one: &Condition| {
         let taken = if one.is_taken { "taken" } else { "not taken" };
         format!("line {} `{}`: {taken}", one.line, one.text)
     };
@@ -419,14 +420,13 @@ fn model_error(error: &ModelError) -> String {
 }
 
 fn cost_line(row: &AuditRow, cost: &AuditCost) -> String {
-    let gpu = cost.family.name;
-    match &cost.figures {
-        Err(why) => format!("{gpu}: not checked: {why}"),
-        Ok(figures) => {
-            let (net, measure) = (figures.cost(), cost.family.columns.measure);
+    let gpu = cost.gpu;
+    match (cost.net, &cost.reason) {
+        (Some(net), _) => {
             let sentence = row.sentence_on(gpu).unwrap_or("ours are not known there");
-            format!("{gpu}: {net} ({measure}): {sentence}")
+            format!("{gpu}: {net} ({}): {sentence}", cost.measure)
         }
+        (None, why) => format!("{gpu}: not checked: {}", why.as_deref().unwrap_or_default()),
     }
 }
 

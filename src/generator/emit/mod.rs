@@ -18,7 +18,6 @@ mod function;
 mod header;
 mod page;
 mod print;
-pub mod shader_words;
 mod specialised;
 mod xml;
 

@@ -1,6 +1,7 @@
 //! Perceived error: of luminance, and of colour by CIEDE2000 beside a perfect mirror under the white of the space.
 
 use glam::DVec3;
+use serde::Serialize;
 
 use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 use crate::language::ir::Value;
@@ -10,7 +11,7 @@ use crate::physics::spectra::{Lab, Space, ciede2000};
 const EVERY: usize = 8;
 
 /// The largest perceived errors over the angles.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Perceived {
     /// The difference in the space's luminance. An excess in one channel makes up for a lack in another.
     pub luminance: f64,

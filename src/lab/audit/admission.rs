@@ -1,12 +1,13 @@
 //! The check of a user's text: whatever could read another file, hide a name, or be read in two ways is refused before any
 //! compiler sees it.
 
-use super::condition::{Language, bare, definition};
+use super::definition::definition;
 use super::directives::{self, TextFault};
 use super::error::Error;
+use super::language::{Language, bare};
 use super::loops::is_in_macro;
 use super::preprocess::{Define, Preprocessed, joined_comments, joined_lines, preprocessed};
-use crate::generator::emit::shader_words::tokens;
+use crate::lab::verify::shader_words::tokens;
 
 /// The text as compilers would see it: preprocessed, without comments.
 ///

@@ -4,34 +4,37 @@
 use core::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
-use super::bind::{self, Bound, BoundArgument};
-use super::choose::{Accepted, choose};
+use super::bind::{Bound, BoundArgument, bind};
+use super::choose::choose;
 use super::comparison::{self, ExactFit, recognised};
 use super::compile::Compilers;
-use super::condition::Language;
+use super::compiler_message;
+use super::compilers::Accepted;
 use super::cosine::CosineForm;
 use super::cost::{self, AuditCost};
-use super::error::{self, Error};
+use super::error::{Error, FunctionPlace};
+use super::language::Language;
 use super::loops::{Branch, branch};
 use super::ours::{CostedMethods, Ours};
 use super::program::AuditProgram;
+use super::request::Audit;
 use super::row::{AuditRow, Audited, Ran};
 use super::runner::{Runner, Trouble};
-use super::scan::FoundFunction;
 use super::slice::{Slice, SlicedText};
-use super::{Audit, admission, edges};
+use super::{admission, edges};
 use crate::generator::emit::FunctionForm;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::fault::Fault;
 use crate::lab::gpu::Uniform;
 use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::compilers::Verdict;
+use crate::lab::verify::function_head::FunctionHead;
 use crate::physics::num::each_channel;
 
 /// An audit under way.
 pub struct Auditor<'a> {
     audit: &'a Audit,
-    function: FoundFunction,
+    function: FunctionHead,
     /// What compilers see of the text.
     slice: Slice,
     branch: Option<Branch>,
@@ -62,7 +65,7 @@ impl<'a> Auditor<'a> {
             .collect();
         let slice = text.around(&function, &given);
         let slice = slice.map_err(|(line, why)| Error::Unread {
-            place: bind::place_of(file, &function),
+            place: FunctionPlace::new(file, &function),
             line,
             why,
         })?;
@@ -92,7 +95,7 @@ impl<'a> Auditor<'a> {
         progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<AuditRow, Error> {
         let audit = self.audit;
-        let bound = bind::bind(
+        let bound = bind(
             &audit.file,
             self.function.clone(),
             &self.slice,
@@ -255,7 +258,7 @@ impl<'a> Auditor<'a> {
         };
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,
-            Err(Trouble::Refused(_, words)) if error::names_place(words) => {
+            Err(Trouble::Refused(_, words)) if compiler_message::names_place(words) => {
                 Some(Err(Fault::Failed(words.clone())))
             }
             // The driver or the machine may be at fault.
@@ -269,7 +272,7 @@ impl<'a> Auditor<'a> {
         let lines = self.audit.text.lines().count();
         for (_, verdict) in verdicts {
             if let Err(Fault::Failed(words)) = verdict {
-                *words = error::placed(&self.audit.file, lines, words);
+                *words = compiler_message::placed(&self.audit.file, lines, words);
             }
         }
     }
@@ -284,7 +287,7 @@ impl<'a> Auditor<'a> {
     ) -> Result<(Vec<AuditCost>, Vec<Ours>), Error> {
         let audit = self.audit;
         let costs = self.costs(bound)?;
-        let is_known = costs.iter().any(|cost| cost.figures.is_ok());
+        let is_known = costs.iter().any(|cost| cost.net.is_some());
         let form = compared_form(bound).filter(|_| is_known && self.cost_remark(bound).is_none());
         let Some(form) = form else {
             return Ok((costs, Vec::new()));

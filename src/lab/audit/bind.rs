@@ -2,20 +2,20 @@
 
 use super::cosine::{CosineForm, cosine, is_named};
 use super::error::{Error, FunctionPlace, MissingArgument, MissingCosine};
+use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::hidden::HiddenInput;
-use super::inputs::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::quantity::{Quantity, meanings, plain};
-use super::scan::{FoundFunction, NumberShape, Parameter};
 use super::slice::Slice;
-use crate::generator::emit::shader_words::tokens;
 use crate::generator::reference::MaterialInMedium;
+use crate::lab::verify::function_head::{FunctionHead, NumberShape};
+use crate::lab::verify::shader_words::tokens;
 use crate::physics::names::UnknownName;
 
 /// A function with all its arguments bound.
 #[derive(Clone, Debug)]
 pub struct Bound {
     /// The function.
-    pub function: FoundFunction,
+    pub function: FunctionHead,
     /// The index of the cosine among its arguments.
     pub cosine: usize,
     /// The quantity of the angle that this argument takes.
@@ -141,124 +141,208 @@ fn numbers([r, g, b]: [f32; 3]) -> String {
     }
 }
 
-/// The place of a function, for messages.
-pub fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
-    FunctionPlace {
-        file: file.to_owned(),
-        line: found.line,
-        column: found.column,
-        name: found.name.clone(),
-    }
-}
-
 /// Binds all arguments of a function.
 ///
 /// # Errors
 /// A value is given for an unknown argument, has the wrong number of components, or is missing.
 pub fn bind(
     file: &str,
-    function: FoundFunction,
+    function: FunctionHead,
     slice: &Slice,
     given: &[Given],
     subject: &MaterialInMedium,
 ) -> Result<Bound, Error> {
-    check_names(&function, slice, given)?;
-    let hidden: Vec<Parameter> = slice.hidden.iter().map(hidden_parameter).collect();
-    let defaults = defaults(&function, given);
-    let mut values = Vec::new();
-    let params = function.params.iter();
-    let params = params.map(|param| (param, meanings(&param.name, &function)));
-    // The name of an input from outside says less (`k.x`, `bias`), so its value is asked for.
-    let inputs = hidden.iter().map(|param| (param, Vec::new()));
-    for (param, meanings) in params.chain(inputs) {
-        let own = given.iter().rfind(|given| given.name == param.name);
-        let has_default = own.is_none() && defaults.iter().any(|one| one.name == param.name);
-        values.push(if has_default {
-            None
-        } else {
-            bound_argument(&function, (param, meanings), own, subject)?
-        });
-    }
-    let (place, form, words) = checked_cosine(
+    let binding = Binding {
         file,
-        &function,
-        (slice, given),
-        (&values, &defaults),
+        function: &function,
+        slice,
+        given,
+        defaults: defaults(&function, given),
         subject,
-    )?;
-    let arguments = values.into_iter().flatten().collect();
+    };
+    binding.check_names()?;
+    let values = binding.values()?;
+    let (cosine, form, cosine_words) = binding.cosine(&values)?;
+    let defaults = binding.defaults;
     Ok(Bound {
         function,
-        cosine: place,
+        cosine,
         form,
-        cosine_words: words,
+        cosine_words,
         defaults,
-        arguments,
+        arguments: values.into_iter().flatten().collect(),
         hidden: slice.hidden.clone(),
     })
 }
 
-/// An input from outside as an argument.
-fn hidden_parameter(input: &HiddenInput) -> Parameter {
-    Parameter {
-        name: input.path.clone(),
-        shape: input.shape(),
-        ty: String::new(),
-        default: None,
+/// What the arguments of a function are bound from.
+struct Binding<'a> {
+    file: &'a str,
+    function: &'a FunctionHead,
+    slice: &'a Slice,
+    given: &'a [Given],
+    defaults: Vec<DefaultArgument>,
+    subject: &'a MaterialInMedium,
+}
+
+impl Binding<'_> {
+    fn check_names(&self) -> Result<(), Error> {
+        let params = self.function.params.iter().map(|param| &param.name);
+        let hidden = self.slice.hidden.iter().map(|input| &input.path);
+        let initialised = self.slice.initialised.iter().map(|one| &one.name);
+        let all = params.chain(hidden).chain(initialised);
+        let all: Vec<&str> = all.map(String::as_str).collect();
+        let is_unknown = |given: &&Given| !all.contains(&given.name.as_str());
+        self.given.iter().find(is_unknown).map_or(Ok(()), |given| {
+            Err(UnknownName::new("argument", &given.name, &all).into())
+        })
     }
-}
 
-/// An argument with its value, where there is one.
-fn bound_argument(
-    function: &FoundFunction,
-    (param, meanings): (&Parameter, Vec<Quantity>),
-    given: Option<&Given>,
-    subject: &MaterialInMedium,
-) -> Result<Option<BoundArgument>, Error> {
-    let is_rgb = param.shape == NumberShape::Rgb;
-    let may_differ = is_rgb || function.result == NumberShape::Scalar;
-    let (value, quantity) = match given.map(|given| (given, &given.value)) {
-        Some((given, GivenValue::Numbers(values))) => {
-            (Some(spread(&given.name, values, may_differ)?), None)
-        }
-        Some((_, GivenValue::Quantity(quantity))) => {
-            (filled(*quantity, may_differ, subject), Some(*quantity))
-        }
-        Some((_, GivenValue::Cosine(_))) => (None, None),
-        None => {
-            let quantity = meanings.first().copied();
-            let value = quantity.and_then(|quantity| filled(quantity, may_differ, subject));
-            (value, quantity)
-        }
-    };
-    Ok(value.map(|value| BoundArgument {
-        name: param.name.clone(),
-        is_rgb,
-        value,
-        quantity,
-        meanings,
-        is_by_name: given.is_none(),
-    }))
-}
+    /// The value given for an argument.
+    fn given(&self, name: &str) -> Option<&GivenValue> {
+        let own = self.given.iter().rfind(|given| given.name == name);
+        own.map(|given| &given.value)
+    }
 
-/// The material's value of a quantity, where the argument can take it.
-fn filled(quantity: Quantity, may_differ: bool, subject: &MaterialInMedium) -> Option<[f32; 3]> {
-    let value = quantity.value(subject)?;
-    (may_differ || same(&value)).then(|| value.map(|value| value as f32))
-}
+    fn is_default(&self, name: &str) -> bool {
+        self.defaults.iter().any(|one| one.name == name)
+    }
 
-fn check_names(function: &FoundFunction, slice: &Slice, given: &[Given]) -> Result<(), Error> {
-    let params = function.params.iter().map(|param| &param.name);
-    let hidden = slice.hidden.iter().map(|input| &input.path);
-    let initialised = slice.initialised.iter().map(|one| &one.name);
-    let all = params.chain(hidden).chain(initialised);
-    let all: Vec<&str> = all.map(String::as_str).collect();
-    let wrong = given
-        .iter()
-        .find(|given| !all.contains(&given.name.as_str()));
-    wrong.map_or(Ok(()), |given| {
-        Err(UnknownName::new("argument", &given.name, &all).into())
-    })
+    fn place(&self) -> FunctionPlace {
+        FunctionPlace::new(self.file, self.function)
+    }
+
+    /// The arguments, followed by the inputs from outside. None for those without a value, or with a default.
+    fn values(&self) -> Result<Vec<Option<BoundArgument>>, Error> {
+        let mut values = Vec::new();
+        for param in &self.function.params {
+            values.push(if self.is_default(&param.name) {
+                None
+            } else {
+                let meanings = meanings(&param.name, self.function);
+                self.argument(&param.name, param.shape == NumberShape::Rgb, meanings)?
+            });
+        }
+        for input in &self.slice.hidden {
+            // The name of an input from outside says less (`k.x`, `bias`), so its value is asked for.
+            values.push(self.argument(&input.path, input.is_rgb, Vec::new())?);
+        }
+        Ok(values)
+    }
+
+    /// An argument with its value, where there is one.
+    fn argument(
+        &self,
+        name: &str,
+        is_rgb: bool,
+        meanings: Vec<Quantity>,
+    ) -> Result<Option<BoundArgument>, Error> {
+        let may_differ = is_rgb || self.function.result == NumberShape::Scalar;
+        // The material's value, where the argument can take it.
+        let filled = |quantity: Quantity| {
+            let value = quantity.value(self.subject)?;
+            (may_differ || same(&value)).then(|| value.map(|value| value as f32))
+        };
+        let given = self.given(name);
+        let (value, quantity) = match given {
+            Some(GivenValue::Numbers(values)) => (Some(spread(name, values, may_differ)?), None),
+            Some(GivenValue::Quantity(quantity)) => (filled(*quantity), Some(*quantity)),
+            Some(GivenValue::Cosine(_)) => (None, None),
+            None => {
+                let quantity = meanings.first().copied();
+                (quantity.and_then(filled), quantity)
+            }
+        };
+        Ok(value.map(|value| BoundArgument {
+            name: name.to_owned(),
+            is_rgb,
+            value,
+            quantity,
+            meanings,
+            is_by_name: given.is_none(),
+        }))
+    }
+
+    /// The index and the form of the cosine, and how that is known, if all other arguments have values.
+    fn cosine(
+        &self,
+        values: &[Option<BoundArgument>],
+    ) -> Result<(usize, CosineForm, Option<String>), Error> {
+        let params = &self.function.params;
+        let has_value = |place: usize| {
+            let param = params.get(place);
+            values[place].is_some() || param.is_some_and(|param| self.is_default(&param.name))
+        };
+        let found = match given_cosine(self.file, self.function, self.given)? {
+            Some(given) => Some(given),
+            None => {
+                let has_value: Vec<bool> = (0..params.len()).map(has_value).collect();
+                cosine(self.function, &has_value, &tokens(&self.slice.body))
+            }
+        };
+        let chosen = found.map(|found| found.place);
+        let missing =
+            (0..values.len()).filter(|place| !has_value(*place) && Some(*place) != chosen);
+        let missing: Vec<MissingArgument> = missing.map(|place| self.missing(place)).collect();
+        match found {
+            Some(found) if missing.is_empty() => {
+                let name = &params[found.place].name;
+                let form = found.form.ok_or_else(|| Error::UnclearCosine {
+                    place: self.place(),
+                    argument: name.clone(),
+                })?;
+                Ok((found.place, form, found.words(form, name)))
+            }
+            None if missing.is_empty() => Err(Error::NoCosine(self.place())),
+            _ => Err(Error::Unbound {
+                place: self.place(),
+                material: self.subject.argument.clone(),
+                cosine: match chosen {
+                    Some(_) => MissingCosine::Known,
+                    None => self.likely_cosine(&missing),
+                },
+                missing,
+            }),
+        }
+    }
+
+    /// The argument without a value that may be the cosine: a single number whose name has no other meaning.
+    fn likely_cosine(&self, missing: &[MissingArgument]) -> MissingCosine {
+        let is_one = |name: &str| {
+            let mut params = self.function.params.iter();
+            params.any(|param| param.name == name && param.shape == NumberShape::Scalar)
+        };
+        let is_likely = |one: &MissingArgument| {
+            is_one(&one.name) && (is_named(&one.name) || one.quantity.is_none())
+        };
+        let found = missing.iter().position(is_likely);
+        found.map_or(MissingCosine::Absent, MissingCosine::Likely)
+    }
+
+    /// The argument at this place, or the input from outside, with what it stands for.
+    fn missing(&self, place: usize) -> MissingArgument {
+        let params = &self.function.params;
+        let (name, line) = match params.get(place) {
+            Some(param) => (&param.name, None),
+            None => {
+                let input = &self.slice.hidden[place - params.len()];
+                (&input.path, Some(input.line))
+            }
+        };
+        let quantity = match self.given(name) {
+            Some(GivenValue::Quantity(quantity)) => Some(*quantity),
+            // The name of an input from outside says less.
+            _ if !params.iter().any(|param| param.name == *name) => None,
+            _ => meanings(name, self.function).first().copied(),
+        };
+        MissingArgument {
+            name: name.clone(),
+            quantity: quantity.map(|quantity| quantity.name),
+            is_one_of_three: quantity
+                .is_some_and(|quantity| quantity.value(self.subject).is_some()),
+            line,
+        }
+    }
 }
 
 /// The value of each channel.
@@ -275,97 +359,4 @@ fn spread(name: &str, values: &[f32], may_differ: bool) -> Result<[f32; 3], Erro
 
 fn same(value: &[f64; 3]) -> bool {
     value[0] == value[1] && value[1] == value[2]
-}
-
-/// The index and the form of the cosine, if all other arguments have values.
-fn checked_cosine(
-    file: &str,
-    function: &FoundFunction,
-    (slice, given): (&Slice, &[Given]),
-    (values, defaults): (&[Option<BoundArgument>], &[DefaultArgument]),
-    subject: &MaterialInMedium,
-) -> Result<(usize, CosineForm, Option<String>), Error> {
-    let is_default = |name: &str| defaults.iter().any(|one| one.name == name);
-    let params = function.params.iter().zip(values);
-    let has_value = params.map(|(param, value)| value.is_some() || is_default(&param.name));
-    let has_value: Vec<bool> = has_value.collect();
-    let own = given_cosine(file, function, given)?;
-    let found = own.or_else(|| cosine(function, &has_value, &tokens(&slice.body)));
-    let chosen = found.map(|found| found.place);
-    let is_default = |place: usize| {
-        let param = function.params.get(place);
-        param.is_some_and(|param| is_default(&param.name))
-    };
-    let missing =
-        |place: &usize| values[*place].is_none() && Some(*place) != chosen && !is_default(*place);
-    let argument = |place: usize| match function.params.get(place) {
-        Some(param) => missing_argument(&param.name, function, given, subject),
-        None => {
-            let input = &slice.hidden[place - function.params.len()];
-            MissingArgument {
-                line: Some(input.line),
-                ..missing_argument(&input.path, function, given, subject)
-            }
-        }
-    };
-    let missing: Vec<MissingArgument> = (0..values.len()).filter(missing).map(argument).collect();
-    match (found, missing.as_slice()) {
-        (Some(found), []) => {
-            let name = &function.params[found.place].name;
-            let form = found.form.ok_or_else(|| Error::UnclearCosine {
-                place: place_of(file, function),
-                argument: name.clone(),
-            })?;
-            Ok((found.place, form, found.words(form, name)))
-        }
-        (_, []) => Err(Error::NoCosine {
-            place: place_of(file, function),
-        }),
-        (_, missing) => Err(Error::Unbound {
-            place: place_of(file, function),
-            material: subject.argument.clone(),
-            missing: missing.to_vec(),
-            cosine: match chosen {
-                Some(_) => MissingCosine::Known,
-                None => likely_cosine(function, missing),
-            },
-        }),
-    }
-}
-
-/// The argument without a value that may be the cosine: a single number whose name has no other meaning.
-fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> MissingCosine {
-    let is_one = |name: &str| {
-        let mut params = function.params.iter();
-        params.any(|param| param.name == name && param.shape == NumberShape::Scalar)
-    };
-    let is_likely = |one: &MissingArgument| {
-        is_one(&one.name) && (is_named(&one.name) || one.quantity.is_none())
-    };
-    let found = (0u32..).zip(missing).find(|(_, one)| is_likely(one));
-    found.map_or(MissingCosine::Absent, |(place, _)| {
-        MissingCosine::Likely(place)
-    })
-}
-
-/// An argument without a value, with what it stands for.
-fn missing_argument(
-    name: &str,
-    function: &FoundFunction,
-    given: &[Given],
-    subject: &MaterialInMedium,
-) -> MissingArgument {
-    let own = given.iter().rfind(|given| given.name == name);
-    let quantity = match own.map(|given| &given.value) {
-        Some(GivenValue::Quantity(quantity)) => Some(*quantity),
-        // The name of an input from outside says less.
-        _ if !function.params.iter().any(|param| param.name == name) => None,
-        _ => meanings(name, function).first().copied(),
-    };
-    MissingArgument {
-        name: name.to_owned(),
-        quantity: quantity.map(|quantity| quantity.name),
-        is_one_of_three: quantity.is_some_and(|quantity| quantity.value(subject).is_some()),
-        line: None,
-    }
 }

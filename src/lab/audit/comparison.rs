@@ -39,21 +39,17 @@ pub struct Own {
 }
 
 /// A user's function against a method of ours.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+#[derive(Clone, Debug)]
+pub struct Comparison<'a> {
     /// The method.
-    pub method: &'static str,
-    /// `library` or `specialised`.
-    pub form: &'static str,
-    /// How many numbers describe a material in it.
-    pub inputs: usize,
+    pub other: &'a Competitor,
     /// The user's cost and error divided by the method's. A cost below the smallest that a compiler reports counts as the smallest.
     pub times: Multiples,
     /// The user's cost where the method costs nothing, so that there is no ratio.
     cost_beside_none: Option<f64>,
 }
 
-impl Comparison {
+impl Comparison<'_> {
     /// The user's cost divided by the method's. None where the method costs nothing.
     pub fn cost_times(&self) -> Option<f64> {
         let has_ratio = self.cost_beside_none.is_none();
@@ -63,24 +59,24 @@ impl Comparison {
 
 /// The methods that are no worse than a user's function, the best first. The first list takes no more numbers than the function
 /// does and dominates it. The second takes more, and so pays for its gain and dominates nothing.
-pub fn dominating(own: &Own, competitors: &[Competitor]) -> (Vec<Comparison>, Vec<Comparison>) {
-    let all = competitors.iter().map(|other| compared(own, other));
-    let mut found: Vec<Comparison> = all.filter(|other| other.times.is_dominated()).collect();
-    let gain = |other: &Comparison| other.times.error * other.times.cost;
-    found.sort_by(|a, b| gain(b).total_cmp(&gain(a)).then(a.method.cmp(b.method)));
+pub fn dominating<'a>(
+    own: &Own,
+    competitors: &'a [Competitor],
+) -> (Vec<Comparison<'a>>, Vec<Comparison<'a>>) {
+    let all = competitors.iter().map(|other| Comparison {
+        other,
+        times: own.point.multiples_of(&other.point),
+        cost_beside_none: other.point.costs_nothing().then_some(own.point.cost),
+    });
+    let mut found: Vec<Comparison> = all.filter(|one| one.times.is_dominated()).collect();
+    let gain = |one: &Comparison| one.times.error * one.times.cost;
+    found.sort_by(|a, b| {
+        let by_name = a.other.method.cmp(b.other.method);
+        gain(b).total_cmp(&gain(a)).then(by_name)
+    });
     found
         .into_iter()
-        .partition(|other| other.inputs <= own.inputs)
-}
-
-fn compared(own: &Own, competitor: &Competitor) -> Comparison {
-    Comparison {
-        method: competitor.method,
-        form: competitor.form,
-        inputs: competitor.inputs,
-        times: own.point.multiples_of(&competitor.point),
-        cost_beside_none: competitor.point.costs_nothing().then_some(own.point.cost),
-    }
+        .partition(|one| one.other.inputs <= own.inputs)
 }
 
 /// A sentence: which method dominates a user's function, or that none does, and which would with more inputs.
@@ -89,13 +85,13 @@ pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
     let among_as_few = match dominating.first() {
         Some(best) => {
             let (error, cost) = multiples(best);
-            let method = best.method;
+            let method = best.other.method;
             format!("dominated by {method}: this function errs {error} and costs {cost}")
         }
         None => on_the_frontier(own, competitors),
     };
     let more = with_more.first().map(|best| {
-        let (method, inputs, own) = (best.method, best.inputs, own.inputs);
+        let (method, inputs, own) = (best.other.method, best.other.inputs, own.inputs);
         let (error, cost) = multiples(best);
         format!(
             "; beside {method} it errs {error} and costs {cost}, but {method} takes {inputs} inputs instead of {own}"
@@ -106,12 +102,10 @@ pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
 
 /// The sentence where no method with as few inputs dominates it.
 fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
-    let is_as_small = |other: &&Competitor| other.inputs <= own.inputs;
-    let mut all = competitors
-        .iter()
-        .filter(is_as_small)
-        .map(|other| compared(own, other));
-    let why = match all.find(|other| other.times.is_tie()) {
+    let is_same = |other: &&Competitor| {
+        other.inputs <= own.inputs && own.point.multiples_of(&other.point).is_tie()
+    };
+    let why = match competitors.iter().find(is_same) {
         Some(same) => format!("it errs and costs as much as {}", same.method),
         None => "every method of ours with as few inputs errs more or costs more".to_owned(),
     };
@@ -176,7 +170,7 @@ pub fn recognised(
     bound: &Bound,
     subject: &MaterialInMedium,
 ) -> Option<&'static str> {
-    let takes_what_is_bound = |method: &&&'static Method| {
+    let takes_what_is_bound = |method: &Method| {
         let has = |name: &str| {
             let mut arguments = bound.arguments.iter();
             arguments.any(|argument| {
@@ -190,18 +184,19 @@ pub fn recognised(
         inputs.all(|input| has(input.name) || is_artistic(input.source))
             && method.inputs.iter().any(|input| has(input.name))
     };
-    let is_comparable = |method: &&&'static Method| {
-        method.light == Light::Unpolarised
-            && method.contract == Contract::Kept
-            && !method.is_textured()
+    let is_it = |method: &&&'static Method| {
+        is_comparable(method)
             && subject.is_described_by(method)
+            && takes_what_is_bound(method)
+            && gives(method, results, subject)
     };
-    let mut methods = methods::ALL
-        .iter()
-        .filter(is_comparable)
-        .filter(takes_what_is_bound);
-    let found = methods.find(|method| gives(method, results, subject))?;
-    Some(found.name)
+    methods::ALL.iter().find(is_it).map(|method| method.name)
+}
+
+/// Whether a method computes what users' functions do. One for polarised light computes something else. Counts of one that reads a
+/// texture do not include the fetch.
+pub fn is_comparable(method: &Method) -> bool {
+    method.light == Light::Unpolarised && method.contract == Contract::Kept && !method.is_textured()
 }
 
 /// Whether a method gives these results.
@@ -299,7 +294,7 @@ mod tests {
             sentence(&own, std::slice::from_ref(&free)),
             "dominated by constant_f0: this function errs as much and costs 44, where that costs nothing"
         );
-        let (found, _) = dominating(&own, &[free]);
+        let (found, _) = dominating(&own, std::slice::from_ref(&free));
         assert_eq!(found[0].cost_times(), None);
     }
 
@@ -319,27 +314,28 @@ mod tests {
 
     #[test]
     fn all_that_dominate_are_told_the_farthest_first() {
-        let (found, with_more) = dominating(&own(12, 0.2, 40.0), &competitors());
+        let competitors = competitors();
+        let (found, with_more) = dominating(&own(12, 0.2, 40.0), &competitors);
         assert!(with_more.is_empty());
-        let names: Vec<&str> = found.iter().map(|other| other.method).collect();
+        let names: Vec<&str> = found.iter().map(|one| one.other.method).collect();
         assert_eq!(names, ["fitted", "schlick"]);
     }
 
     /// Functions with different numbers of inputs are not compared as equals.
     #[test]
     fn what_takes_more_numbers_dominates_nothing_and_is_told() {
-        let few = own(3, 0.09, 28.0);
-        let (found, with_more) = dominating(&few, &competitors());
+        let (few, competitors) = (own(3, 0.09, 28.0), competitors());
+        let (found, with_more) = dominating(&few, &competitors);
         assert!(found.is_empty());
-        assert_eq!(with_more[0].method, "fitted");
+        assert_eq!(with_more[0].other.method, "fitted");
         assert_eq!(
-            sentence(&few, &competitors()),
+            sentence(&few, &competitors),
             "on the frontier: every method of ours with as few inputs errs more or costs more; beside fitted it errs 9 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
         );
-        let (found, _) = dominating(&own(3, 0.2, 28.0), &competitors());
+        let (found, _) = dominating(&own(3, 0.2, 28.0), &competitors);
         assert_eq!(found.len(), 1);
         assert_eq!(
-            sentence(&own(3, 0.2, 28.0), &competitors()),
+            sentence(&own(3, 0.2, 28.0), &competitors),
             "dominated by schlick: this function errs 2 times as much and costs 2.8 times as much; beside fitted it errs 20 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
         );
     }

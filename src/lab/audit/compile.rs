@@ -3,9 +3,9 @@
 use core::cell::RefCell;
 use core::time::Duration;
 
-use super::choose::Accepted;
-use super::condition::Language;
-use super::runner::{AuditRequest, AuditResponse};
+use super::compilers::{Accepted, compiler_name};
+use super::language::Language;
+use super::worker::{AuditRequest, AuditResponse};
 use crate::lab::fault::Fault;
 use crate::lab::process::{Error, Launch, NoAnswer, Surroundings, Worker};
 use crate::physics::num::Precision;
@@ -42,7 +42,7 @@ impl Compilers {
         // This says nothing of the text: the compiler or the machine may be at fault.
         let silent = |words: String| Accepted {
             verdicts: vec![(
-                language.compiler().to_owned(),
+                compiler_name(language).to_owned(),
                 Err(Fault::Absent(words.clone())),
             )],
             code: Err(Fault::Absent(words)),
@@ -85,7 +85,7 @@ impl Compilers {
 }
 
 fn reason(silence: &NoAnswer, limit: Duration, language: Language) -> String {
-    let compiler = language.compiler();
+    let compiler = compiler_name(language);
     match silence {
         NoAnswer::TooLong => format!(
             "{compiler} did not end within {} s, which is all that --limit allows",

@@ -1,15 +1,9 @@
-//! The integer expressions after `#if` and `#elif`, with macros in them, and the languages that a user's function may be written
-//! in.
+//! The integer expressions after `#if` and `#elif`, with macros in them.
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
-
-use super::choose::SLANGC;
-use super::error::Error;
-use crate::generator::emit::shader_words::{Hidden, Token, code_alone, tokens};
-use crate::language::ir::Ty;
-use crate::language::targets::{DXC, GLES, GLSL, GLSLANG, HLSL, Target, WGSL};
+use super::definition::{Definition, definition};
+use crate::lab::verify::shader_words::{Token, tokens};
 
 /// A macro: its arguments and its body.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,9 +41,8 @@ const MOST_WORDS: usize = 4096;
 pub fn words(line: &[Token]) -> Vec<String> {
     let (mut found, mut at) = (Vec::new(), 0);
     while let Some(token) = line.get(at) {
-        let pair = line.get(at + 1).filter(|next| {
-            next.line == token.line && next.column == token.column + token.text.chars().count()
-        });
+        let pair = line.get(at + 1);
+        let pair = pair.filter(|next| next.line == token.line && next.column == token.end());
         let pair = pair.map(|next| format!("{}{}", token.text, next.text));
         let pair = pair.filter(|pair| PAIRS.contains(&pair.as_str()));
         at += 1 + usize::from(pair.is_some());
@@ -59,32 +52,17 @@ pub fn words(line: &[Token]) -> Vec<String> {
 }
 
 /// The macro that a line defines, with its name.
-pub fn definition(line: &[Token]) -> Option<(String, Macro)> {
-    let [hash, define, name, rest @ ..] = line else {
-        return None;
+pub fn defined_macro(line: &[Token]) -> Option<(String, Macro)> {
+    let Definition { name, params, body } = definition(line)?;
+    let owned = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
+    let own = Macro {
+        params: params.map(owned),
+        body: words(body),
     };
-    if hash.text != "#" || define.text != "define" || !name.is_word() {
-        return None;
-    }
-    let behind = name.column + name.text.chars().count();
-    // `#define f(x)` takes arguments, `#define f (x)` does not.
-    let takes = rest
-        .first()
-        .is_some_and(|first| first.text == "(" && first.column == behind);
-    let close = rest.iter().position(|token| token.text == ")");
-    let (params, body) = match (takes, close) {
-        (true, Some(close)) => {
-            let names = rest[1..close].iter().filter(|token| token.is_word());
-            let names = names.map(|token| token.text.to_owned()).collect();
-            (Some(names), &rest[close + 1..])
-        }
-        _ => (None, rest),
-    };
-    let body = words(body);
-    Some((name.text.to_owned(), Macro { params, body }))
+    Some((name.to_owned(), own))
 }
 
-/// The macro of a name that stands for this text.
+/// The macro that stands for this text.
 pub fn plain_macro(text: &str) -> Macro {
     Macro {
         params: None,
@@ -148,10 +126,9 @@ fn expanded(
         within.pop();
     }
     if all.len() > MOST_WORDS {
-        Err("its macros are too many".to_owned())
-    } else {
-        Ok(all)
+        return Err("its macros are too many".to_owned());
     }
+    Ok(all)
 }
 
 /// The arguments in the bracket that opens here, and the index after it.
@@ -310,138 +287,6 @@ fn number(word: &str) -> Option<i64> {
     }
 }
 
-/// A language of users' functions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Language {
-    /// WGSL.
-    Wgsl,
-    /// GLSL, run as GLSL ES 3.00.
-    Gles,
-    /// GLSL of the desktop, run as GLSL 4.50 through SPIR-V.
-    Glsl,
-    /// HLSL.
-    Hlsl,
-    /// Slang, run like HLSL.
-    Slang,
-}
-
-/// File extensions.
-const ENDINGS: [(&str, Language); 20] = [
-    ("wgsl", Language::Wgsl),
-    ("glsl", Language::Gles),
-    ("gles", Language::Gles),
-    ("frag", Language::Gles),
-    ("vert", Language::Gles),
-    ("fs", Language::Gles),
-    ("vs", Language::Gles),
-    ("fsh", Language::Gles),
-    ("vsh", Language::Gles),
-    ("gdshader", Language::Gles),
-    ("gdshaderinc", Language::Gles),
-    ("hlsl", Language::Hlsl),
-    ("hlsli", Language::Hlsl),
-    ("fx", Language::Hlsl),
-    ("fxh", Language::Hlsl),
-    ("cginc", Language::Hlsl),
-    ("ush", Language::Hlsl),
-    ("usf", Language::Hlsl),
-    ("effect", Language::Hlsl),
-    ("slang", Language::Slang),
-];
-
-impl Language {
-    /// The languages by their names on the command line. `Gles` has two, and `Glsl` has none.
-    pub const NAMED: [(&'static str, Language); 5] = [
-        ("wgsl", Language::Wgsl),
-        ("glsl", Language::Gles),
-        ("gles", Language::Gles),
-        ("hlsl", Language::Hlsl),
-        ("slang", Language::Slang),
-    ];
-
-    /// The independent compiler that is asked about it.
-    pub fn compiler(self) -> &'static str {
-        match self {
-            Language::Wgsl => "tint",
-            Language::Gles | Language::Glsl => GLSLANG.name,
-            Language::Hlsl => DXC.name,
-            Language::Slang => SLANGC.name,
-        }
-    }
-
-    /// The language of a file, by its extension.
-    ///
-    /// # Errors
-    /// The extension is not that of a language.
-    pub fn of_file(file: &str) -> Result<Language, Error> {
-        let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
-        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-        let ending = ending.to_lowercase();
-        let found = ENDINGS.iter().find(|(name, _)| *name == ending);
-        let found = found.map(|(_, language)| *language);
-        found.ok_or_else(|| Error::NoLanguage {
-            file: file.to_owned(),
-        })
-    }
-
-    /// The target of this language.
-    pub fn target(self) -> &'static Target {
-        match self {
-            Language::Wgsl => &WGSL,
-            Language::Gles => &GLES,
-            Language::Glsl => &GLSL,
-            Language::Hlsl | Language::Slang => &HLSL,
-        }
-    }
-
-    /// Its name in reports: that of its target, or its own where it is no target.
-    pub fn name(self) -> &'static str {
-        match self {
-            Language::Slang => "slang",
-            _ => self.target().name,
-        }
-    }
-
-    /// Whether it is GLSL, of either kind.
-    pub fn is_glsl(self) -> bool {
-        matches!(self, Language::Gles | Language::Glsl)
-    }
-
-    /// Whether lines may begin with `#`.
-    pub fn has_preprocessor(self) -> bool {
-        self != Language::Wgsl
-    }
-
-    /// Its name for a type of one number or three.
-    pub fn ty(self, ty: Ty) -> &'static str {
-        match (self, ty == Ty::Rgb) {
-            (Language::Wgsl, false) => "f32",
-            (Language::Wgsl, true) => "vec3<f32>",
-            (Language::Gles | Language::Glsl, false) => "highp float",
-            (Language::Gles | Language::Glsl, true) => "highp vec3",
-            (Language::Hlsl | Language::Slang, false) => "float",
-            (Language::Hlsl | Language::Slang, true) => "float3",
-        }
-    }
-}
-
-/// The version of GLSL that a text states, where it is a desktop version.
-pub fn desktop_version(text: &str) -> Option<u32> {
-    let code = bare(text, false);
-    let line = code.lines().find(|line| !line.trim().is_empty())?;
-    let line = line.trim().strip_prefix('#')?.trim();
-    let mut words = line.strip_prefix("version")?.split_whitespace();
-    let version = words.next()?.parse().ok()?;
-    (version != 100 && words.next() != Some("es")).then_some(version)
-}
-
-/// A user's text without comments, and without directives if `directives` says so. Nested comments are skipped in every language:
-/// where their end is not clear, the text has been refused already.
-pub fn bare(text: &str, directives: bool) -> String {
-    let nests = true;
-    code_alone(text, Hidden { directives, nests })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -455,7 +300,7 @@ mod tests {
             "#define SELF SELF",
             "#define EMPTY",
         ] {
-            macros.extend(definition(&tokens(line)));
+            macros.extend(defined_macro(&tokens(line)));
         }
         assert_eq!(
             condition_value(&words(&tokens(text)), &macros),
@@ -494,26 +339,8 @@ mod tests {
         let mut macros = Macros::new();
         for i in 0..40 {
             let line = format!("#define A{} A{i} A{i} A{i}", i + 1);
-            macros.extend(definition(&tokens(&line)));
+            macros.extend(defined_macro(&tokens(&line)));
         }
         assert!(condition_value(&words(&tokens("A40")), &macros).is_err());
-    }
-}
-
-#[cfg(test)]
-mod language_tests {
-    use super::*;
-
-    #[test]
-    fn an_ending_tells_the_language() {
-        let of = |file| Language::of_file(file).ok();
-        assert_eq!(of("a/b.WGSL"), Some(Language::Wgsl));
-        assert_eq!(of("b.frag"), Some(Language::Gles));
-        assert_eq!(of("b.fx"), Some(Language::Hlsl));
-        assert_eq!(of("b.ush"), Some(Language::Hlsl));
-        assert_eq!(of("b.gdshader"), Some(Language::Gles));
-        assert_eq!(of("b.slang"), Some(Language::Slang));
-        assert_eq!(of("b.txt"), None);
-        assert_eq!(of("wgsl"), None);
     }
 }

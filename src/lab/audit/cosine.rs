@@ -4,8 +4,9 @@
 //! or from the body where that takes the argument's cosine, or one minus it. Where neither tells, the user is asked.
 
 use super::quantity::{meanings, plain};
-use super::scan::{FoundFunction, NumberShape, behind};
-use crate::generator::emit::shader_words::Token;
+use crate::lab::verify::function_head::{FunctionHead, NumberShape};
+use crate::lab::verify::shader_words::Token;
+use crate::lab::verify::shader_words::behind;
 
 /// The quantity of the angle of incidence that an argument takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -293,7 +294,7 @@ impl CosineArgument {
 
 /// The cosine among the arguments that have no value: found by its name, or the only one left. None where that is not clear.
 pub fn cosine(
-    function: &FoundFunction,
+    function: &FunctionHead,
     has_value: &[bool],
     body: &[Token],
 ) -> Option<CosineArgument> {
@@ -332,10 +333,10 @@ pub fn cosine(
 
 #[cfg(test)]
 mod tests {
-    use super::super::condition::Language;
-    use super::super::scan::functions;
+    use super::super::language::Language;
+    use super::super::parts::functions;
     use super::*;
-    use crate::generator::emit::shader_words::tokens;
+    use crate::lab::verify::shader_words::tokens;
     use core::f32::consts::FRAC_PI_3;
 
     #[track_caller]

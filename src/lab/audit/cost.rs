@@ -6,8 +6,8 @@ use core::time::Duration;
 use serde::Serialize;
 
 use super::compile::Compilers;
-use super::condition::Language;
-use super::error::placed;
+use super::compiler_message::placed;
+use super::language::Language;
 use super::program::AuditProgram;
 use crate::lab::cost::foreign::{self, ForeignFunction};
 use crate::lab::cost::{
@@ -31,11 +31,7 @@ pub fn cost(
     limit: Duration,
     surroundings: &Surroundings,
 ) -> Result<AuditCost, Error> {
-    let unknown = |why: String| AuditCost {
-        family,
-        compiler: None,
-        figures: Err(why),
-    };
+    let unknown = |why: String| AuditCost::new(family, None, Err(why));
     let (Some(dialect), Ok(launch)) = (family.compiler.dialect(), launch(family, surroundings))
     else {
         return Ok(unknown(absent(family, surroundings)));
@@ -50,11 +46,8 @@ pub fn cost(
         Ok(name) => name,
         Err(why) => return Ok(unknown(why)),
     };
-    Ok(AuditCost {
-        family,
-        compiler: Some(compiler),
-        figures: told(session.figures_of_shaders(shaders))?,
-    })
+    let figures = told(session.figures_of_shaders(shaders))?;
+    Ok(AuditCost::new(family, Some(compiler), figures))
 }
 
 fn absent(family: &Family, surroundings: &Surroundings) -> String {
@@ -231,45 +224,48 @@ fn unblocked(text: &str) -> String {
 
 /// The cost of a function on a family of GPUs, or why it is not known.
 #[derive(Clone, Debug, Serialize)]
-#[serde(into = "AuditCostJson")]
 pub struct AuditCost {
     /// The family.
-    pub family: &'static Family,
+    pub gpu: &'static str,
     /// The compiler with its version, where one was asked.
     pub compiler: Option<String>,
-    /// The figures, or why there are none.
-    pub figures: Result<CostFigures, String>,
+    /// What is measured.
+    pub measure: &'static str,
+    /// Instructions of the shader with the longer chain.
+    pub instructions: Option<f64>,
+    /// Its latency.
+    pub latency: Option<f64>,
+    /// Its inverse throughput.
+    pub inverse_throughput: Option<f64>,
+    /// Instructions of one evaluation.
+    pub net_instructions: Option<f64>,
+    /// The inverse throughput of one evaluation.
+    pub net_inverse_throughput: Option<f64>,
+    /// The cost of one evaluation.
+    pub net: Option<f64>,
+    /// Why there are no figures.
+    pub reason: Option<String>,
 }
 
-/// The cost in a report's JSON.
-#[derive(Serialize)]
-struct AuditCostJson {
-    gpu: &'static str,
-    compiler: Option<String>,
-    measure: &'static str,
-    instructions: Option<f64>,
-    latency: Option<f64>,
-    inverse_throughput: Option<f64>,
-    net_instructions: Option<f64>,
-    net_inverse_throughput: Option<f64>,
-    net: Option<f64>,
-    reason: Option<String>,
-}
-
-impl From<AuditCost> for AuditCostJson {
-    fn from(cost: AuditCost) -> AuditCostJson {
-        let figures = cost.figures.as_ref().ok();
-        AuditCostJson {
-            gpu: cost.family.name,
-            compiler: cost.compiler,
-            measure: cost.family.columns.measure,
-            instructions: figures.map(|figures| figures.shader.instructions),
-            latency: figures.and_then(|figures| figures.shader.latency),
-            inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
-            net_instructions: figures.map(|figures| figures.net.instructions),
-            net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
-            net: figures.map(CostFigures::cost),
-            reason: cost.figures.err(),
+impl AuditCost {
+    /// The row of these figures.
+    pub fn new(
+        family: &'static Family,
+        compiler: Option<String>,
+        figures: Result<CostFigures, String>,
+    ) -> AuditCost {
+        let known = figures.as_ref().ok();
+        AuditCost {
+            gpu: family.name,
+            compiler,
+            measure: family.columns.measure,
+            instructions: known.map(|figures| figures.shader.instructions),
+            latency: known.and_then(|figures| figures.shader.latency),
+            inverse_throughput: known.and_then(|figures| figures.shader.inverse_throughput),
+            net_instructions: known.map(|figures| figures.net.instructions),
+            net_inverse_throughput: known.and_then(|figures| figures.net.inverse_throughput),
+            net: known.map(CostFigures::cost),
+            reason: figures.err(),
         }
     }
 }

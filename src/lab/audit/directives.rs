@@ -4,8 +4,11 @@
 //! Comments have been removed by then, and continued lines have been refused. So a directive is a line that begins with `#`, and
 //! a `#` anywhere else is refused.
 
-use super::condition::bare;
-use crate::generator::emit::shader_words::{Token, tokens};
+use std::collections::BTreeSet;
+
+use super::definition::{definitions, each_line, macro_name};
+use super::language::bare;
+use crate::lab::verify::shader_words::{Token, tokens};
 
 /// Directives that read no file. Includes, imports, embeds and any others of a compiler are not among them.
 const ALLOWED: [&str; 13] = [
@@ -50,38 +53,21 @@ pub fn fault(text: &str) -> Option<TextFault> {
 pub fn redefinition(text: &str, name: &str) -> Option<TextFault> {
     let code = bare(text, false);
     let tokens = tokens(&code);
-    each_line(&tokens).find_map(|line| {
-        let [first, second, third, ..] = line else {
-            return None;
-        };
-        let defines = first.text == "#" && ["define", "undef"].contains(&second.text);
-        let what = || {
-            format!("a macro is named `{name}`, as the audited function is: compilers would call the macro; rename one of them")
-        };
-        (defines && third.text == name).then(|| (third.line, third.column, what()))
-    })
+    let mut names = each_line(&tokens).filter_map(macro_name);
+    let found = names.find(|found| found.text == name)?;
+    let what = format!(
+        "a macro is named `{name}`, as the audited function is: compilers would call the macro; rename one of them"
+    );
+    Some((found.line, found.column, what))
 }
 
 /// The names of all macros that a text defines, in order, each once.
-pub fn macros(text: &str) -> Vec<String> {
+pub fn macros(text: &str) -> BTreeSet<String> {
     let code = bare(text, false);
     let tokens = tokens(&code);
-    let mut names: Vec<String> = each_line(&tokens)
-        .filter_map(|line| match line {
-            [first, second, name, ..] if first.text == "#" && second.text == "define" => {
-                Some(name.text.to_owned())
-            }
-            _ => None,
-        })
-        .collect();
-    names.sort_unstable();
-    names.dedup();
-    names
-}
-
-/// The tokens of each line that has any.
-fn each_line<'t, 'a>(tokens: &'t [Token<'a>]) -> impl Iterator<Item = &'t [Token<'a>]> {
-    tokens.chunk_by(|a, b| a.line == b.line)
+    definitions(&tokens)
+        .map(|one| one.name.to_owned())
+        .collect()
 }
 
 /// What is wrong with a line as a directive.
@@ -127,7 +113,7 @@ fn directive(line: &[Token]) -> Option<TextFault> {
 /// files.
 fn pair(pair: &[Token]) -> Option<TextFault> {
     let [first, second] = pair else { return None };
-    let together = first.column + first.text.chars().count() == second.column;
+    let together = first.end() == second.column;
     let asks = |token: &&Token| {
         let word = token.text;
         word.starts_with("__has_") || ["_Pragma", "__pragma", "__import__"].contains(&word)
@@ -228,9 +214,7 @@ mod tests {
         assert!(what.contains("a macro is named `f`"), "{what}");
         assert!(redefinition("#undef f\n", "f").is_some());
         assert!(redefinition("#define f2 f\n// #define f\n", "f").is_none());
-        assert_eq!(
-            macros("#define B 1\n#define A(x) x\n#define B 2\n#undef A\n"),
-            ["A", "B"]
-        );
+        let names = macros("#define B 1\n#define A(x) x\n#define B 2\n#undef A\n");
+        assert!(names.iter().eq(["A", "B"]));
     }
 }

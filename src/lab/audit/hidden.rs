@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 
 use super::parts::{Part, PartKind};
 use super::reach::Use;
-use super::scan::{NumberShape, type_shape};
 use super::type_names::TypeNames;
 use super::variables::Variable;
-use crate::generator::emit::shader_words::tokens;
+use crate::lab::verify::function_head::{NumberShape, type_shape};
+use crate::lab::verify::shader_words::tokens;
 
 /// A number, or three, that a function reads from outside of itself.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,15 +26,6 @@ pub struct HiddenInput {
 }
 
 impl HiddenInput {
-    /// Its shape: one number or three.
-    pub fn shape(&self) -> NumberShape {
-        if self.is_rgb {
-            NumberShape::Rgb
-        } else {
-            NumberShape::Scalar
-        }
-    }
-
     /// The variables that it is assigned to, each with the channel of the value.
     pub fn places(&self) -> Vec<(String, &'static str)> {
         let around = self.scope.iter().filter(|name| !name.is_empty());
@@ -85,8 +76,7 @@ impl<'a> DeclaredTypes<'a> {
         let mut found = Vec::new();
         let walk = Walk {
             root: variable,
-            line: used.line,
-            is_indexed: used.is_indexed,
+            used,
         };
         self.enter(&walk, &variable.name, variable, &used.path, &mut found)?;
         Ok(found)
@@ -101,21 +91,11 @@ impl<'a> DeclaredTypes<'a> {
         members: &[Variable],
         used: &Use,
     ) -> Result<Vec<HiddenInput>, UnreadFault> {
-        let (first, rest) = match used.path.split_first() {
-            Some((first, rest)) => (Some(first), rest),
-            None => (None, &[][..]),
-        };
         let mut found = Vec::new();
-        for member in members {
-            if first.is_none_or(|first| *first == member.name) {
-                let walk = Walk {
-                    root: member,
-                    line: used.line,
-                    is_indexed: used.is_indexed,
-                };
-                let path = format!("{}.{}", used.name, member.name);
-                self.enter(&walk, &path, member, rest, &mut found)?;
-            }
+        for member in members_at(members, &used.path) {
+            let walk = Walk { root: member, used };
+            let path = format!("{}.{}", used.name, member.name);
+            self.enter(&walk, &path, member, behind_first(&used.path), &mut found)?;
         }
         Ok(found)
     }
@@ -129,52 +109,43 @@ impl<'a> DeclaredTypes<'a> {
         found: &mut Vec<HiddenInput>,
     ) -> Result<(), UnreadFault> {
         let (ty, number) = self.number_type(&variable.ty);
-        let number_of = |path: String, is_rgb: bool, cast: Option<String>| HiddenInput {
-            path,
-            line: walk.root.line,
-            is_rgb,
-            cast,
-            scope: Vec::new(),
+        let members = self.members.get(ty.as_str());
+        let mut add = |path: String, is_rgb: bool, cast: Option<String>| {
+            found.push(HiddenInput {
+                path,
+                line: walk.root.line,
+                is_rgb,
+                cast,
+                scope: Vec::new(),
+            });
         };
         let is_whole = !variable.is_array;
-        match number {
-            Some(number) if is_whole && (!walk.is_indexed || !rest.is_empty()) => {
-                found.extend(match number {
-                    NumberType::One(cast) => vec![number_of(path.to_owned(), false, cast)],
-                    NumberType::Three => vec![number_of(path.to_owned(), true, None)],
+        match (number, members) {
+            (Some(number), _) if is_whole && (!walk.used.is_indexed || !rest.is_empty()) => {
+                match number {
+                    NumberType::One(cast) => add(path.to_owned(), false, cast),
+                    NumberType::Three => add(path.to_owned(), true, None),
                     NumberType::Components(count) => {
-                        let letters = components(count, rest.first().map(String::as_str));
-                        let each = letters.into_iter();
-                        each.map(|one| number_of(format!("{path}.{one}"), one == "rgb", None))
-                            .collect()
-                    }
-                });
-                Ok(())
-            }
-            None if is_whole && self.members.contains_key(ty.as_str()) && path.len() < LONGEST => {
-                let members = self.members[ty.as_str()];
-                let (first, rest) = match rest.split_first() {
-                    Some((first, rest)) => (Some(first), rest),
-                    None => (None, &[][..]),
-                };
-                for member in members {
-                    if first.is_none_or(|first| *first == member.name) {
-                        let path = format!("{path}.{}", member.name);
-                        self.enter(walk, &path, member, rest, found)?;
+                        for letters in components(count, rest.first().map(String::as_str)) {
+                            add(format!("{path}.{letters}"), letters == "rgb", None);
+                        }
                     }
                 }
                 Ok(())
             }
+            (None, Some(members)) if is_whole && path.len() < LONGEST => {
+                let mut each = members_at(members, rest);
+                each.try_for_each(|member| {
+                    let path = format!("{path}.{}", member.name);
+                    self.enter(walk, &path, member, behind_first(rest), found)
+                })
+            }
             _ => {
-                let what = if variable.is_array {
-                    format!("an array of {ty}")
-                } else {
-                    ty
-                };
+                let array = if is_whole { "" } else { "an array of " };
                 Err((
-                    walk.line,
+                    walk.used.line,
                     format!(
-                        "it reads `{path}` (line {}), {what}, which no number stands for: give the function what it takes from it as an argument",
+                        "it reads `{path}` (line {}), {array}{ty}, which no number stands for: give the function what it takes from it as an argument",
                         walk.root.line
                     ),
                 ))
@@ -223,11 +194,24 @@ pub fn held(ty: &str) -> &str {
 /// A longer name of a member means that a type contains itself.
 const LONGEST: usize = 400;
 
-/// A variable whose numbers are being collected.
+/// A variable whose numbers are being collected, and the use that reads them.
 struct Walk<'a> {
     root: &'a Variable,
-    line: usize,
-    is_indexed: bool,
+    used: &'a Use,
+}
+
+/// The member that a path names first, or all members where it names none.
+fn members_at<'a>(
+    members: &'a [Variable],
+    path: &'a [String],
+) -> impl Iterator<Item = &'a Variable> {
+    let is_named = |member: &&Variable| path.first().is_none_or(|first| *first == member.name);
+    members.iter().filter(is_named)
+}
+
+/// The path without its first name.
+fn behind_first(path: &[String]) -> &[String] {
+    path.get(1..).unwrap_or_default()
 }
 
 /// The numbers of a type.

@@ -9,10 +9,11 @@
 
 use std::collections::BTreeSet;
 
-use super::condition::{Language, bare};
-use super::scan;
+use super::definition::definitions;
+use super::language::{Language, bare};
+use super::parts;
 use super::type_names::TypeNames;
-use crate::generator::emit::shader_words::{Token, tokens};
+use crate::lab::verify::shader_words::{Token, behind, tokens};
 
 /// The most iterations of all loops together in one evaluation.
 pub const TURNS: usize = 10_000;
@@ -88,7 +89,9 @@ fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'
         return None;
     }
     let open = at + 1;
-    let close = closing(tokens, open)?;
+    tokens.get(open).filter(|token| token.text == "(")?;
+    let close = behind(tokens, open) - 1;
+    tokens.get(close).filter(|token| token.text == ")")?;
     let (first, last) = if is_for {
         let mut ends = (open..close).filter(|i| tokens[*i].text == ";");
         (ends.next()?, ends.next()?)
@@ -105,21 +108,6 @@ fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'
             (to.line, to.column, ") "),
         ]
     })
-}
-
-/// The place of the parenthesis that closes the one here.
-fn closing(tokens: &[Token], open: usize) -> Option<usize> {
-    let mut depth = 0usize;
-    for (at, token) in tokens.iter().enumerate().skip(open) {
-        match (token.text, depth) {
-            ("(", _) => depth += 1,
-            (")", 1) => return Some(at),
-            (")", 2..) => depth -= 1,
-            (_, 0) => return None,
-            _ => {}
-        }
-    }
-    None
 }
 
 /// A text with words inserted before these places.
@@ -167,24 +155,13 @@ pub fn branch(text: &str, language: Language, function: &str) -> Option<Branch> 
     let (code, whole) = (bare(text, language.has_preprocessor()), bare(text, false));
     let (tokens, all) = (tokens(&code), tokens(&whole));
     let names = TypeNames::of_text(text, language);
-    let functions = scan::bodies(&tokens, &names, language);
+    let functions = parts::bodies(&tokens, &names, language);
     let mut parts: Vec<(String, &[Token])> =
         functions.map(|(found, body)| (found.name, body)).collect();
     if language.has_preprocessor() {
-        let lines = all.chunk_by(|a, b| a.line == b.line);
-        parts.extend(lines.filter_map(macro_body));
+        parts.extend(definitions(&all).map(|one| (one.name.to_owned(), one.body)));
     }
     first_branch(&parts, function, &mut BTreeSet::new())
-}
-
-/// The name and the body of a macro.
-fn macro_body<'t, 'a>(line: &'t [Token<'a>]) -> Option<(String, &'t [Token<'a>])> {
-    match line {
-        [hash, define, name, body @ ..] if hash.text == "#" && define.text == "define" => {
-            Some((name.text.to_owned(), body))
-        }
-        _ => None,
-    }
 }
 
 fn first_branch(

@@ -1,6 +1,6 @@
 //! Our methods for the same material: their errors in single precision, and their costs.
 
-use super::comparison::Competitor;
+use super::comparison::{Competitor, is_comparable};
 use super::error::Error;
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::{error_of, values_for_material};
@@ -11,7 +11,7 @@ use crate::lab::cost::{
 };
 use crate::lab::process::{Pool, Surroundings};
 use crate::language::ir::{Checked, Column, Value, evaluate};
-use crate::language::methods::{self, Contract, Light, Method};
+use crate::language::methods::{self, Method};
 use crate::physics::num::{Precision, each_channel};
 
 /// A method with its error, and its cost on each family where it is known.
@@ -38,9 +38,6 @@ impl Ours {
 }
 
 /// The methods that can replace a user's function, with their costs, for all materials.
-///
-/// Methods that read a texture are left out, because counts do not include the fetch. Those for one polarisation are left out too,
-/// because they compute something else.
 #[derive(Debug)]
 pub struct CostedMethods {
     form: FunctionForm,
@@ -62,8 +59,8 @@ impl CostedMethods {
         surroundings: &Surroundings,
         progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<CostedMethods, Error> {
-        let methods: Vec<&'static Method> =
-            methods::ALL.iter().copied().filter(can_replace).collect();
+        let methods = methods::ALL.iter().copied();
+        let methods: Vec<&'static Method> = methods.filter(|one| is_comparable(one)).collect();
         let subjects = match form {
             FunctionForm::Specialised => subjects,
             _ => &[],
@@ -117,10 +114,6 @@ fn inputs(form: FunctionForm, method: &Method) -> usize {
     }
 }
 
-fn can_replace(method: &&'static Method) -> bool {
-    method.light == Light::Unpolarised && method.contract == Contract::Kept && !method.is_textured()
-}
-
 /// The cost of each requested function, in order.
 fn costs(
     family: &'static Family,
@@ -142,21 +135,14 @@ fn error(function: &CostedFunction, method: &Method, subject: &MaterialInMedium)
         ),
     };
     let error = error_of(&subject.reference, &|cosines| {
-        let single = cosines.iter().map(|c| *c as f32).collect();
-        let arguments: Vec<Value<f32>> = [Value::each(single)]
-            .into_iter()
-            .chain(others.clone())
-            .collect();
+        let mut arguments = vec![Value::each(cosines.iter().map(|c| *c as f32).collect())];
+        arguments.extend(others.iter().cloned());
         let got = evaluate(&graph, &arguments);
-        let channel = |i: usize| {
+        Value::Rgb(each_channel(|i| {
             let column = got.channel(i);
-            Column::Each(
-                (0..cosines.len())
-                    .map(|point| f64::from(column.at(point)))
-                    .collect(),
-            )
-        };
-        Value::Rgb(each_channel(channel))
+            let points = 0..cosines.len();
+            Column::Each(points.map(|point| f64::from(column.at(point))).collect())
+        }))
     });
     error.max_abs
 }

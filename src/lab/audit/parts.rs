@@ -1,11 +1,12 @@
 //! The top-level parts of a user's text: functions, structs, variables, blocks of inputs. The contents of bodies are left to
 //! compilers.
 
-use super::condition::Language;
-use super::scan::{FoundFunction, behind, function, parts_between_commas};
+use super::language::Language;
 use super::type_names::TypeNames;
 use super::variables::{Variable, c_variables, wgsl_member, wgsl_variable};
-use crate::generator::emit::shader_words::Token;
+use crate::lab::verify::function_head::{FunctionHead, function_head};
+use crate::lab::verify::shader_words::Token;
+use crate::lab::verify::shader_words::{behind, parts_between_commas};
 
 /// A part, by indices of words.
 #[derive(Clone, Debug)]
@@ -26,9 +27,9 @@ pub struct Part {
 #[derive(Clone, Debug)]
 pub enum PartKind {
     /// A function with its body.
-    Function(FoundFunction),
+    Function(FunctionHead),
     /// The head of a function whose body stands elsewhere.
-    Prototype(FoundFunction),
+    Prototype(FunctionHead),
     /// A type: its name, its members, and the constants in its declaration, such as `K` of `const struct T { … } K = …;` or the
     /// names of an `enum`.
     Type(String, Vec<Variable>, Vec<String>),
@@ -116,7 +117,7 @@ pub fn functions_of(
     tokens: &[Token],
     names: &TypeNames,
     language: Language,
-) -> Vec<FoundFunction> {
+) -> Vec<FunctionHead> {
     match &part.kind {
         PartKind::Function(found) => vec![found.clone()],
         PartKind::Type(name, _, _) if matches!(language, Language::Hlsl | Language::Slang) => {
@@ -143,6 +144,20 @@ pub fn functions_of(
         }
         _ => Vec::new(),
     }
+}
+
+/// The functions among words, each with the words of its body.
+pub fn bodies<'t, 'a>(
+    tokens: &'t [Token<'a>],
+    names: &TypeNames,
+    language: Language,
+) -> impl Iterator<Item = (FunctionHead, &'t [Token<'a>])> {
+    let parts = parts(tokens, names, language).into_iter();
+    parts.flat_map(move |one| {
+        let body = &tokens[one.head_end..one.end];
+        let found = functions_of(&one, tokens, names, language).into_iter();
+        found.map(move |found| (found, body))
+    })
 }
 
 /// The index after words of engines that no declaration needs: `CBUFFER_START(UnityPerMaterial)`, `CBUFFER_END`.
@@ -214,7 +229,7 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
         (head_end + 1).min(tokens.len())
     };
     let head = names.replaced(&tokens[start..head_end]);
-    let kind = match function(&head, language) {
+    let kind = match function_head(&head, language == Language::Wgsl) {
         Some(found) if has_body => PartKind::Function(found),
         Some(found) if language != Language::Wgsl => PartKind::Prototype(found),
         _ => {
@@ -390,10 +405,20 @@ fn members(tokens: &[Token], from: usize, to: usize, language: Language) -> Vec<
     found
 }
 
+/// The functions of a text in order.
+#[cfg(test)]
+pub fn functions(text: &str, language: Language) -> Vec<FunctionHead> {
+    let code = super::language::bare(text, language.has_preprocessor());
+    let tokens = crate::lab::verify::shader_words::tokens(&code);
+    let names = TypeNames::of_text(text, language);
+    let found = bodies(&tokens, &names, language);
+    found.map(|(found, _)| found).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generator::emit::shader_words::tokens;
+    use crate::lab::verify::shader_words::tokens;
 
     #[track_caller]
     fn check(language: Language, text: &str, expected: &[&str]) {
@@ -521,6 +546,103 @@ mod tests {
             for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
                 let tokens = tokens(text);
                 let _ = parts(&tokens, &TypeNames::default(), language);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod head_tests {
+    use super::*;
+    use crate::lab::verify::function_head::NumberShape;
+
+    #[track_caller]
+    fn check(text: &str, language: Language, expected: &[&str]) {
+        let shown = |found: &FunctionHead| {
+            let params: Vec<String> = found
+                .params
+                .iter()
+                .map(|param| format!("{} {}", param.name, param.shape.words()))
+                .collect();
+            format!(
+                "{}:{} {}({}) {}",
+                found.line,
+                found.column,
+                found.name,
+                params.join(", "),
+                found.result.words()
+            )
+        };
+        let found: Vec<String> = functions(text, language).iter().map(shown).collect();
+        assert_eq!(found, expected, "{text}");
+    }
+
+    #[test]
+    fn heads_of_wgsl_are_read() {
+        check(
+            "const a = array<f32, 2>(1.0, 2.0);\nstruct S { x: f32 }\n@must_use fn f(\n  c: f32, // c\n f0: vec3<f32>,\n) -> vec3f { if c > 0. { } return f0; }\nfn g() {}",
+            Language::Wgsl,
+            &[
+                "3:14 f(c one number, f0 three numbers) three numbers",
+                "7:4 g() nothing",
+            ],
+        );
+    }
+
+    #[test]
+    fn heads_of_glsl_are_read() {
+        check(
+            "#version 300 es\n#define F(x) { \\\n }\nlayout(std140) uniform B { vec3 a; } b;\nconst float t[2] = float[](1., 2.);\nhighp vec3 f(const in highp float c, vec3 f0, out float d)\n{\n}\nvoid main(void) {}",
+            Language::Gles,
+            &[
+                "6:12 f(c one number, f0 three numbers, d out float) three numbers",
+                "9:6 main() void",
+            ],
+        );
+    }
+
+    #[test]
+    fn heads_of_hlsl_are_read() {
+        check(
+            "static const float t[2] = { 1, 2 };\ncbuffer B : register(b0) { float3 a; };\n[numthreads(1, 1, 1)] void k() {}\nfloat3 f(float c : A, half3 f0 = 1, float x[2]) : SV_Target { }\nfloat g(float c);",
+            Language::Hlsl,
+            &[
+                "3:28 k() void",
+                "4:8 f(c one number, f0 three numbers, x floatx[2]) three numbers",
+            ],
+        );
+    }
+
+    #[test]
+    fn a_result_may_be_given_in_an_argument() {
+        let found = functions(
+            "void f(float c, out half3 o, float3 f0) { } void g(out float a, out float b) { } float h(out float a) { }",
+            Language::Hlsl,
+        );
+        let out = found[0]
+            .out
+            .as_ref()
+            .map(|out| (out.place, out.ty.as_str()));
+        assert_eq!(out, Some((1, "half3")));
+        assert_eq!(
+            (found[0].params.len(), &found[0].result),
+            (2, &NumberShape::Rgb)
+        );
+        assert!(found[1].out.is_none() && found[2].out.is_none());
+    }
+
+    #[test]
+    fn what_is_broken_ends() {
+        for text in [
+            "fn",
+            "fn f(",
+            "}}}{{{",
+            "fn (a: f32) {",
+            "float f( {",
+            "[[[",
+        ] {
+            for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
+                let _ = functions(text, language);
             }
         }
     }

@@ -4,10 +4,13 @@
 //! Other files are not read, so an unknown name counts as undefined unless `-D` defines it. WGSL has no preprocessor. Its lines
 //! that begin with `#` are read as those of naga_oil, which Bevy uses.
 
-use super::condition::{Language, Macros, condition_value, definition, plain_macro, words};
+use serde::Serialize;
+
+use super::condition::{Macro, Macros, condition_value, defined_macro, plain_macro, words};
 use super::directives::{self, TextFault};
 use super::error::Error;
-use crate::generator::emit::shader_words::{Token, tokens};
+use super::language::Language;
+use crate::lab::verify::shader_words::{Token, tokens};
 use crate::physics::foreign::Foreign;
 
 /// A name that the user defines for the preprocessor.
@@ -45,19 +48,18 @@ impl Define {
                 value: value.to_owned(),
             })
         } else {
-            Err(Error::Define {
-                word: word.to_owned(),
-            })
+            Err(Error::Define(word.to_owned()))
         }
     }
 }
 
 /// A condition of the text, and how it was decided.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Condition {
     /// Its line.
     pub line: usize,
     /// The line of its `#endif`.
+    #[serde(skip)]
     pub end: usize,
     /// Its text.
     pub text: String,
@@ -234,13 +236,12 @@ impl Reader {
         let word = rest.first().map_or("", |token| token.text);
         match word {
             "if" | "ifdef" | "ifndef" => self.begin(line, rest)?,
-            "elif" => self.otherwise(line, rest)?,
-            "else" => self.otherwise(line, rest)?,
+            "elif" | "else" => self.otherwise(line, rest)?,
             "endif" => self.end()?,
             _ if !self.is_taken => {}
             _ if self.language == Language::Wgsl => self.oil(line, word, &tokens)?,
             "define" => {
-                self.macros.extend(definition(&tokens));
+                self.macros.extend(defined_macro(&tokens));
                 return Ok(Some(line.to_owned()));
             }
             "undef" => {
@@ -257,11 +258,14 @@ impl Reader {
     /// A directive of naga_oil that is not a condition.
     fn oil(&mut self, line: &str, word: &str, tokens: &[Token]) -> Result<(), TextFault> {
         match word {
-            "define" => self.macros.extend(definition(tokens).map(|(name, known)| {
-                let is_flag = known.body.is_empty();
-                let flag = || plain_macro("1");
-                (name, if is_flag { flag() } else { known })
-            })),
+            "define" => {
+                if let Some((name, mut known)) = defined_macro(tokens) {
+                    if known.body.is_empty() {
+                        known = plain_macro("1");
+                    }
+                    self.macros.insert(name, known);
+                }
+            }
             "import" => self.in_import = line.contains('{') && !line.contains('}'),
             "define_import_path" => {}
             _ => return Err(self.fault("WGSL has no such line, nor has naga_oil")),
@@ -274,7 +278,7 @@ impl Reader {
         if self.language != Language::Wgsl || !line.contains("#{") {
             return line.to_owned();
         }
-        let put = |text: String, (name, known): (&String, &super::condition::Macro)| {
+        let put = |text: String, (name, known): (&String, &Macro)| {
             text.replace(&format!("#{{{name}}}"), &known.body.concat())
         };
         self.macros.iter().fold(line.to_owned(), put)
@@ -329,15 +333,11 @@ impl Reader {
             [word, rest @ ..] if word.text == "else" => rest,
             all => all,
         };
-        let (is_open, is_around_taken, is_decided) = match self.open.last() {
-            Some(open) if !open.has_else => (true, open.is_around_taken, open.is_decided),
-            _ => (false, false, false),
-        };
-        if !is_open {
+        let Some(open) = self.open.last().filter(|open| !open.has_else) else {
             return Err(self.fault("no `#if` before it is open"));
-        }
-        let is_asked = is_around_taken && !is_decided;
-        self.is_taken = is_asked && self.decided(line, condition)?;
+        };
+        let (is_around_taken, is_decided) = (open.is_around_taken, open.is_decided);
+        self.is_taken = is_around_taken && !is_decided && self.decided(line, condition)?;
         if let Some(open) = self.open.last_mut() {
             open.is_decided |= self.is_taken;
             open.has_else = condition.is_empty();

@@ -1,13 +1,13 @@
 //! Makes a program of a user's text: a function of ours wraps theirs, so that all later steps know one kind of call.
 
 use super::bind::{Bound, BoundArgument};
-use super::condition::Language;
 use super::directives;
-use super::inputs::DefaultArgument;
+use super::given::DefaultArgument;
+use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter};
-use super::scan::NumberShape;
 use super::slice::Slice;
 use crate::lab::gpu::{Argument as Value, Uniform};
+use crate::lab::verify::function_head::NumberShape;
 use crate::lab::verify::harness::{self, Call};
 use crate::language::ir::{Param, Ty};
 use crate::physics::num::Precision;

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use super::scan::FoundFunction;
 use crate::generator::fit::values_for_material;
 use crate::generator::reference::MaterialInMedium;
+use crate::lab::verify::function_head::FunctionHead;
 use crate::language::ir::Ty;
 use crate::language::methods::{self, Class, Input, InputSource, Method, find_input};
 use crate::physics::names::UnknownName;
@@ -158,7 +158,7 @@ pub fn plain(name: &str) -> String {
 }
 
 /// The quantities that an argument of a function may stand for by its name. The first is bound, the others are tried.
-pub fn meanings(name: &str, function: &FoundFunction) -> Vec<Quantity> {
+pub fn meanings(name: &str, function: &FunctionHead) -> Vec<Quantity> {
     let plain_name = plain(name);
     let is_among = |names: &[&str]| names.contains(&plain_name.as_str());
     let takes = |names: &[&str]| {
@@ -276,8 +276,8 @@ fn is_given(method: &Method) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::condition::Language;
-    use super::super::scan::functions;
+    use super::super::language::Language;
+    use super::super::parts::functions;
     use super::*;
 
     #[track_caller]

@@ -3,9 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::condition::Language;
+use super::language::Language;
 use super::parts::{Part, PartKind};
-use crate::generator::emit::shader_words::Token;
+use crate::lab::verify::shader_words::Token;
 
 /// The words of each macro's definitions, without its arguments.
 pub type MacroBodies<'t, 'a> = BTreeMap<&'a str, Vec<Vec<&'t Token<'a>>>>;

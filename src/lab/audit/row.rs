@@ -3,14 +3,15 @@
 
 use serde::Serialize;
 
-use super::Audit;
 use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, ExactFit, Own, dominating, sentence};
 use super::cost::AuditCost;
 use super::edges::{EdgeRow, Edges};
-use super::inputs::{DefaultArgument, Initialised};
+use super::given::DefaultArgument;
+use super::inputs::Initialised;
 use super::ours::Ours;
 use super::preprocess::Condition;
+use super::request::Audit;
 use super::runner::Trouble;
 use super::slice::Slice;
 use crate::generator::fit::{ModelError, Perceived};
@@ -47,7 +48,7 @@ pub struct AuditRow {
     /// The version of its language that it is run as, where the file does not say.
     pub language_remark: Option<String>,
     /// The conditions that it depends on, and how they were decided.
-    pub conditions: Vec<ConditionRow>,
+    pub conditions: Vec<Condition>,
     /// Its file, without folders.
     pub file: String,
     /// How many channels a call returns.
@@ -72,7 +73,7 @@ pub struct AuditRow {
     /// Its error against the law.
     pub model_error: Option<ModelError>,
     /// That error under viewing conditions.
-    pub perceived: Option<PerceivedFigures>,
+    pub perceived: Option<Perceived>,
     /// Which of our methods it computes, if any.
     pub computes: Option<&'static str>,
     /// The other quantity for an argument with which it would compute one of our methods, where it computes none as bound.
@@ -105,17 +106,6 @@ pub struct AuditRow {
     pub reason: Option<String>,
 }
 
-/// A condition of the text.
-#[derive(Clone, Debug, Serialize)]
-pub struct ConditionRow {
-    /// Its line.
-    pub line: usize,
-    /// Its text.
-    pub text: String,
-    /// Whether the code after it is taken.
-    pub is_taken: bool,
-}
-
 /// The value of an argument.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArgumentValue {
@@ -125,15 +115,6 @@ pub struct ArgumentValue {
     pub from: &'static str,
     /// The quantity that it stands for, where the material gives it.
     pub quantity: Option<&'static str>,
-}
-
-/// An error under viewing conditions.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct PerceivedFigures {
-    /// The error of luminance.
-    pub luminance: f64,
-    /// The colour difference CIEDE2000.
-    pub de2000: f64,
 }
 
 /// A method of ours with no larger error and no higher cost on a GPU.
@@ -226,7 +207,7 @@ impl Audited<'_> {
             cosine_is: self.bound.form.name(),
             cosine_words: self.bound.cosine_words.clone(),
             language_remark: None,
-            conditions: self.slice.conditions.iter().map(condition_row).collect(),
+            conditions: self.slice.conditions.clone(),
             file: crate::generator::command_line::path_again(&self.audit.file),
             channels: if self.bound.is_one_channel() { 1 } else { 3 },
             input_numbers: self.bound.input_numbers(),
@@ -238,10 +219,7 @@ impl Audited<'_> {
             code_error: None,
             code_error_reason: "there is no formula to hold it against but its own text",
             model_error: ran.map(|ran| ran.error),
-            perceived: ran.map(|ran| PerceivedFigures {
-                luminance: ran.perceived.luminance,
-                de2000: ran.perceived.de2000,
-            }),
+            perceived: ran.map(|ran| ran.perceived),
             computes: ran.and_then(|ran| ran.computes),
             fits_exactly_with: ran.and_then(|ran| ran.exact_fit.clone()),
             accepts: self.verdicts.iter().map(answer).collect(),
@@ -337,7 +315,7 @@ impl Audited<'_> {
             inputs: self.bound.input_numbers(),
             point: CostAndError {
                 error: self.ran.as_ref().ok()?.error.max_abs,
-                cost: cost.figures.as_ref().ok()?.cost(),
+                cost: cost.net?,
             },
             fails: self.judged().0 == Status::Fail,
         })
@@ -350,17 +328,18 @@ impl Audited<'_> {
             let Some(own) = self.point(cost) else {
                 continue;
             };
-            let row = |other: Comparison| Dominating {
-                method: other.method,
-                form: other.form,
-                input_numbers: other.inputs,
-                error_times: other.times.error,
-                cost_times: other.cost_times(),
-                gpu: cost.family.name,
+            let row = |one: &Comparison| Dominating {
+                method: one.other.method,
+                form: one.other.form,
+                input_numbers: one.other.inputs,
+                error_times: one.times.error,
+                cost_times: one.cost_times(),
+                gpu: cost.gpu,
             };
-            let found = dominating(&own, &self.competitors(place));
-            as_few.extend(found.0.into_iter().map(row));
-            more.extend(found.1.into_iter().map(row));
+            let competitors = self.competitors(place);
+            let (with_as_few, with_more) = dominating(&own, &competitors);
+            as_few.extend(with_as_few.iter().map(row));
+            more.extend(with_more.iter().map(row));
         }
         (as_few, more)
     }
@@ -372,17 +351,9 @@ impl Audited<'_> {
             let others = self.competitors(place);
             let known = (!others.is_empty()).then(|| sentence(&own, &others));
             let known = self.cost_remark.clone().or(known);
-            Some((cost.family.name.to_owned(), known))
+            Some((cost.gpu.to_owned(), known))
         });
         each.collect()
-    }
-}
-
-fn condition_row(condition: &Condition) -> ConditionRow {
-    ConditionRow {
-        line: condition.line,
-        text: condition.text.clone(),
-        is_taken: condition.is_taken,
     }
 }
 

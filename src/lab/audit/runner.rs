@@ -1,26 +1,18 @@
-//! Runs a user's function in a worker process within a time limit: the supervisor's side, the requests and responses, and the
-//! worker's loop. Numbers are sent as bits, since a function may return NaN. A driver that crashes ends only the worker.
+//! Runs a user's function in a worker within a time limit: the supervisor's side.
 
 use core::cell::{Cell, OnceCell, RefCell};
 use core::time::Duration;
-use std::io;
 
-use serde::{Deserialize, Serialize};
-
-use super::choose::{self, Accepted};
-use super::condition::Language;
+use super::compilers::ProgramCode;
 use super::cosine::CosineForm;
 use super::loops::{MARK, TURNS};
-use crate::generator::emit::validate_wgsl;
+use super::worker::{AuditRequest, AuditResponse, UniformBits};
 use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
 use crate::generator::reference::ReferenceCurve;
-use crate::lab::fault::Fault;
-use crate::lab::gpu::{self, Argument, Kernel, Program, Uniform, Wanted};
-use crate::lab::process::{Error, Inbox, Launch, NoAnswer, Surroundings, Worker};
-use crate::lab::verify::harness::ENTRY;
-use crate::lab::verify::run::Devices;
+use crate::lab::gpu::Uniform;
+use crate::lab::process::{Error, Launch, NoAnswer, Surroundings, Worker};
 use crate::language::ir::{Column, Value};
-use crate::physics::num::{Precision, each_channel};
+use crate::physics::num::each_channel;
 use crate::physics::spectra::Space;
 
 /// A callback that sees cosines and the result at each.
@@ -196,161 +188,5 @@ fn trouble(response: AuditResponse) -> Trouble {
         AuditResponse::Absent(why) => Trouble::Absent(why),
         AuditResponse::Refused(who, words) => Trouble::Refused(who, words),
         _ => Trouble::Failed("it answers another question".to_owned()),
-    }
-}
-
-/// A request to a worker.
-#[derive(Debug, Serialize, Deserialize)]
-pub enum AuditRequest {
-    /// To ask the compilers of a language about a whole program, with this precision of `half`.
-    Accept(Language, Precision, String),
-    /// To make SPIR-V of a shader.
-    Module(Language, Precision, String),
-    /// To compile a program.
-    Prepare(ProgramCode, Vec<UniformBits>),
-    /// To run it over cosines.
-    Run(Vec<u32>),
-}
-
-/// A worker's answer.
-#[derive(Debug, Serialize, Deserialize)]
-pub enum AuditResponse {
-    /// What the compilers say.
-    Accepted(Accepted),
-    /// The compiler's output, or why there is none.
-    Module(Result<Vec<u8>, Fault>),
-    /// It is compiled, for this device.
-    Ready(String),
-    /// Something is missing on this machine.
-    Absent(String),
-    /// A compiler refused it, or the device failed: its name, and its message.
-    Refused(String, String),
-    /// The results.
-    Ran(Vec<[u32; 3]>),
-}
-
-/// A program.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub enum ProgramCode {
-    /// In WGSL.
-    Wgsl(String),
-    /// In GLSL ES 3.00.
-    Gles(String),
-    /// A module that an external compiler has made.
-    Spirv(Vec<u8>),
-}
-
-/// A uniform with its value as bits.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct UniformBits {
-    name: String,
-    is_rgb: bool,
-    bits: [u32; 3],
-}
-
-impl UniformBits {
-    /// The form that is sent.
-    pub fn new(uniform: &Uniform) -> UniformBits {
-        let (is_rgb, value) = match uniform.value {
-            Argument::Rgb(value) => (true, value),
-            Argument::Scalar(value) => (false, [value; 3]),
-        };
-        UniformBits {
-            name: uniform.name.clone(),
-            is_rgb,
-            bits: value.map(f32::to_bits),
-        }
-    }
-
-    /// The form that is bound.
-    pub fn uniform(&self) -> Uniform {
-        let value = self.bits.map(f32::from_bits);
-        Uniform {
-            name: self.name.clone(),
-            value: if self.is_rgb {
-                Argument::Rgb(value)
-            } else {
-                Argument::Scalar(value[0])
-            },
-        }
-    }
-}
-
-/// Serves until the supervisor is gone.
-///
-/// # Errors
-/// The pipe is gone.
-pub fn serve() -> io::Result<()> {
-    let (inbox, devices) = (Inbox::open(), Devices::new(Wanted::default()));
-    let mut ready: Option<(Kernel, Vec<Uniform>)> = None;
-    inbox.serve(|request| match request {
-        AuditRequest::Accept(language, precision, program) => {
-            AuditResponse::Accepted(choose::accepted(language, precision, program))
-        }
-        AuditRequest::Module(language, precision, shader) => {
-            AuditResponse::Module(choose::module(language, precision, &shader))
-        }
-        AuditRequest::Prepare(code, values) => {
-            let uniforms: Vec<Uniform> = values.iter().map(UniformBits::uniform).collect();
-            match prepare(&devices, &code, &uniforms) {
-                Ok((kernel, device)) => {
-                    ready = Some((kernel, uniforms));
-                    AuditResponse::Ready(device)
-                }
-                Err(refusal) => refusal,
-            }
-        }
-        AuditRequest::Run(bits) => run(ready.as_ref(), &bits),
-    })
-}
-
-fn prepare(
-    devices: &Devices,
-    code: &ProgramCode,
-    uniforms: &[Uniform],
-) -> Result<(Kernel, String), AuditResponse> {
-    if let ProgramCode::Wgsl(text) = code {
-        validate_wgsl(text).map_err(|words| AuditResponse::Refused("naga".to_owned(), words))?;
-    }
-    let device = match code {
-        ProgramCode::Gles(_) => devices.gles(),
-        ProgramCode::Wgsl(_) | ProgramCode::Spirv(_) => devices.compute(),
-    };
-    let device = device.map_err(|fault| AuditResponse::Absent(fault.to_string()))?;
-    let (code, entry) = match code {
-        ProgramCode::Wgsl(text) => (gpu::ShaderCode::Wgsl(text), ENTRY),
-        ProgramCode::Gles(text) => (gpu::ShaderCode::Gles(text), "main"),
-        ProgramCode::Spirv(bytes) => (gpu::ShaderCode::Spirv(bytes), ENTRY),
-    };
-    let program = Program {
-        code,
-        entry,
-        uniforms,
-        texture: None,
-    };
-    let name = device.adapter.to_string();
-    match device.prepare(&program) {
-        Ok(kernel) => Ok((kernel, name)),
-        Err(fault) => Err(refusal(&name, fault)),
-    }
-}
-
-fn refusal(who: &str, fault: Fault) -> AuditResponse {
-    match fault {
-        Fault::Absent(why) => AuditResponse::Absent(why),
-        Fault::Failed(words) => AuditResponse::Refused(who.to_owned(), words),
-    }
-}
-
-fn run(ready: Option<&(Kernel, Vec<Uniform>)>, bits: &[u32]) -> AuditResponse {
-    let Some((kernel, uniforms)) = ready else {
-        return AuditResponse::Absent("there is nothing to run".to_owned());
-    };
-    let cosines: Vec<f32> = bits.iter().copied().map(f32::from_bits).collect();
-    match kernel.run(&cosines, uniforms, None) {
-        Ok(results) => {
-            AuditResponse::Ran(results.iter().map(|rgb| rgb.map(f32::to_bits)).collect())
-        }
-        Err(fault) => refusal("the device", fault),
     }
 }

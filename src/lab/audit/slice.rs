@@ -1,16 +1,17 @@
 //! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers.
 //! Inputs from outside become variables that our function sets.
 
-use super::condition::{Language, bare, definition};
+use super::definition::{definitions, macro_name};
 use super::hidden::{HiddenInput, UnreadFault};
-use super::inputs::{Initialised, Inputs};
+use super::inputs::{Initialised, Inputs, Piece};
+use super::language::{Language, bare};
 use super::parts::{Part, PartKind, functions_of, parts};
 use super::preprocess::{Condition, Define, Preprocessed};
 use super::reach::{MacroBodies, Reached, reached};
-use super::scan::FoundFunction;
 use super::type_names::TypeNames;
 use super::variables::without_annotations;
-use crate::generator::emit::shader_words::{Token, tokens};
+use crate::lab::verify::function_head::FunctionHead;
+use crate::lab::verify::shader_words::{Token, tokens};
 
 /// What compilers see of a text.
 #[derive(Clone, Debug, Default)]
@@ -52,7 +53,7 @@ impl<'a> SlicedText<'a> {
             Language::Hlsl => without_annotations(&code),
             _ => code,
         };
-        let all = format!("{}{}", definitions(defines), preprocessed.text);
+        let all = format!("{}{}", define_lines(defines), preprocessed.text);
         SlicedText {
             language,
             preprocessed,
@@ -63,21 +64,21 @@ impl<'a> SlicedText<'a> {
     }
 
     /// Its functions in order.
-    pub fn functions(&self) -> Vec<FoundFunction> {
+    pub fn functions(&self) -> Vec<FunctionHead> {
         let tokens = tokens(&self.code);
         let parts = parts(&tokens, &self.names, self.language);
         let heads = parts.iter().filter_map(|part| match &part.kind {
             PartKind::Prototype(head) => Some(head),
             _ => None,
         });
-        let heads: Vec<&FoundFunction> = heads.collect();
+        let heads: Vec<&FunctionHead> = heads.collect();
         let functions = parts.iter();
         let functions = functions
             .flat_map(|part| functions_of(part, &tokens, &self.names, self.language))
             .map(|mut found| {
                 // In HLSL a prototype before the function may state its defaults.
-                let is_head = |head: &&&FoundFunction| {
-                    let types = |one: &FoundFunction| {
+                let is_head = |head: &&&FunctionHead| {
+                    let types = |one: &FunctionHead| {
                         let each = one.params.iter();
                         each.map(|param| param.ty.clone()).collect::<Vec<_>>()
                     };
@@ -97,7 +98,7 @@ impl<'a> SlicedText<'a> {
     ///
     /// # Errors
     /// It needs an input that is not made of numbers.
-    pub fn around(&self, function: &FoundFunction, given: &[&str]) -> Result<Slice, UnreadFault> {
+    pub fn around(&self, function: &FunctionHead, given: &[&str]) -> Result<Slice, UnreadFault> {
         let words = tokens(&self.code);
         let parts = parts(&words, &self.names, self.language);
         let place = (function.line, function.column);
@@ -108,7 +109,7 @@ impl<'a> SlicedText<'a> {
         let Some(start) = parts.iter().position(is_it) else {
             return Ok(Slice::default());
         };
-        let before = definitions(self.defines);
+        let before = define_lines(self.defines);
         let (theirs, own) = (tokens(&before), tokens(&self.preprocessed.text));
         let macros = macro_bodies(&theirs, &own);
         let reached = reached(start, &words, &parts, &macros, self.language);
@@ -148,7 +149,7 @@ impl<'a> SlicedText<'a> {
             .filter(|one| reached.macros.contains(&one.name));
         let used: Vec<Define> = used.cloned().collect();
         Ok(Slice {
-            before: definitions(&used),
+            before: define_lines(&used),
             half: half_word(&text, &self.names, self.language),
             text,
             body,
@@ -160,20 +161,16 @@ impl<'a> SlicedText<'a> {
 
     /// The lines that define or undefine the macros that are reached.
     fn macro_lines(&self, reached: &Reached) -> Vec<Piece> {
+        if !self.language.has_preprocessor() {
+            return Vec::new();
+        }
         let lines = self.preprocessed.text.lines().enumerate();
-        let kept = lines.filter(|(_, line)| match tokens(line).as_slice() {
-            [hash, word, name, ..] if self.language.has_preprocessor() && hash.text == "#" => {
-                ["define", "undef"].contains(&word.text) && reached.macros.contains(name.text)
-            }
-            _ => false,
-        });
-        let piece = |(number, line): (usize, &str)| (number + 1, 1, line.to_owned());
-        kept.map(piece).collect()
+        let is_reached = |name: &Token| reached.macros.contains(name.text);
+        let kept = lines.filter(|(_, line)| macro_name(&tokens(line)).is_some_and(is_reached));
+        kept.map(|(number, line)| (number + 1, 1, line.to_owned()))
+            .collect()
     }
 }
-
-/// A piece of the text with its line and column.
-pub type Piece = (usize, usize, String);
 
 /// Pieces at their places.
 fn placed_pieces(mut pieces: Vec<Piece>, lines: usize) -> String {
@@ -198,7 +195,7 @@ fn placed_pieces(mut pieces: Vec<Piece>, lines: usize) -> String {
 }
 
 /// The user's definitions as lines.
-fn definitions(defines: &[Define]) -> String {
+fn define_lines(defines: &[Define]) -> String {
     let line = |one: &Define| format!("#define {} {}\n", one.name, one.value);
     defines.iter().map(line).collect()
 }
@@ -206,23 +203,15 @@ fn definitions(defines: &[Define]) -> String {
 /// The words of the macros of the command line and of the text.
 fn macro_bodies<'t, 'a>(theirs: &'t [Token<'a>], own: &'t [Token<'a>]) -> MacroBodies<'t, 'a> {
     let mut found = MacroBodies::new();
-    for line in theirs
-        .chunk_by(on_one_line)
-        .chain(own.chunk_by(on_one_line))
-    {
-        let Some((_, known)) = definition(line) else {
-            continue;
-        };
-        let params = known.params.unwrap_or_default();
-        let body = line[3..].iter();
-        let body = body.filter(|token| !params.iter().any(|param| param == token.text));
-        found.entry(line[2].text).or_default().push(body.collect());
+    for one in definitions(theirs).chain(definitions(own)) {
+        let params = one.params.unwrap_or_default();
+        let body = one
+            .body
+            .iter()
+            .filter(|token| !params.contains(&token.text));
+        found.entry(one.name).or_default().push(body.collect());
     }
     found
-}
-
-fn on_one_line(a: &Token, b: &Token) -> bool {
-    a.line == b.line
 }
 
 /// The first and last lines of the parts that are kept.

@@ -3,9 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::condition::{Language, bare};
-use super::scan::{TypeShape, type_shape};
-use crate::generator::emit::shader_words::{Token, tokens};
+use super::definition::definitions;
+use super::language::{Language, bare};
+use crate::lab::verify::function_head::{TypeShape, type_shape};
+use crate::lab::verify::shader_words::{Token, tokens};
 
 /// The longest chain of names that stand for each other. It stops a name that stands for itself.
 const DEPTH: usize = 8;
@@ -23,22 +24,21 @@ impl TypeNames {
         let code = bare(text, false);
         let tokens = tokens(&code);
         if language.has_preprocessor() {
-            for line in tokens.chunk_by(|a, b| a.line == b.line) {
-                names.enter(defined(line));
-            }
+            let plain = definitions(&tokens).filter(|one| one.params.is_none());
+            plain.for_each(|one| names.enter(one.name, one.body));
         }
         for at in 0..tokens.len() {
-            names.enter(declared(&tokens[at..], language));
+            if let Some((name, meaning)) = declared(&tokens[at..], language) {
+                names.enter(name, meaning);
+            }
         }
         names
     }
 
-    fn enter(&mut self, definition: Option<(&str, &[Token])>) {
-        if let Some((name, meaning)) = definition {
-            let meaning = meaning.iter().map(|token| token.text.to_owned()).collect();
-            let all = self.meanings.entry(name.to_owned()).or_default();
-            all.push(meaning);
-        }
+    fn enter(&mut self, name: &str, meaning: &[Token]) {
+        let meaning = meaning.iter().map(|token| token.text.to_owned()).collect();
+        let all = self.meanings.entry(name.to_owned()).or_default();
+        all.push(meaning);
     }
 
     /// Words with the types in place of their names. A name whose definitions differ, or are not types, stays.
@@ -73,20 +73,6 @@ impl TypeNames {
         }
         known.map(|(_, words)| words)
     }
-}
-
-/// `#define name words`: a macro without arguments.
-fn defined<'t, 'a>(line: &'t [Token<'a>]) -> Option<(&'a str, &'t [Token<'a>])> {
-    let [hash, define, name, meaning @ ..] = line else {
-        return None;
-    };
-    let is_definition = hash.text == "#" && define.text == "define" && name.is_word();
-    let behind = name.column + name.text.chars().count();
-    // `#define f(x)` takes arguments, `#define f (x)` does not.
-    let takes_arguments = meaning
-        .first()
-        .is_some_and(|first| first.text == "(" && first.column == behind);
-    (is_definition && !takes_arguments).then_some((name.text, meaning))
 }
 
 /// `typedef type name;` or `alias name = type;`.

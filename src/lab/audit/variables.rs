@@ -1,9 +1,9 @@
 //! Declarations of variables and of members, in all languages. Annotations in HLSL, which are for hosts, are removed, since none
 //! of our compilers reads them.
 
-use super::condition::Language;
-use super::scan::{behind, parts_between_commas};
-use crate::generator::emit::shader_words::{Token, tokens};
+use super::language::Language;
+use crate::lab::verify::shader_words::{Token, tokens};
+use crate::lab::verify::shader_words::{behind, parts_between_commas};
 
 /// A variable, or a member of a type.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -68,9 +68,8 @@ fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     let mut costs = BTreeMap::new();
     let rows = rows.iter().filter(|row| no_cost(row).is_none());
     for cost in rows.flat_map(|row| &row.cost) {
-        let Ok(figures) = &cost.figures else { continue };
-        let net = figures.cost();
-        let most = costs.entry(cost.family.name.to_owned()).or_insert(net);
+        let Some(net) = cost.net else { continue };
+        let most = costs.entry(cost.gpu.to_owned()).or_insert(net);
         *most = net.max(*most);
     }
     costs
@@ -120,8 +119,8 @@ impl ChartedFunction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generator::fit::ModelError;
-    use crate::lab::audit::{AuditCost, Checked, PerceivedFigures};
+    use crate::generator::fit::{ModelError, Perceived};
+    use crate::lab::audit::{AuditCost, Checked};
     use crate::lab::cost::{CostFigures, Counts, find};
 
     fn cost(gpu: &str, net: Option<f64>) -> AuditCost {
@@ -133,11 +132,8 @@ mod tests {
             net: counts(net),
             ..CostFigures::default()
         };
-        AuditCost {
-            family: find(gpu).unwrap(),
-            compiler: None,
-            figures: net.map(figures).ok_or_else(String::new),
-        }
+        let figures = net.map(figures).ok_or_else(String::new);
+        AuditCost::new(find(gpu).unwrap(), None, figures)
     }
 
     fn row(undefined: usize, net: Option<f64>, status: Status) -> AuditRow {
@@ -171,7 +167,7 @@ mod tests {
                 worst_cos: 0.0,
                 undefined,
             }),
-            perceived: Some(PerceivedFigures {
+            perceived: Some(Perceived {
                 luminance: 0.05,
                 de2000: 3.0,
             }),

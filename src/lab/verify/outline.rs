@@ -5,7 +5,7 @@
 //! declaration, because compilers disagree about what it hides. The outline of a SPIR-V module holds entry points, variables with
 //! their bindings, the number of functions, and what it asks of a device.
 
-use crate::generator::emit::shader_words::{block_comment, is_name_part};
+use crate::lab::verify::shader_words::{block_comment, is_name_part};
 
 /// What a file declares, and what its comments say.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

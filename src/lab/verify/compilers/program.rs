@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::str::Utf8Error;
 
 use super::call::CompilerInput;
-use crate::generator::emit::shader_words::{Hidden, code_alone};
+use crate::lab::verify::function_head::{FunctionHead, function_head};
+use crate::lab::verify::shader_words::{Hidden, behind, code_alone, tokens};
 use crate::language::targets::Frame;
 
 /// The programs of a file, one for each beginning.
@@ -38,57 +39,54 @@ pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<CompilerInput> {
 
 /// The statements of a program that calls every function of a text. `nests`: whether comments nest.
 pub fn calls(text: &str, nests: bool) -> String {
-    let mut calls: Vec<String> = heads(text, nests)
-        .iter()
-        .filter_map(|head| call(head))
-        .collect();
+    let mut calls: Vec<String> = heads(text, nests).iter().map(call).collect();
     // A file that is included twice has its heads twice.
     let mut seen = BTreeSet::new();
     calls.retain(|call| seen.insert(call.clone()));
     calls.concat()
 }
 
-/// The text before each outermost brace, one line each: the heads of functions, in all our languages.
-fn heads(text: &str, nests: bool) -> Vec<String> {
-    let directives = true;
-    let code = code_alone(text, Hidden { directives, nests });
-    let (mut heads, mut depth, mut head) = (Vec::new(), 0, String::new());
-    for character in code.lines().flat_map(|line| line.chars().chain([' '])) {
-        match character {
-            '{' if depth == 0 => heads.push(std::mem::take(&mut head)),
-            ';' if depth == 0 => head.clear(),
-            _ if depth == 0 && character != '}' => head.push(character),
-            _ => {}
+/// The heads of the functions of a text, in all our languages.
+fn heads(text: &str, is_wgsl: bool) -> Vec<FunctionHead> {
+    let code = code_alone(
+        text,
+        Hidden {
+            directives: true,
+            nests: is_wgsl,
+        },
+    );
+    let tokens = tokens(&code);
+    let (mut heads, mut start) = (Vec::new(), 0);
+    let mut at = 0;
+    while let Some(token) = tokens.get(at) {
+        match token.text {
+            "{" => {
+                heads.extend(function_head(&tokens[start..at], is_wgsl));
+                at = behind(&tokens, at);
+                start = at;
+            }
+            ";" => {
+                at += 1;
+                start = at;
+            }
+            _ => at += 1,
         }
-        depth += match character {
-            '{' => 1,
-            '}' => -1,
-            _ => 0,
-        };
     }
     heads
 }
 
-/// The call of a function of this head: `type name(type argument, …)` or `fn name(argument: type, …) -> type`.
-fn call(head: &str) -> Option<String> {
-    let (before, rest) = head.split_once('(')?;
-    let (parameters, _) = rest.split_once(')')?;
-    let name = before.split_whitespace().last()?;
-    let arguments: Vec<String> = parameters
-        .split(',')
-        .map(str::trim)
-        .filter(|parameter| !parameter.is_empty())
-        .map(argument)
+/// The call of a function.
+fn call(head: &FunctionHead) -> String {
+    let arguments: Vec<String> = head
+        .params
+        .iter()
+        .map(|param| argument(&param.ty))
         .collect();
-    Some(format!("    sum += {name}({});\n", arguments.join(", ")))
+    format!("    sum += {}({});\n", head.name, arguments.join(", "))
 }
 
-fn argument(parameter: &str) -> String {
-    let is_wgsl = parameter.split_once(": ").map(|(_, ty)| ty);
-    let is_c = || parameter.rsplit_once(' ').map(|(ty, _)| ty);
-    let ty = is_wgsl.or_else(is_c).unwrap_or(parameter);
-    // Without a precision before it.
-    let ty = ty.split_whitespace().last().unwrap_or(ty);
+/// An argument of this type.
+fn argument(ty: &str) -> String {
     let lower = ty.to_lowercase();
     // GLSL combines texture and sampler.
     let known = if lower.contains("cube") {

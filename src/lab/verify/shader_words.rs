@@ -17,6 +17,11 @@ impl Token<'_> {
         let starts = |c: char| c.is_alphabetic() || c == '_';
         self.text.starts_with(starts)
     }
+
+    /// The column after it.
+    pub fn end(&self) -> usize {
+        self.column + self.text.chars().count()
+    }
 }
 
 /// What counts as no code.
@@ -122,6 +127,40 @@ pub fn tokens(bare: &str) -> Vec<Token<'_>> {
         }
     }
     found
+}
+
+/// The index after the bracket that closes the one here.
+pub fn behind(tokens: &[Token], open: usize) -> usize {
+    let mut depth = 0usize;
+    for (at, token) in tokens.iter().enumerate().skip(open) {
+        match token.text {
+            "(" | "[" | "{" => depth += 1,
+            ")" | "]" | "}" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return at + 1;
+        }
+    }
+    tokens.len()
+}
+
+/// Splits tokens at commas outside of brackets.
+pub fn parts_between_commas<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
+    let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
+    for (at, token) in tokens.iter().enumerate() {
+        match token.text {
+            "(" | "[" | "{" | "<" => depth += 1,
+            ")" | "]" | "}" | ">" => depth -= 1,
+            "," if depth == 0 => {
+                parts.push(&tokens[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&tokens[start..]);
+    parts
 }
 
 #[cfg(test)]

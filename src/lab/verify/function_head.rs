@@ -1,13 +1,10 @@
-//! Finds the functions of a user's file by their heads. Their bodies are left to compilers.
+//! Heads of functions in shader text, in all languages: names, arguments, and the shapes of their types.
 
-use super::condition::Language;
-use super::parts::{functions_of, parts};
-use super::type_names::TypeNames;
-use crate::generator::emit::shader_words::Token;
+use super::shader_words::{Token, behind, parts_between_commas};
 
 /// A function as its head declares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FoundFunction {
+pub struct FunctionHead {
     /// Its name.
     pub name: String,
     /// The line of its name, from 1.
@@ -71,64 +68,22 @@ impl NumberShape {
     }
 }
 
-impl FoundFunction {
+impl FunctionHead {
     /// Its name with the scopes around it: `brdf::schlick`.
     pub fn path(&self) -> String {
         let around = self.scope.iter().filter(|name| !name.is_empty());
         let around: String = around.map(|name| format!("{name}::")).collect();
         around + &self.name
     }
-
-    /// Whether it can be a reflectance function: numbers in, one of them the cosine, and numbers out.
-    pub fn is_candidate(&self) -> bool {
-        let known = |shape: &NumberShape| !matches!(shape, NumberShape::Other(_));
-        let scalar = |param: &Parameter| param.shape == NumberShape::Scalar;
-        !self.needs_object
-            && known(&self.result)
-            && self
-                .params
-                .iter()
-                .all(|param| known(&param.shape) || param.default.is_some())
-            && self.params.iter().any(scalar)
-    }
-}
-
-/// The functions among words, each with the words of its body.
-pub fn bodies<'t, 'a>(
-    tokens: &'t [Token<'a>],
-    names: &TypeNames,
-    language: Language,
-) -> impl Iterator<Item = (FoundFunction, &'t [Token<'a>])> {
-    let parts = parts(tokens, names, language).into_iter();
-    parts.flat_map(move |one| {
-        let body = &tokens[one.head_end..one.end];
-        let found = functions_of(&one, tokens, names, language).into_iter();
-        found.map(move |found| (found, body))
-    })
-}
-
-/// The index after the bracket that closes the one here.
-pub(super) fn behind(tokens: &[Token], open: usize) -> usize {
-    let mut depth = 0usize;
-    for (at, token) in tokens.iter().enumerate().skip(open) {
-        match token.text {
-            "(" | "[" | "{" => depth += 1,
-            ")" | "]" | "}" => depth -= 1,
-            _ => {}
-        }
-        if depth == 0 {
-            return at + 1;
-        }
-    }
-    tokens.len()
 }
 
 /// The function of a head, where it is one of a function.
-pub(super) fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
+pub fn function_head(head: &[Token], is_wgsl: bool) -> Option<FunctionHead> {
     let head = without_attributes(head);
-    let name = match language {
-        Language::Wgsl => head.iter().position(|token| token.text == "fn")? + 1,
-        _ => c_name(head)?,
+    let name = if is_wgsl {
+        head.iter().position(|token| token.text == "fn")? + 1
+    } else {
+        c_name(head)?
     };
     let open = name + 1;
     if head.get(open)?.text != "(" || !head[name].is_word() {
@@ -138,18 +93,15 @@ pub(super) fn function(head: &[Token], language: Language) -> Option<FoundFuncti
     let inside = head.get(open + 1..close - 1)?;
     let params = parts_between_commas(inside).into_iter();
     let params = params.filter(|part| !matches!(part, [] | [Token { text: "void", .. }]));
-    let (mut params, mut result): (Vec<Parameter>, NumberShape) = match language {
-        Language::Wgsl => (
-            params.map(wgsl_parameter).collect(),
-            wgsl_result(&head[close..]),
-        ),
-        _ => (
-            params.map(c_parameter).collect(),
-            shape(&without_qualifiers(&head[..name])),
-        ),
+    let (mut params, mut result): (Vec<Parameter>, NumberShape) = if is_wgsl {
+        let params = params.map(wgsl_parameter).collect();
+        (params, wgsl_result(&head[close..]))
+    } else {
+        let params = params.map(c_parameter).collect();
+        (params, shape(&without_qualifiers(&head[..name])))
     };
     let out = out_argument(&mut params, &mut result);
-    Some(FoundFunction {
+    Some(FunctionHead {
         name: head[name].text.to_owned(),
         line: head[name].line,
         column: head[name].column,
@@ -198,24 +150,6 @@ fn c_name(head: &[Token]) -> Option<usize> {
     let is_other = |token: &Token| ["=", ":"].contains(&token.text);
     let is_head = open >= 2 && !head[..open].iter().any(is_other);
     is_head.then(|| open - 1)
-}
-
-/// Splits tokens at commas outside of brackets.
-pub(super) fn parts_between_commas<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
-    let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
-    for (at, token) in tokens.iter().enumerate() {
-        match token.text {
-            "(" | "[" | "{" | "<" => depth += 1,
-            ")" | "]" | "}" | ">" => depth -= 1,
-            "," if depth == 0 => {
-                parts.push(&tokens[start..at]);
-                start = at + 1;
-            }
-            _ => {}
-        }
-    }
-    parts.push(&tokens[start..]);
-    parts
 }
 
 fn joined(tokens: &[Token]) -> String {
@@ -328,111 +262,5 @@ fn shape(written: &str) -> NumberShape {
         "f32" | "float" | "half" | "min16float" => NumberShape::Scalar,
         "vec3<f32>" | "vec3f" | "vec3" | "float3" | "half3" | "min16float3" => NumberShape::Rgb,
         other => NumberShape::Other(other.to_owned()),
-    }
-}
-
-/// The functions of a text in order.
-#[cfg(test)]
-pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
-    let code = super::condition::bare(text, language.has_preprocessor());
-    let tokens = crate::generator::emit::shader_words::tokens(&code);
-    let names = TypeNames::of_text(text, language);
-    let found = bodies(&tokens, &names, language);
-    found.map(|(found, _)| found).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[track_caller]
-    fn check(text: &str, language: Language, expected: &[&str]) {
-        let shown = |found: &FoundFunction| {
-            let params: Vec<String> = found
-                .params
-                .iter()
-                .map(|param| format!("{} {}", param.name, param.shape.words()))
-                .collect();
-            format!(
-                "{}:{} {}({}) {}",
-                found.line,
-                found.column,
-                found.name,
-                params.join(", "),
-                found.result.words()
-            )
-        };
-        let found: Vec<String> = functions(text, language).iter().map(shown).collect();
-        assert_eq!(found, expected, "{text}");
-    }
-
-    #[test]
-    fn heads_of_wgsl_are_read() {
-        check(
-            "const a = array<f32, 2>(1.0, 2.0);\nstruct S { x: f32 }\n@must_use fn f(\n  c: f32, // c\n f0: vec3<f32>,\n) -> vec3f { if c > 0. { } return f0; }\nfn g() {}",
-            Language::Wgsl,
-            &[
-                "3:14 f(c one number, f0 three numbers) three numbers",
-                "7:4 g() nothing",
-            ],
-        );
-    }
-
-    #[test]
-    fn heads_of_glsl_are_read() {
-        check(
-            "#version 300 es\n#define F(x) { \\\n }\nlayout(std140) uniform B { vec3 a; } b;\nconst float t[2] = float[](1., 2.);\nhighp vec3 f(const in highp float c, vec3 f0, out float d)\n{\n}\nvoid main(void) {}",
-            Language::Gles,
-            &[
-                "6:12 f(c one number, f0 three numbers, d out float) three numbers",
-                "9:6 main() void",
-            ],
-        );
-    }
-
-    #[test]
-    fn heads_of_hlsl_are_read() {
-        check(
-            "static const float t[2] = { 1, 2 };\ncbuffer B : register(b0) { float3 a; };\n[numthreads(1, 1, 1)] void k() {}\nfloat3 f(float c : A, half3 f0 = 1, float x[2]) : SV_Target { }\nfloat g(float c);",
-            Language::Hlsl,
-            &[
-                "3:28 k() void",
-                "4:8 f(c one number, f0 three numbers, x floatx[2]) three numbers",
-            ],
-        );
-    }
-
-    #[test]
-    fn a_result_may_be_given_in_an_argument() {
-        let found = functions(
-            "void f(float c, out half3 o, float3 f0) { } void g(out float a, out float b) { } float h(out float a) { }",
-            Language::Hlsl,
-        );
-        let out = found[0]
-            .out
-            .as_ref()
-            .map(|out| (out.place, out.ty.as_str()));
-        assert_eq!(out, Some((1, "half3")));
-        assert_eq!(
-            (found[0].params.len(), &found[0].result),
-            (2, &NumberShape::Rgb)
-        );
-        assert!(found[1].out.is_none() && found[2].out.is_none());
-    }
-
-    #[test]
-    fn what_is_broken_ends() {
-        for text in [
-            "fn",
-            "fn f(",
-            "}}}{{{",
-            "fn (a: f32) {",
-            "float f( {",
-            "[[[",
-        ] {
-            for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
-                let _ = functions(text, language);
-            }
-        }
     }
 }
