@@ -30,6 +30,7 @@ use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::language::methods::{self, Method, TEXELS};
 use crate::language::targets::{self, Finish, Target};
+use crate::physics::foreign;
 use crate::physics::names::UnknownName;
 use crate::pictures::table;
 
@@ -240,15 +241,12 @@ fn finished(
     if flags.quiet {
         return Ok(output);
     }
-    output.remarks.extend(left_out.iter().map(|why| {
-        format!(
-            "left out: {}",
-            crate::physics::foreign::one_line(&why.to_string())
-        )
-    }));
+    let left_out = left_out.iter();
+    let remarks = left_out.map(|why| format!("left out: {}", foreign::one_line(why)));
+    output.remarks.extend(remarks);
     output.remarks.push(format!(
         "{}: {} written, {} unchanged",
-        crate::physics::foreign::path(&out_dir),
+        foreign::path(&out_dir),
         written.written,
         written.unchanged
     ));
@@ -301,53 +299,30 @@ fn targets(words: &[Choice<&'static Target>]) -> Vec<&'static Target> {
     text.filter(is_chosen).collect()
 }
 
-/// Whether this is a reserved name of `--dfg` tables.
-fn is_split_sum(name: &str) -> bool {
-    name.starts_with("dfg_")
-}
-
-/// Checks that there is something to bake, and that no material has the atlas's name.
+/// Checks that there is something to bake, and that no material has the name of another table.
 fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
     if subjects.is_empty() {
         let why = "`--material none` leaves nothing to bake; name materials, or all";
         return Err(Error::usage(why));
     }
-    let taken = |subject: &TableMaterial| match subject.name.as_str() {
-        ATLAS if atlas => Some("the picture of all"),
-        name if is_split_sum(name) => Some("a table of `bake --dfg`"),
-        _ => None,
-    };
-    match subjects
-        .iter()
-        .find_map(|subject| Some((&subject.name, taken(subject)?)))
-    {
-        None => Ok(()),
-        Some((name, meaning)) => Err(RequestFault::NameTaken {
-            name: name.clone(),
-            meaning,
-        }
-        .into()),
+    for TableMaterial { name, .. } in subjects {
+        let meaning = match name.as_str() {
+            ATLAS if atlas => "the picture of all",
+            name if name.starts_with("dfg_") => "a table of `bake --dfg`",
+            _ => continue,
+        };
+        let name = name.clone();
+        return Err(RequestFault::NameTaken { name, meaning }.into());
     }
+    Ok(())
 }
 
 /// A line for each row.
 fn bake_text(rows: &[BakeRow]) -> String {
     let cells = |row: &BakeRow| {
         let (name, format, texels, axis, file) = match row {
-            BakeRow::Table(row) => (
-                &row.name,
-                row.format,
-                row.texels,
-                row.axis.to_string(),
-                &row.file,
-            ),
-            BakeRow::SplitSum(row) => (
-                &row.name,
-                row.format,
-                row.texels,
-                row.axis.to_string(),
-                &row.file,
-            ),
+            BakeRow::Table(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, &*row.axis, &row.file),
         };
         let (scale, max_abs, mean_rel) = match row {
             BakeRow::Table(row) => (row.scale, row.max_abs, row.mean_rel),
@@ -357,7 +332,7 @@ fn bake_text(rows: &[BakeRow]) -> String {
             name.clone(),
             format.to_owned(),
             texels.to_string(),
-            axis,
+            axis.to_owned(),
             file.clone(),
             format!("{scale:?}"),
             format!("{max_abs:.6}"),

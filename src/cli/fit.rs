@@ -49,8 +49,8 @@ pub struct FitFlags {
     #[arg(long, value_name = "NAME", default_value = "absolute", value_parser = one_of("weight", Weight::ALL, Weight::name))]
     pub weight: Weight,
     /// Make the fit exact at 0 degrees, at 90, or at both; the report also gives the error without this constraint
-    #[arg(long, value_delimiter = ',', value_name = "DEGREES", value_parser = one_of("end of the right angle", End::ALL, End::name))]
-    pub exact: Vec<End>,
+    #[arg(long, value_delimiter = ',', value_name = "DEGREES", value_parser = one_of("end of the right angle", ["0", "90"], |end| end))]
+    pub exact: Vec<&'static str>,
     /// Precision of the coefficients: f32, or f16, where the fit rounds them one after another so that each compensates for the others
     #[arg(long, value_name = "NAME", value_parser = precision(), conflicts_with_all = ["exact", "search"])]
     pub precision: Option<Precision>,
@@ -87,32 +87,12 @@ impl FitFlags {
             .list("material", self.materials.choices())
             .list("terms", self.terms)
             .list("weight", weight)
-            .list("exact", self.exact.iter().map(|end| end.name()))
+            .list("exact", &self.exact)
             .list("precision", self.precision.map(Precision::name))
             .list("f0", self.f0.iter().flatten())
             .list("f82", self.f82.iter().flatten())
             .list("medium", &self.medium.medium)
             .seen_as(viewing)
-    }
-}
-
-/// An end of the right angle, where a fit can be exact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// 0 degrees.
-    Normal,
-    /// 90 degrees.
-    Grazing,
-}
-
-impl End {
-    const ALL: [End; 2] = [End::Normal, End::Grazing];
-
-    fn name(self) -> &'static str {
-        match self {
-            End::Normal => "0",
-            End::Grazing => "90",
-        }
     }
 }
 
@@ -155,8 +135,8 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
         weight: flags.weight,
         precision: flags.precision.unwrap_or_default(),
         exact: Exact {
-            normal: flags.exact.contains(&End::Normal),
-            grazing: flags.exact.contains(&End::Grazing),
+            normal: flags.exact.contains(&"0"),
+            grazing: flags.exact.contains(&"90"),
         },
         space: flags.gamut.viewing.space.unwrap_or_default(),
         // Forms are compared by what they can represent, before any limit is applied.
@@ -231,7 +211,7 @@ fn of_materials(
             Some(row) => rows.push(row),
             None => remarks.push(format!(
                 "left out: {} with {form}: {NO_FIT}",
-                crate::physics::foreign::Foreign(subject)
+                Foreign(subject)
             )),
         }
     }
@@ -265,8 +245,13 @@ fn of_subject(
         let without_gamut = error(method, &Coefficients::fit(method, &before_gamut, free)?).max_abs;
         let missed = promised.then(|| missed(subject, method, without_gamut));
         let error = error(method, &fitted);
-        let row = FitRow::new(method, &fitted, &error, form.cost, aim.space.name());
-        Some(row.of_material(subject, missed.flatten(), without_gamut))
+        Some(FitRow {
+            material: Some(subject.argument.clone()),
+            class: Some(subject.material.kind.name()),
+            max_abs_without_gamut: (aim.gamut != Gamut::Keep).then_some(without_gamut),
+            misses_its_class: missed.flatten(),
+            ..FitRow::new(method, &fitted, &error, form.cost, aim.space.name())
+        })
     };
     let own = forms
         .iter()
@@ -297,8 +282,10 @@ fn of_colours(
         let error = error_from(seen, &|cosines| {
             values_at(&function, method.inputs, &fitted.values, cosines)
         });
-        let row = FitRow::new(method, &fitted, &error, form.cost, "any");
-        Ok(row.of_colours(follows))
+        Ok(FitRow {
+            follows: Some(follows),
+            ..FitRow::new(method, &fitted, &error, form.cost, "any")
+        })
     };
     let of_any = forms.iter().filter(|form| form.method.class == Class::Any);
     of_any.map(row).collect()
@@ -347,7 +334,7 @@ pub struct FitRow {
 impl FitRow {
     /// The row of a method with these coefficients and errors, and with the cost of its library function where that was recorded.
     /// It has no material yet.
-    pub fn new(
+    fn new(
         method: &'static Method,
         fitted: &Coefficients,
         error: &ModelError,
@@ -381,26 +368,6 @@ impl FitRow {
         }
     }
 
-    /// The row of a material, with the largest error of a form that need not stay in [0, 1].
-    pub fn of_material(
-        mut self,
-        subject: &MaterialInMedium,
-        missed: Option<Missed>,
-        without_gamut: f64,
-    ) -> FitRow {
-        self.max_abs_without_gamut = (self.aim.gamut != Gamut::Keep).then_some(without_gamut);
-        self.material = Some(subject.argument.clone());
-        self.class = Some(subject.material.kind.name());
-        self.misses_its_class = missed;
-        self
-    }
-
-    /// The row of two colours, with the curve that each channel follows between them.
-    pub fn of_colours(mut self, follows: [Follows; 3]) -> FitRow {
-        self.follows = Some(follows);
-        self
-    }
-
     fn name(&self) -> &str {
         self.material.as_deref().unwrap_or("two colours")
     }
@@ -408,27 +375,25 @@ impl FitRow {
 
 /// Why a figure is missing, where one is.
 fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
-    let reasons = [
-        (
-            mean_rel.is_none(),
-            "a channel that reflects nothing has no relative error",
-        ),
-        (cost.is_none(), "its cost is not recorded there"),
-    ];
-    let lacking = reasons.into_iter().filter(|(lacks, _)| *lacks);
-    let lacking: Vec<&str> = lacking.map(|(_, why)| why).collect();
-    (!lacking.is_empty()).then(|| lacking.join("; "))
+    let mut reasons = Vec::new();
+    if mean_rel.is_none() {
+        reasons.push("a channel that reflects nothing has no relative error");
+    }
+    if cost.is_none() {
+        reasons.push("its cost is not recorded there");
+    }
+    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 /// The meaning of the first column.
 const STAR: &str = "A star marks the frontier of a material: what errs less costs more, and what costs less errs more.";
 
 /// The rows for a terminal. A star marks a row if no other of the same material is both cheaper and as accurate.
-pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
+fn fits_text(rows: &[FitRow], gpu: &str) -> String {
     let aim = rows.first().map_or(FitObjective::default(), |row| row.aim);
     let mut head = vec!["", "material", "method", "terms", "largest error"];
-    let known = |column: &Column| rows.iter().any(|row| column.1(row).is_some());
-    let columns: Vec<Column> = measure_columns(aim).filter(known).collect();
+    let mut columns = measure_columns(aim);
+    columns.retain(|(_, value)| rows.iter().any(|row| value(row).is_some()));
     head.extend(columns.iter().map(|(title, _)| *title));
     head.extend(["mean relative, %", gpu]);
     let mut lines = Vec::new();
@@ -454,28 +419,29 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
 type Column = (&'static str, fn(&FitRow) -> Option<f64>);
 
 /// The columns of the minimised measure, and of what the gamut and an exact end cost in error.
-fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
+fn measure_columns(aim: FitObjective) -> Vec<Column> {
     let title = match aim.weight {
         Weight::Absolute => "largest on paper",
         Weight::Relative => "largest relative",
         Weight::Luminance => "largest of luminance",
         Weight::DeltaE => "largest CIEDE2000",
     };
-    let error: Column = (title, |row| Some(row.error));
-    let free: Column = ("the same, not exact at an end", |row| {
-        row.error_without_exact
-    });
-    let is_any = aim.exact.is_any();
-    let without_gamut: Column = ("the same, not kept to [0, 1]", |row| {
-        row.max_abs_without_gamut
-    });
-    let is_paper = is_any || aim.weight != Weight::Absolute || aim.gamut == Gamut::Keep;
-    let column = is_paper.then_some(error);
-    let columns = column.into_iter().chain(is_any.then_some(free));
-    (aim.gamut != Gamut::Keep)
-        .then_some(without_gamut)
-        .into_iter()
-        .chain(columns)
+    let (is_exact, is_free) = (aim.exact.is_any(), aim.gamut == Gamut::Keep);
+    let mut columns: Vec<Column> = Vec::new();
+    if !is_free {
+        columns.push(("the same, not kept to [0, 1]", |row| {
+            row.max_abs_without_gamut
+        }));
+    }
+    if is_exact || is_free || aim.weight != Weight::Absolute {
+        columns.push((title, |row| Some(row.error)));
+    }
+    if is_exact {
+        columns.push(("the same, not exact at an end", |row| {
+            row.error_without_exact
+        }));
+    }
+    columns
 }
 
 /// The most rows for which the coefficients are printed too.

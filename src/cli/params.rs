@@ -128,25 +128,20 @@ pub fn params_text(
     medium: Option<&Material>,
 ) -> String {
     let params = &of_material.params;
-    let row = |name: &str, values: [f64; 3], what: &str| {
-        let mut cells = channel_cells(name, values);
-        cells.push(what.to_owned());
-        cells
-    };
     let rows = [
-        row("F0", params.f0, "at 0 degrees"),
-        row("F82", params.f82, "at 81.79 degrees"),
-        row(
+        remarked_cells("F0", params.f0, "at 0 degrees"),
+        remarked_cells("F82", params.f82, "at 81.79 degrees"),
+        remarked_cells(
             "F82 tint",
             params.f82_tint,
             "F82 over Schlick's value there",
         ),
-        row("F90", params.f90, "at 90 degrees"),
-        row("average", params.average, "hemispherical reflectance"),
-        row("reflectivity", params.reflectivity, "Gulbrandsen's r"),
-        row("edge tint", params.edge_tint, "Gulbrandsen's g"),
-        row("n", params.n, &params.nk_by.join(", ")),
-        row("k", params.k, ""),
+        remarked_cells("F90", params.f90, "at 90 degrees"),
+        remarked_cells("average", params.average, "hemispherical reflectance"),
+        remarked_cells("reflectivity", params.reflectivity, "Gulbrandsen's r"),
+        remarked_cells("edge tint", params.edge_tint, "Gulbrandsen's g"),
+        remarked_cells("n", params.n, &params.nk_by.join(", ")),
+        remarked_cells("k", params.k, ""),
     ];
     let mut lines = vec![
         format!("{}: {}", material.name, one_line(&material.summary)),
@@ -184,6 +179,12 @@ fn grey_tint_line(grey: &GreyTint) -> String {
 fn channel_cells(name: &str, values: [f64; 3]) -> Vec<String> {
     let numbers = values.map(|value| format!("{value:.5}"));
     [name.to_owned()].into_iter().chain(numbers).collect()
+}
+
+fn remarked_cells(name: &str, values: [f64; 3], remark: &str) -> Vec<String> {
+    let mut cells = channel_cells(name, values);
+    cells.push(remark.to_owned());
+    cells
 }
 
 fn colour_error_lines(errors: &ColourErrors) -> [String; 4] {
@@ -229,14 +230,9 @@ pub fn run_coat(flags: &CoatFlags, json: Option<&Path>) -> Result<Output, Error>
 
 /// The numbers of each channel, and a note where no index gives the colours.
 pub fn coated_text(row: &CoatedRow) -> String {
-    let cells = |name: &str, values: [f64; 3], what: &str| {
-        let numbers = values.map(|value| format!("{value:.5}"));
-        let cells = [name.to_owned()].into_iter().chain(numbers);
-        cells.chain([what.to_owned()]).collect::<Vec<String>>()
-    };
     // An index that gives neither colour belongs to no material. Only the JSON has it.
     let index_cells = |name: &str, values: [f64; 3]| {
-        let mut shown = cells(name, values, "in air");
+        let mut shown = remarked_cells(name, values, "in air");
         for (cell, exact) in shown[1..].iter_mut().zip(row.exact) {
             if !exact {
                 *cell = "none".to_owned();
@@ -245,10 +241,10 @@ pub fn coated_text(row: &CoatedRow) -> String {
         shown
     };
     let rows = [
-        cells("F0", row.f0, "in air"),
-        cells("F82", row.f82, "in air"),
-        cells("F0 in coat", row.f0_in_coat, "relative to the coat"),
-        cells(
+        remarked_cells("F0", row.f0, "in air"),
+        remarked_cells("F82", row.f82, "in air"),
+        remarked_cells("F0 in coat", row.f0_in_coat, "relative to the coat"),
+        remarked_cells(
             "F82 in coat",
             row.f82_in_coat,
             "at 81.79 degrees within the coat",

@@ -1,11 +1,11 @@
 //! The files of effects: the functions of one effect, for any material, with another method, or for one material.
 
+use super::artifact::Artifact;
 use super::batch::batch_program;
 use super::code_bound::CodeBound;
 use super::comment;
 use super::detail::{Detail, FunctionsDetail};
 use super::error::Error;
-use super::file::File;
 use super::function::{EffectPart, EmittedFunction, FunctionForm, Naming, check_names};
 use super::header::{MARK, licence_line};
 use super::page::{self, Documented, PageRequest, comments, guard};
@@ -195,7 +195,7 @@ pub fn effect_file(
     functions: &[EmittedFunction],
     naming: &Naming,
     command: &str,
-) -> Result<File, Error> {
+) -> Result<Artifact, Error> {
     let stem = request.stem();
     let unique = format!("{}{}_effect", naming.prefix, stem.replace('/', "_"));
     let guard = guard(target, &unique);
@@ -204,10 +204,19 @@ pub fn effect_file(
         _ => "",
     };
     let plain: Vec<Documented> = functions.iter().map(|one| (Vec::new(), one)).collect();
-    Ok(File {
-        name: format!("{stem}{suffix}.{}", target.extension),
-        bytes: page(target, request, functions, &guard, command)?,
-        detail: Detail::Functions(Box::new(FunctionsDetail::new(target, &plain, command))),
+    let detail = FunctionsDetail::new(target, &plain, command);
+    let path = format!("{}/{stem}{suffix}.{}", target.name, target.extension);
+    let bytes = page(target, request, functions, &guard, command)?;
+    Ok(Artifact {
+        effect: Some(request.effect.name.to_owned()),
+        method: request.unusual_method().map(str::to_owned),
+        material: request.subject.map(|subject| subject.name.clone()),
+        ..Artifact::new(
+            target.name,
+            path,
+            bytes,
+            Detail::Functions(Box::new(detail)),
+        )
     })
 }
 

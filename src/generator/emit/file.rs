@@ -1,5 +1,6 @@
-//! Files: which functions stand together, under which name, with which details for the manifest.
+//! Files of functions: which stand together, under which name, with which details for the manifest.
 
+use super::artifact::Artifact;
 use super::code_bound::FILTERED;
 use super::comment;
 use super::detail::{Detail, FunctionsDetail};
@@ -13,17 +14,6 @@ use crate::language::ir::{Checked, Ty};
 use crate::language::methods::{self, Method};
 use crate::language::targets::{Finish, Page, Target};
 
-/// A file of one target, in memory.
-#[derive(Clone, Debug, PartialEq)]
-pub struct File {
-    /// The path below the target's folder, with `/`.
-    pub name: String,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
-    /// The manifest's details of it.
-    pub detail: Detail,
-}
-
 /// The library files of a method: one, or one per page for a target that writes modules.
 ///
 /// # Errors
@@ -33,14 +23,18 @@ pub fn library(
     method: &'static Method,
     functions: &[EmittedFunction],
     heading: Heading,
-) -> Result<Vec<File>, Error> {
+) -> Result<Vec<Artifact>, Error> {
     check_names(functions)?;
     let head = comments(target, &heading.library(target, method, functions));
     let written = functions.iter().filter(|one| is_written(target, one));
     let plain: Vec<Documented> = written.map(|one| (Vec::new(), one)).collect();
     let stem = &functions[0].name;
     let detail = FunctionsDetail::new(target, &plain, heading.command);
-    pages(target, [stem, stem], &head, &plain, &detail)
+    let mut files = pages(target, [stem, stem], &head, &plain, &detail)?;
+    for file in &mut files {
+        file.method = Some(method.name.to_owned());
+    }
+    Ok(files)
 }
 
 /// The functions of a method that a target writes. A module returns a colour, so it has no scalar form.
@@ -65,7 +59,7 @@ pub fn material(
     functions: &[EmittedFunction],
     naming: &Naming,
     heading: Heading,
-) -> Result<Vec<File>, Error> {
+) -> Result<Vec<Artifact>, Error> {
     check_names(functions)?;
     let head = comments(target, &heading.material(target, subject, naming.precision));
     let documented: Vec<Documented> = functions
@@ -76,7 +70,11 @@ pub fn material(
     let stem = format!("materials/{name}");
     let unique = format!("{}{name}_material", naming.prefix);
     let detail = FunctionsDetail::new(target, &documented, heading.command).of_material(subject);
-    pages(target, [&stem, &unique], &head, &documented, &detail)
+    let mut files = pages(target, [&stem, &unique], &head, &documented, &detail)?;
+    for file in &mut files {
+        file.material = Some(subject.name.clone());
+    }
+    Ok(files)
 }
 
 /// A file for each page of a target. `stem` is the name without the page's suffix, `unique` that of its include guard.
@@ -86,7 +84,7 @@ fn pages(
     head: &[String],
     functions: &[Documented],
     detail: &FunctionsDetail,
-) -> Result<Vec<File>, Error> {
+) -> Result<Vec<Artifact>, Error> {
     let guard = guard(target, unique);
     let file = |page: &'static Page| {
         let name = format!("{stem}{}.{}", page.suffix, target.extension);
@@ -96,11 +94,9 @@ fn pages(
             guard: &guard,
             ..PageRequest::new(target, functions, &name)
         };
-        Ok(File {
-            bytes: request.render()?,
-            detail: Detail::Functions(Box::new(detail.clone())),
-            name,
-        })
+        let detail = Detail::Functions(Box::new(detail.clone()));
+        let path = format!("{}/{name}", target.name);
+        Ok(Artifact::new(target.name, path, request.render()?, detail))
     };
     target.pages.iter().map(file).collect()
 }

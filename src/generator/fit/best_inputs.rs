@@ -8,6 +8,8 @@
 //! Source: Osborne, Watson, "An algorithm for minimax approximation in the nonlinear case", The Computer Journal 12(1), 1969,
 //! 63-68, <https://doi.org/10.1093/comjnl/12.1.63>.
 
+use std::ops::Range;
+
 use super::minimax::{Points, minimax};
 use super::problem::FitCurve;
 use crate::language::ir::{Checked, Ty, Value, evaluate};
@@ -32,6 +34,11 @@ struct InputSearch<'a> {
 struct Free {
     name: &'static str,
     channel: Option<usize>,
+}
+
+/// The channel, or all where none is named.
+fn channels(channel: Option<usize>) -> Range<usize> {
+    channel.map_or(0..3, |channel| channel..channel + 1)
 }
 
 /// The inputs near the intended ones that minimise the largest error. None for a method that reads a texture.
@@ -88,16 +95,15 @@ impl InputSearch<'_> {
 
     /// Improves the numbers that channels share, with each channel at its best for them.
     fn shared(&self, start: Values) -> Values {
-        let free = self.free(None);
-        if free.is_empty() {
-            return start;
-        }
         let at_their_best = |values: Values| {
             let best = self.by_channel(values);
             let missed = self.missed(&best, None);
             (best, missed)
         };
-        improved(start, &free, &at_their_best)
+        match self.free(None).as_slice() {
+            [] => start,
+            free => improved(start, free, &at_their_best),
+        }
     }
 
     /// Improves the shared numbers and those of each channel all at once. Where channels share a number, alternating steps may
@@ -109,17 +115,13 @@ impl InputSearch<'_> {
         }
         let own = (0..3).flat_map(|channel| self.free(Some(channel)));
         let free: Vec<Free> = own.chain(shared).collect();
+        // Channel after channel, with the points of each in order.
         let as_they_are = |values: Values| {
-            let missed = self.missed_by_channel(&values);
+            let missed = (0..3).flat_map(|channel| self.missed(&values, Some(channel)));
+            let missed = missed.collect();
             (values, missed)
         };
         improved(start, &free, &as_they_are)
-    }
-
-    /// The error against the curve, channel after channel, with the points of each channel in order.
-    fn missed_by_channel(&self, values: &Values) -> Vec<f64> {
-        let each = (0..3).flat_map(|channel| self.missed(values, Some(channel)));
-        each.collect()
     }
 
     /// The numbers of one channel, or those that channels share.
@@ -139,11 +141,10 @@ impl InputSearch<'_> {
     /// The error against the curve at each point: of one channel, or of all, point by point.
     fn missed(&self, values: &Values, channel: Option<usize>) -> Vec<f64> {
         let given = values_at(&self.function, self.inputs, values, &self.curve.cosines);
-        let channels = channel.map_or(0..3, |channel| channel..channel + 1);
-        let mut missed = Vec::with_capacity(self.curve.seen.len() * channels.len());
+        let mut missed = Vec::new();
         for (point, seen) in self.curve.seen.iter().enumerate() {
             let given = given.at(point);
-            missed.extend(channels.clone().map(|i| seen[i] - given[i]));
+            missed.extend(channels(channel).map(|i| seen[i] - given[i]));
         }
         missed
     }
@@ -195,10 +196,9 @@ fn moved(values: &Values, free: &[Free], step: &[f64], share: f64) -> Values {
     let mut moved = values.clone();
     for (one, step) in free.iter().zip(step) {
         if let Some(numbers) = moved.get_mut(one.name) {
-            let channels = one.channel.map_or(0..3, |channel| channel..channel + 1);
-            numbers[channels]
-                .iter_mut()
-                .for_each(|value| *value += share * step);
+            for value in &mut numbers[channels(one.channel)] {
+                *value += share * step;
+            }
         }
     }
     moved
@@ -206,14 +206,10 @@ fn moved(values: &Values, free: &[Free], step: &[f64], share: f64) -> Values {
 
 /// The largest error. NaN counts as larger than any number.
 fn most(missed: &[f64]) -> f64 {
-    let larger = |most: f64, next: &f64| {
-        if next.is_nan() {
-            f64::INFINITY
-        } else {
-            most.max(next.abs())
-        }
-    };
-    missed.iter().fold(0.0, larger)
+    if missed.iter().any(|error| error.is_nan()) {
+        return f64::INFINITY;
+    }
+    missed.iter().fold(0.0, |most, error| most.max(error.abs()))
 }
 
 #[cfg(test)]
@@ -235,38 +231,51 @@ mod tests {
         k: [4.26, 3.63, 3.07],
     };
 
-    fn curve_of(index: &Channels) -> FitCurve {
-        FitCurve::new(|c| {
-            [0, 1, 2].map(|i| optics::conductor(index.n[i], index.k[i], c).unpolarised())
-        })
+    /// A method with its intended inputs and its best ones.
+    struct Case {
+        method: &'static Method,
+        curve: FitCurve,
+        intended: Values,
+        best: Values,
     }
 
-    fn curve() -> FitCurve {
-        curve_of(&GOLD)
-    }
+    impl Case {
+        fn new(method: &'static Method, Channels { n, k }: &Channels) -> Case {
+            let law = |c| [0, 1, 2].map(|i| optics::conductor(n[i], k[i], c).unpolarised());
+            let curve = FitCurve::new(law);
+            let intended = values(method, &Channels { n: *n, k: *k }, &Derivation::default());
+            let best = best_inputs(method, &intended, &curve).expect("it has inputs");
+            Case {
+                method,
+                curve,
+                intended,
+                best,
+            }
+        }
 
-    fn largest(method: &Method, values: &Values) -> f64 {
-        largest_of(method, values, &curve())
-    }
+        fn named(name: &str, index: &Channels) -> Case {
+            Case::new(methods::find(name).expect("it is there"), index)
+        }
 
-    fn largest_of(method: &Method, values: &Values, curve: &FitCurve) -> f64 {
-        let function = method.function(false).expect("it builds");
-        let given = values_at(&function, method.inputs, values, &curve.cosines);
-        let missed = |point: usize| {
-            let (given, seen) = (given.at(point), curve.seen[point]);
-            (0..3).map(move |i| (given[i] - seen[i]).abs())
-        };
-        (0..curve.cosines.len())
-            .flat_map(missed)
-            .fold(0.0, f64::max)
+        fn search(&self) -> InputSearch<'_> {
+            InputSearch {
+                function: self.method.function(false).expect("it builds"),
+                inputs: self.method.inputs,
+                curve: &self.curve,
+            }
+        }
+
+        /// The largest error with these inputs.
+        fn largest(&self, values: &Values) -> f64 {
+            most(&self.search().missed(values, None))
+        }
     }
 
     #[test]
     fn no_method_is_worse_for_it() {
         for method in ALL.iter().filter(|method| !method.is_textured()) {
-            let intended = values(method, &GOLD, &Derivation::default());
-            let best = best_inputs(method, &intended, &curve()).expect("it has inputs");
-            let (before, after) = (largest(method, &intended), largest(method, &best));
+            let case = Case::new(method, &GOLD);
+            let (before, after) = (case.largest(&case.intended), case.largest(&case.best));
             assert!(after <= before, "{}: {before} became {after}", method.name);
         }
     }
@@ -275,10 +284,8 @@ mod tests {
     #[test]
     fn more_numbers_do_no_harm() {
         let best = |name: &str| {
-            let method = methods::find(name).expect("it is there");
-            let intended = values(method, &GOLD, &Derivation::default());
-            let best = best_inputs(method, &intended, &curve()).expect("it has inputs");
-            largest(method, &best)
+            let case = Case::named(name, &GOLD);
+            case.largest(&case.best)
         };
         assert!(best("schlick_f90") < best("schlick"));
         assert!(best("schlick_generalised") < 1.01 * best("schlick_f90"));
@@ -293,21 +300,14 @@ mod tests {
             .iter()
             .filter(|method| !method.is_textured() && !method.is_fitted())
         {
-            let intended = values(method, &PLATINUM, &Derivation::default());
-            let curve = curve_of(&PLATINUM);
-            let best = best_inputs(method, &intended, &curve).expect("it has inputs");
-            let found = largest_of(method, &best, &curve);
-            let rival = InputSearch {
-                function: method.function(false).expect("it builds"),
-                inputs: method.inputs,
-                curve: &curve,
-            };
+            let case = Case::new(method, &PLATINUM);
+            let found = case.largest(&case.best);
             for input in method.inputs.iter().filter(|input| input.ty == Ty::Scalar) {
                 for step in [-0.1, -0.03, -0.01, -0.001, 0.001, 0.01, 0.03, 0.1] {
-                    let mut near = best.clone();
+                    let mut near = case.best.clone();
                     let numbers = near.get_mut(input.name).expect("an input");
                     numbers.iter_mut().for_each(|value| *value *= 1.0 + step);
-                    let near = largest_of(method, &rival.by_channel(near), &curve);
+                    let near = case.largest(&case.search().by_channel(near));
                     assert!(
                         near > found * (1.0 - 2e-3),
                         "{}: {found}, and {near} where {} is {step} more",
@@ -322,20 +322,12 @@ mod tests {
     /// Schlick's form with F90 for platinum: compares with a search over F90, with F0 at its best for each.
     #[test]
     fn the_best_f90_is_that_of_a_search_over_all() {
-        let method = methods::find("schlick_f90").expect("it is there");
-        let intended = values(method, &PLATINUM, &Derivation::default());
-        let curve = curve_of(&PLATINUM);
-        let best = best_inputs(method, &intended, &curve).expect("it has inputs");
-        let found = largest_of(method, &best, &curve);
-        let rival = InputSearch {
-            function: method.function(false).expect("it builds"),
-            inputs: method.inputs,
-            curve: &curve,
-        };
+        let case = Case::named("schlick_f90", &PLATINUM);
+        let found = case.largest(&case.best);
         let least = (700..1100).map(|f90| {
-            let mut given = intended.clone();
+            let mut given = case.intended.clone();
             given.insert("f90".to_owned(), [f64::from(f90) / 1000.0; 3]);
-            largest_of(method, &rival.by_channel(given), &curve)
+            case.largest(&case.search().by_channel(given))
         });
         let least = least.fold(f64::INFINITY, f64::min);
         assert!(found <= least + 1e-9, "{found}, and {least} is possible");
@@ -344,16 +336,14 @@ mod tests {
     /// Schlick's form is linear in f0: no f0 near the one found is better, in any channel.
     #[test]
     fn the_best_f0_is_the_optimum() {
-        let schlick = methods::find("schlick").expect("it is there");
-        let intended = values(schlick, &GOLD, &Derivation::default());
-        let best = best_inputs(schlick, &intended, &curve()).expect("it has inputs");
-        let found = largest(schlick, &best);
-        assert!(found < 0.7 * largest(schlick, &intended));
+        let case = Case::named("schlick", &GOLD);
+        let found = case.largest(&case.best);
+        assert!(found < 0.7 * case.largest(&case.intended));
         for channel in 0..3 {
             let near = [-1e-4, 1e-4].map(|by| {
-                let mut near = best.clone();
+                let mut near = case.best.clone();
                 near.get_mut("f0").expect("it is an input")[channel] += by;
-                largest(schlick, &near)
+                case.largest(&near)
             });
             assert!(near.into_iter().all(|near| near >= found - 1e-9));
         }

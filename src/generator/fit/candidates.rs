@@ -344,12 +344,6 @@ mod tests {
             }
         }
     }
-}
-
-#[cfg(test)]
-mod shape_choice_tests {
-    use super::super::candidates::candidates;
-    use super::*;
 
     fn errors(substances: &[&str], tried: &[&[f64]]) -> TriedShapes {
         let all = candidates(4);

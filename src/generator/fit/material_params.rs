@@ -184,16 +184,10 @@ fn others(
 
 impl MeasuredSpread {
     fn new(f0: [f64; 3], others: Vec<OtherMeasurement>) -> MeasuredSpread {
-        let (mut f0_min, mut f0_max) = (f0, f0);
-        for other in &others {
-            for (i, value) in other.f0.iter().enumerate() {
-                f0_min[i] = f0_min[i].min(*value);
-                f0_max[i] = f0_max[i].max(*value);
-            }
-        }
+        let all = |i: usize| others.iter().map(move |other| other.f0[i]);
         MeasuredSpread {
-            f0_min,
-            f0_max,
+            f0_min: each_channel(|i| all(i).fold(f0[i], f64::min)),
+            f0_max: each_channel(|i| all(i).fold(f0[i], f64::max)),
             others,
         }
     }
@@ -225,7 +219,7 @@ pub struct Params {
 }
 
 /// The parameters of a surface. Its gamut should keep colours unclipped.
-pub(super) fn params(surface: Surface, kind: MaterialKind) -> Params {
+fn params(surface: Surface, kind: MaterialKind) -> Params {
     let reference = ReferenceCurve::new(surface, Light::Unpolarised);
     let effective = effective(&reference, kind);
     let matching_cos = Derivation::default().matching_cos;
@@ -255,7 +249,8 @@ pub fn colour_errors(
     if surface.channels().is_some() {
         return None;
     }
-    let reflectance = normal_spectrum(surface);
+    let normal = |index: &Index| optics::normal_incidence(index.n, index.k);
+    let reflectance: Vec<f64> = surface.indices.iter().map(normal).collect();
     let rgb = surface.unpolarised(1.0);
     let error = |light: &Illuminant| {
         BOUNCES.map(|bounces| colour_error(&reflectance, rgb, light, bounces, integration))
@@ -267,7 +262,7 @@ pub fn colour_errors(
 }
 
 /// The numbers of successive reflections for which the colour error is given.
-pub(super) const BOUNCES: [u32; 3] = [1, 2, 3];
+const BOUNCES: [u32; 3] = [1, 2, 3];
 
 /// Helium's d line and hydrogen's F and C in nanometres, as glass catalogues have them (ISO 7944).
 const D_NM: f64 = 587.561_8;
@@ -287,18 +282,8 @@ pub fn abbe_in(material: &Material, medium: Option<&Material>) -> Option<f64> {
 }
 
 fn relative_n(material: &Material, medium: Option<&Material>, nm: f64) -> Option<f64> {
-    let around = medium.map_or(Some(1.0), |medium| n_at(medium, nm));
-    Some(n_at(material, nm)? / around?)
-}
-
-fn n_at(material: &Material, nm: f64) -> Option<f64> {
-    material.n.at(nm, Extrapolate::Refuse).ok()
-}
-
-/// Reflectance at normal incidence at each of a surface's wavelengths.
-fn normal_spectrum(surface: &Surface) -> Vec<f64> {
-    let normal = |index: &Index| optics::normal_incidence(index.n, index.k);
-    surface.indices.iter().map(normal).collect()
+    let n = |material: &Material| material.n.at(nm, Extrapolate::Refuse).ok();
+    Some(n(material)? / medium.map_or(Some(1.0), n)?)
 }
 
 /// The colours of a surface under a coat.

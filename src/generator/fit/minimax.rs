@@ -75,39 +75,31 @@ pub fn minimax(points: Points) -> Option<Minimax> {
         let beyond = |limit: usize| points.limits[limit].beyond(&coefficients);
         let (worst, error) = furthest(points.rows.len(), missed);
         let (furthest_out, over) = furthest(points.limits.len(), beyond);
-        let enters = if over.abs() > BEYOND && over.abs() > error.abs() - level {
-            Entry {
-                place: furthest_out,
-                sign: over.signum(),
-                held: true,
-            }
+        let (place, off, held) = if over.abs() > BEYOND && over.abs() > error.abs() - level {
+            (furthest_out, over, true)
         } else if error.abs() > level * (1.0 + MORE) + ROUNDING {
-            Entry {
-                place: worst,
-                sign: error.signum(),
-                held: false,
-            }
+            (worst, error, false)
         } else {
             return Some(Minimax {
                 coefficients,
                 error: error.abs(),
             });
         };
-        reference.exchange(enters, points)?;
+        let sign = off.signum();
+        reference.exchange(Entry { place, sign, held }, points)?;
     }
     None
 }
 
 /// The index with the largest error, and that error.
 fn furthest(places: usize, missed: impl Fn(usize) -> f64) -> (usize, f64) {
-    let all = (0..places).map(|place| (place, missed(place)));
-    all.fold((0, 0.0), |most: (usize, f64), next| {
+    let mut most = (0, 0.0f64);
+    for next in (0..places).map(|place| (place, missed(place))) {
         if next.1.abs() > most.1.abs() {
-            next
-        } else {
-            most
+            most = next;
         }
-    })
+    }
+    most
 }
 
 /// The value of a form whose functions have these values.
@@ -132,13 +124,8 @@ impl Points<'_> {
     /// The row of an entry, and what it should sum to.
     fn equation(&self, entry: Entry) -> (Vec<f64>, f64) {
         if entry.held {
-            let limit = &self.limits[entry.place];
-            let end = if entry.sign > 0.0 {
-                limit.least
-            } else {
-                limit.most
-            };
-            return (limit.row.clone(), end);
+            let Limit { row, least, most } = &self.limits[entry.place];
+            return (row.clone(), if entry.sign > 0.0 { *least } else { *most });
         }
         let weight = self.weights[entry.place];
         let row = self.rows[entry.place].iter().map(|value| value * weight);
@@ -241,10 +228,8 @@ fn solve(mut rows: Vec<Vec<f64>>, mut values: Vec<f64>) -> Option<Vec<f64>> {
         let known: f64 = (step + 1..count).map(|i| rows[step][i] * values[i]).sum();
         values[step] = (values[step] - known) / rows[step][step];
     }
-    values
-        .iter()
-        .all(|value| value.is_finite())
-        .then_some(values)
+    let is_solved = values.iter().all(|value| value.is_finite());
+    is_solved.then_some(values)
 }
 
 #[cfg(test)]

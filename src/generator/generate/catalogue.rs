@@ -34,10 +34,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
     for target in request.targets_or_default() {
         let command = command(request, Some(target.name))?;
         let file = emit::catalogue_array(target, &rows, &request.naming(), &reference, &command)?;
-        generated.artifacts.extend(file.map(|file| {
-            let path = format!("{}/{}", target.name, file.name);
-            Artifact::new(target.name, path, file.bytes, file.detail)
-        }));
+        generated.artifacts.extend(file);
     }
     if generated.scope.whole {
         generated

@@ -5,7 +5,7 @@ use crate::generator::emit::Artifact;
 use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::written::Owners;
-use crate::generator::generate::{GeneratedFile, Run, artifact};
+use crate::generator::generate::{GeneratedFile, Run};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Request, each_once};
 use crate::language::effects::{self, Effect, USUAL_METHOD};
@@ -102,14 +102,8 @@ impl Run<'_> {
             for target in &self.targets {
                 let command = self.effect_command(target, &request);
                 let naming = &self.naming;
-                let file = emit::effect_file(target, &request, &functions, naming, &command)?;
-                let method = request.unusual_method();
-                let material = request.subject.map(|subject| subject.name.as_str());
                 files.push(GeneratedFile {
-                    artifact: Artifact {
-                        effect: Some(request.effect.name.to_owned()),
-                        ..artifact(target, file, method, material)
-                    },
+                    artifact: emit::effect_file(target, &request, &functions, naming, &command)?,
                     functions: functions.clone(),
                     subject: None,
                 });

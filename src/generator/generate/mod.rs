@@ -10,8 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::generator::bake::as_tables_are_seen;
-use crate::generator::emit::Artifact;
-use crate::generator::emit::{self, Bounds, EmittedFunction, File, Heading, NAGA_VERSION, Naming};
+use crate::generator::emit::{
+    self, Artifact, Bounds, EmittedFunction, Heading, NAGA_VERSION, Naming,
+};
 use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::tables::add_tables;
@@ -267,9 +268,9 @@ impl<'r> Run<'r> {
                 form,
                 command: &command,
             };
-            for file in emit::library(target, method, &functions, heading)? {
+            for artifact in emit::library(target, method, &functions, heading)? {
                 files.push(GeneratedFile {
-                    artifact: artifact(target, file, Some(method.name), None),
+                    artifact,
                     functions: emit::written_for(target, functions.clone()).collect(),
                     subject: None,
                 });
@@ -305,9 +306,9 @@ impl<'r> Run<'r> {
                 form,
                 command: &command,
             };
-            for file in emit::material(target, subject, &functions, &self.naming, heading)? {
+            for artifact in emit::material(target, subject, &functions, &self.naming, heading)? {
                 files.push(GeneratedFile {
-                    artifact: artifact(target, file, None, Some(&subject.name)),
+                    artifact,
                     functions: functions.clone(),
                     subject: Some(index),
                 });
@@ -390,14 +391,5 @@ pub fn provenance(inputs: Vec<Input>) -> Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         naga: NAGA_VERSION.to_owned(),
         inputs,
-    }
-}
-
-fn artifact(target: &Target, file: File, method: Option<&str>, material: Option<&str>) -> Artifact {
-    let path = format!("{}/{}", target.name, file.name);
-    Artifact {
-        method: method.map(str::to_owned),
-        material: material.map(str::to_owned),
-        ..Artifact::new(target.name, path, file.bytes, file.detail)
     }
 }

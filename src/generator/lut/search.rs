@@ -4,12 +4,14 @@
 //! also the thesis's measure of functions (section 5.2): the mean relative difference from the exact law at angles that are
 //! uniform from 0 to 90 degrees.
 
+use std::ops::Range;
+
 use super::axis::TableAxis;
 use super::depth::Depth;
 use super::limits::{Error, LEAST_TEXELS, MOST_TEXELS};
 use super::table::{Stored, Table, centre};
 use crate::generator::fit::{ModelError, error_of};
-use crate::generator::reference::{ReferenceCurve, reference_reflectance};
+use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Column, Value, Weights};
 use crate::physics::num::each_channel;
 
@@ -47,33 +49,39 @@ pub fn smallest(
 ) -> Result<TableKind, Error> {
     let mut best: Option<TableKind> = None;
     let mut least = f64::INFINITY;
-    for axis in axes {
-        for depth in depths {
-            let kind = TableFamily {
-                truths,
-                axis: *axis,
-                depth: *depth,
-            };
-            let below = best.map(|best| (best.bytes() - 1) / depth.bytes());
-            let found = match below {
-                None => kind.first(budget, &mut least),
-                Some(most) => kind.below(budget, most.min(MOST_TEXELS), &mut least),
-            };
-            let Some(texels) = found else { continue };
-            best = Some(kind.of(texels));
+    let pairs = axes
+        .iter()
+        .flat_map(|axis| depths.iter().map(move |depth| (*axis, *depth)));
+    for (axis, depth) in pairs {
+        let mut family = TableFamily {
+            truths,
+            axis,
+            depth,
+            budget,
+            least,
+        };
+        let found = match best {
+            None => family.first(),
+            Some(best) => family.below(((best.bytes() - 1) / depth.bytes()).min(MOST_TEXELS)),
+        };
+        least = family.least;
+        if let Some(texels) = found {
+            best = Some(TableKind {
+                axis,
+                depth,
+                texels,
+            });
         }
     }
-    best.ok_or_else(|| Error::Budget {
-        budget,
-        best: least,
-        tried: tried(axes, depths),
+    best.ok_or_else(|| {
+        let axes: Vec<&str> = axes.iter().map(|axis| axis.name()).collect();
+        let depths: Vec<&str> = depths.iter().map(|depth| depth.name()).collect();
+        Error::Budget {
+            budget,
+            best: least,
+            tried: format!("{} in {}", axes.join(", "), depths.join(", ")),
+        }
     })
-}
-
-fn tried(axes: &[TableAxis], depths: &[Depth]) -> String {
-    let axes: Vec<&str> = axes.iter().map(|axis| axis.name()).collect();
-    let depths: Vec<&str> = depths.iter().map(|depth| depth.name()).collect();
-    format!("{} in {}", axes.join(", "), depths.join(", "))
 }
 
 /// Tables that differ only in size.
@@ -81,59 +89,54 @@ struct TableFamily<'a> {
     truths: &'a [&'a ReferenceCurve],
     axis: TableAxis,
     depth: Depth,
+    /// The largest error allowed.
+    budget: f64,
+    /// The least error that was found.
+    least: f64,
 }
 
 impl TableFamily<'_> {
-    fn of(&self, texels: usize) -> TableKind {
-        TableKind {
-            axis: self.axis,
-            depth: self.depth,
-            texels,
-        }
-    }
-
     /// The fewest texels within the budget: doubled until they are, then bisected.
-    fn first(&self, budget: f64, least: &mut f64) -> Option<usize> {
+    fn first(&mut self) -> Option<usize> {
         let (mut short, mut enough) = (LEAST_TEXELS - 1, LEAST_TEXELS);
-        while !self.meets(enough, budget, least) {
+        while !self.meets(enough) {
             if enough == MOST_TEXELS {
                 return None;
             }
             short = enough;
             enough = (2 * enough).min(MOST_TEXELS);
         }
-        Some(self.between(short, enough, budget, least))
+        Some(self.between(short, enough))
     }
 
     /// The fewest texels within the budget, up to `most`; none if `most` are too few.
-    fn below(&self, budget: f64, most: usize, least: &mut f64) -> Option<usize> {
-        let possible = most >= LEAST_TEXELS && self.meets(most, budget, least);
-        possible.then(|| self.between(LEAST_TEXELS - 1, most, budget, least))
+    fn below(&mut self, most: usize) -> Option<usize> {
+        let possible = most >= LEAST_TEXELS && self.meets(most);
+        possible.then(|| self.between(LEAST_TEXELS - 1, most))
     }
 
     /// The fewest texels within the budget, between a number that is too small and one that is enough.
-    fn between(&self, mut short: usize, mut enough: usize, budget: f64, least: &mut f64) -> usize {
+    fn between(&mut self, mut short: usize, mut enough: usize) -> usize {
         while enough - short > 1 {
             let middle = short.midpoint(enough);
-            if self.meets(middle, budget, least) {
+            if self.meets(middle) {
                 enough = middle;
             } else {
                 short = middle;
             }
         }
         let mut lower = enough.saturating_sub(BELOW).max(LEAST_TEXELS)..enough;
-        let found = lower.find(|texels| self.meets(*texels, budget, least));
-        found.unwrap_or(enough)
+        lower.find(|texels| self.meets(*texels)).unwrap_or(enough)
     }
 
-    fn meets(&self, texels: usize, budget: f64, least: &mut f64) -> bool {
-        let error = self.error(texels, budget);
-        *least = least.min(error);
-        error <= budget
+    fn meets(&mut self, texels: usize) -> bool {
+        let error = self.error(texels);
+        self.least = self.least.min(error);
+        error <= self.budget
     }
 
     /// The largest error over all references, which share a scale. It stops at the first error above the budget.
-    fn error(&self, texels: usize, budget: f64) -> f64 {
+    fn error(&self, texels: usize) -> f64 {
         let made = |reference: &&ReferenceCurve| Table::new("", reference, self.axis, texels).ok();
         let Some(tables) = self.truths.iter().map(made).collect::<Option<Vec<Table>>>() else {
             return f64::INFINITY;
@@ -145,7 +148,7 @@ impl TableFamily<'_> {
             let between = BetweenTexels::new(reference, self.axis, texels);
             let error = table_error(&stored, Weights::Steps256, reference, &between);
             worst = worst.max(error.max_abs);
-            if worst > budget {
+            if worst > self.budget {
                 break;
             }
         }
@@ -218,18 +221,11 @@ impl ThesisMeasure {
     }
 
     /// The law at a range of these angles.
-    fn part(
-        reference: &ReferenceCurve,
-        some: std::ops::Range<usize>,
-        angles: usize,
-    ) -> ThesisMeasure {
+    fn part(reference: &ReferenceCurve, some: Range<usize>, angles: usize) -> ThesisMeasure {
         let at = |i: usize| {
             let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
             let cos_theta = libm::cos(theta);
-            (
-                cos_theta,
-                reference_reflectance(&reference.surface, reference.light, cos_theta),
-            )
+            (cos_theta, reference.at(cos_theta))
         };
         ThesisMeasure(some.map(at).collect())
     }

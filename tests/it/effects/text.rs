@@ -30,8 +30,9 @@ fn every_effect_is_written_in_every_language_by_every_method() {
                 let file = emit::effect_file(target, &request, &functions, &naming, "fresnel-gen")
                     .unwrap_or_else(|fault| panic!("{} {}: {fault}", effect.name, target.name));
                 let suffix = request.unusual_method().map(|method| format!("_{method}"));
-                let stem = format!("effects/{}{}", effect.name, suffix.unwrap_or_default());
-                assert!(file.name.starts_with(&stem), "{}", file.name);
+                let suffix = suffix.unwrap_or_default();
+                let stem = format!("{}/effects/{}{suffix}", target.name, effect.name);
+                assert!(file.path.starts_with(&stem), "{}", file.path);
                 let text = String::from_utf8_lossy(&file.bytes);
                 for emitted in functions.iter().filter(|_| target.name != "spirv") {
                     assert!(text.contains(&format!("{}(", emitted.name)), "{text}");

@@ -10,11 +10,11 @@
 use serde::Serialize;
 
 use super::row::{CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
+use crate::generator::emit::artifact::Artifact;
 use crate::generator::emit::comment;
 use crate::generator::emit::detail::{CatalogueDetail, Detail};
 use crate::generator::emit::error::Error;
 use crate::generator::emit::figures::at_most;
-use crate::generator::emit::file::File;
 use crate::generator::emit::function::Naming;
 use crate::generator::emit::header::{OUTPUT_LICENCE, formula, licence_line, source, start};
 use crate::generator::emit::page::{comments, guard, render_template};
@@ -68,25 +68,24 @@ pub fn catalogue_array(
     naming: &Naming,
     seen: &str,
     command: &str,
-) -> Result<Option<File>, Error> {
+) -> Result<Option<Artifact>, Error> {
     let Some(template) = target.catalogue.filter(|_| !rows.is_empty()) else {
         return Ok(None);
     };
     let view = view(target, rows, naming, seen, command);
     check_names(&view)?;
     let name = format!("{CATALOGUE}.{}", target.extension);
-    Ok(Some(File {
-        bytes: render_template(template, &view, target.finish, &name)?,
-        name,
-        detail: Detail::Catalogue(CatalogueDetail {
-            command: command.to_owned(),
-            array: Some(view.name),
-            materials: rows.len(),
-            rows: Some(view.size),
-            seen: seen.to_owned(),
-            licence: OUTPUT_LICENCE,
-        }),
-    }))
+    let bytes = render_template(template, &view, target.finish, &name)?;
+    let detail = Detail::Catalogue(CatalogueDetail {
+        command: command.to_owned(),
+        array: Some(view.name),
+        materials: rows.len(),
+        rows: Some(view.size),
+        seen: seen.to_owned(),
+        licence: OUTPUT_LICENCE,
+    });
+    let path = format!("{}/{name}", target.name);
+    Ok(Some(Artifact::new(target.name, path, bytes, detail)))
 }
 
 fn view(
@@ -126,44 +125,32 @@ fn material(
     row: &CatalogueRow,
     is_last: bool,
 ) -> MaterialView {
-    let coefficient = |(i, values): (usize, &[f64; 3])| RowView {
-        colour: colour(target, *values),
-        remark: if i == 0 {
-            row.name.clone()
-        } else {
-            String::new()
-        },
-        is_last: is_last && i + 1 == COEFFICIENTS,
-    };
+    let mut rows = Vec::new();
+    for (i, values) in row.coefficients.iter().enumerate() {
+        rows.push(RowView {
+            colour: colour(target, *values),
+            remark: if i == 0 { &row.name } else { "" }.to_owned(),
+            is_last: is_last && i + 1 == COEFFICIENTS,
+        });
+    }
     MaterialView {
         constant: constant(naming, &row.name),
         row: COEFFICIENTS * place,
         remark: remark(row),
-        rows: row
-            .coefficients
-            .iter()
-            .enumerate()
-            .map(coefficient)
-            .collect(),
+        rows,
     }
 }
 
 fn remark(row: &CatalogueRow) -> String {
-    let held = row
-        .held
-        .iter()
-        .map(|held| format!("; extrapolated: {held}"));
-    let held: String = held.collect();
-    let better = row.better.iter().map(|better| {
-        let most = rounded_up(better.max_abs);
-        format!("; {} at most {most}", better.method.name)
-    });
-    let better: String = better.collect();
-    format!(
-        "{}, {}{better}{held}",
-        row.class.name(),
-        at_most(&row.error)
-    )
+    let mut remark = format!("{}, {}", row.class.name(), at_most(&row.error));
+    if let Some(better) = &row.better {
+        let (name, most) = (better.method.name, rounded_up(better.max_abs));
+        remark += &format!("; {name} at most {most}");
+    }
+    if let Some(held) = &row.held {
+        remark += &format!("; extrapolated: {held}");
+    }
+    remark
 }
 
 /// A colour in the shortest digits that give the same f32.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::array;
-use super::row::{COEFFICIENTS, CatalogueRow, CloserFit, methods_of};
+use super::row::{COEFFICIENTS, CatalogueRow, methods_of};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -59,10 +59,8 @@ struct CloserFitDetail {
 impl CatalogueMaterial<'_> {
     /// The materials of these rows.
     pub fn all(rows: &[CatalogueRow]) -> Vec<CatalogueMaterial<'_>> {
-        let places = rows.iter().enumerate();
-        places
-            .map(|(place, row)| CatalogueMaterial::new(place, row))
-            .collect()
+        let material = |(place, row)| CatalogueMaterial::new(place, row);
+        rows.iter().enumerate().map(material).collect()
     }
 
     fn new(place: usize, row: &CatalogueRow) -> CatalogueMaterial<'_> {
@@ -73,24 +71,17 @@ impl CatalogueMaterial<'_> {
             class: row.class.name(),
             method: row.method.name,
             coefficients: in_order(&row.coefficients),
-            better: row.better.as_ref().map(CloserFitDetail::new),
+            better: row.better.as_ref().map(|closer| CloserFitDetail {
+                method: closer.method.name,
+                max_abs: closer.max_abs,
+                coefficients: Some(in_order(&closer.coefficients)).filter(|all| !all.is_empty()),
+            }),
             max_abs: row.error.max_abs,
             worst_cos: row.error.worst_cos,
             mean_rel: row.error.mean_rel,
             average: row.average.given,
             average_unlimited: row.average.unlimited,
             extrapolated: row.held.as_deref(),
-        }
-    }
-}
-
-impl CloserFitDetail {
-    fn new(closer: &CloserFit) -> CloserFitDetail {
-        let coefficients = &closer.coefficients;
-        CloserFitDetail {
-            method: closer.method.name,
-            max_abs: closer.max_abs,
-            coefficients: (!coefficients.is_empty()).then(|| in_order(coefficients)),
         }
     }
 }
