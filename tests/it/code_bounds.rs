@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use crate::code_error::{code_error, digits_lost};
 use fresnel_gen::generator::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{DEFAULT_MATERIALS, Materials, Request};
-use fresnel_gen::lab::verify::{code_error, digits_lost};
 use fresnel_gen::language::ir::Checked;
 use fresnel_gen::language::methods::{self, Contract, Method};
 

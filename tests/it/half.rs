@@ -5,12 +5,13 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use crate::code_error::library_half_error;
 use fresnel_gen::generator::emit::{Bounds, EmittedFunction, Naming, specialised_function};
 use fresnel_gen::generator::error::{Error, RequestFault};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
-use fresnel_gen::lab::verify::{HalfTrial, halves, library_half_error};
+use fresnel_gen::lab::verify::{HalfTrial, halves};
 use fresnel_gen::language::ir::Value;
 use fresnel_gen::language::methods::{self, Contract, HALF_AIM, InHalf, Method};
 use fresnel_gen::language::targets::Target;
@@ -50,7 +51,7 @@ fn in_half(methods: Methods, force: bool) -> Request {
 fn library_functions_keep_what_they_promise() {
     let check = |method: &&'static Method| {
         let claim = method.half.claim()?;
-        let error = library_half_error(method, MEDIA);
+        let error = library_half_error(method, MEDIA)?;
         let (promised, measured) = (claim.max_abs, error.max_abs);
         let what = format!(
             "{}: measured {measured:.6} at cos {}, promised {promised}",

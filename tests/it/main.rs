@@ -11,6 +11,7 @@ mod chart_page;
 mod claims;
 mod cli;
 mod code_bounds;
+mod code_error;
 mod compensation;
 mod compilers;
 mod costs;

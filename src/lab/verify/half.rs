@@ -2,14 +2,9 @@
 //! inputs, at every f16 from 0 to 1. Most desktop graphics stacks compute in f32 whatever the text says, so this emulation is the
 //! judge.
 
-use super::code_error::random_medium;
-use super::points::Random;
-use crate::generator::fit::values;
-use crate::generator::reference::Derivation;
-use crate::language::ir::{Checked, Param, Texels, Ty, Value, evaluate};
-use crate::language::methods::Method;
-use crate::physics::materials::Channels;
-use crate::physics::num::{Half, Num, Precision};
+use super::trial::arguments;
+use crate::language::ir::{Checked, Texels, Value, evaluate};
+use crate::physics::num::{Half, Num};
 
 /// The error of half precision against what is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +17,6 @@ pub struct HalfError {
 
 /// The bits of 1 in f16.
 const ONE: u16 = 0x3c00;
-/// The seed of the random media.
-const SEED: u64 = 1;
 
 impl HalfError {
     /// No difference.
@@ -42,15 +35,6 @@ impl HalfError {
         };
         if difference > self.max_abs {
             (self.max_abs, self.worst_cos) = (difference, f64::from(cos_theta));
-        }
-    }
-
-    /// The larger of two.
-    pub fn worst(self, other: HalfError) -> HalfError {
-        if other.max_abs > self.max_abs {
-            other
-        } else {
-            self
         }
     }
 }
@@ -92,16 +76,7 @@ pub struct HalfTrial<'a> {
 
 impl HalfTrial<'_> {
     fn run<N: Num>(&self, function: &Checked, cosines: &[f32]) -> Value<N> {
-        let number = |c: &f32| N::from_f64(f64::from(*c));
-        let mut values = self.values.iter().copied();
-        let mut value = |param: &Param| match param.ty {
-            Ty::Texture => Value::Texture(self.table.cloned()),
-            Ty::Rgb => Value::rgb(values.next().unwrap_or_default().map(f64::from)),
-            _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
-            _ => Value::scalar(f64::from(values.next().unwrap_or_default()[0])),
-        };
-        let params = function.params.iter();
-        let arguments: Vec<Value<N>> = params.map(&mut value).collect();
+        let arguments = arguments(function, self.values, self.table, cosines);
         evaluate(function, &arguments)
     }
 
@@ -128,50 +103,9 @@ impl HalfTrial<'_> {
     }
 }
 
-/// The error of a method's library function over so many random media of its claim, at every f16 from 0 to 1. Infinite for a
-/// method that promises nothing.
-pub fn library_half_error(method: &Method, media: usize) -> HalfError {
-    let Some(claim) = method.half.claim() else {
-        return HalfError {
-            max_abs: f64::INFINITY,
-            worst_cos: 0.0,
-        };
-    };
-    let (cosines, mut random) = (halves(), Random(SEED));
-    (0..media / 3).fold(HalfError::NONE, |worst, _| {
-        let [a, b, c] = [0; 3].map(|_| random_medium(method, claim.over, &mut random));
-        let channels = Channels {
-            n: [a.0, b.0, c.0],
-            k: [a.1, b.1, c.1],
-        };
-        worst.worst(library_half_error_at(method, &channels, &cosines))
-    })
-}
-
-/// As [`library_half_error`] for one triple of media, at these cosines. The method's inputs are derived and rounded to f16.
-pub fn library_half_error_at(method: &Method, channels: &Channels, cosines: &[f32]) -> HalfError {
-    let well_formed = "every method's function is well formed; a test builds all";
-    let function = method.function_in(Precision::F16, false);
-    let (function, meaning) = (
-        function.expect(well_formed),
-        method.function(false).expect(well_formed),
-    );
-    let derived = values(method, channels, &Derivation::default());
-    let numbers = method.inputs.iter().filter(|input| input.ty != Ty::Texture);
-    let single = numbers.map(|input| derived[input.name].map(|value| nearest_half(value as f32)));
-    let trial = HalfTrial {
-        function: &function,
-        meaning: &meaning,
-        values: &single.collect::<Vec<_>>(),
-        table: None,
-    };
-    trial.error(cosines)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::methods;
 
     #[test]
     fn all_halves_are_there() {
@@ -186,16 +120,5 @@ mod tests {
         let mut error = HalfError::NONE;
         error.include(f64::NAN, 1.0, 0.25);
         assert_eq!((error.max_abs, error.worst_cos), (f64::INFINITY, 0.25));
-    }
-
-    #[test]
-    fn a_forced_textbook_form_has_no_number_at_grazing() {
-        let method = methods::find("conductor_textbook").unwrap();
-        let channels = Channels {
-            n: [1.5; 3],
-            k: [2.0; 3],
-        };
-        let error = library_half_error_at(method, &channels, &[0.0]);
-        assert_eq!(error.max_abs, f64::INFINITY);
     }
 }

@@ -83,25 +83,14 @@ const WEIGHTS: f64 = 256.0;
 pub(super) const TEXTBOOK_FROM: f32 = 1e-6;
 
 impl Trial {
-    /// The arguments in any kind of number.
-    fn arguments<N: Num>(&self, cosines: &[f32], table: Option<&Texels>) -> Vec<Value<N>> {
-        let number = |c: &f32| N::from_f64(f64::from(*c));
-        let mut values = self.values.iter();
-        let mut value = |param: &Param| match param.ty {
-            Ty::Texture => Value::Texture(table.cloned()),
-            Ty::Rgb => Value::rgb(values.next().copied().unwrap_or_default().map(f64::from)),
-            _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
-            _ => Value::scalar(f64::from(values.next().map_or(0.0, |value| value[0]))),
-        };
-        self.function.params.iter().map(&mut value).collect()
-    }
-
     /// What the function means at these cosines, in any kind of number.
     pub fn run<N: Num>(&self, cosines: &[f32]) -> Value<N> {
-        evaluate(
-            &self.function,
-            &self.arguments(cosines, self.table.as_ref()),
-        )
+        self.run_with(self.table.as_ref(), cosines)
+    }
+
+    fn run_with<N: Num>(&self, table: Option<&Texels>, cosines: &[f32]) -> Value<N> {
+        let arguments = arguments(&self.function, &self.values, table, cosines);
+        evaluate(&self.function, &arguments)
     }
 
     /// What is expected at these cosines. Those at which nothing is promised are left out.
@@ -148,10 +137,7 @@ impl Trial {
 
     fn slack(&self, cosines: &[f32], want: &Value<f64>) -> Option<Value<f64>> {
         if let Some(table) = &self.table {
-            let steps = evaluate(
-                &self.function,
-                &self.arguments(cosines, Some(&steps(table))),
-            );
+            let steps = self.run_with(Some(&steps(table)), cosines);
             return Some(each(cosines.len(), |i| {
                 steps.at(i).map(|step: f64| step / WEIGHTS)
             }));
@@ -183,6 +169,24 @@ impl Trial {
         };
         (0..cosines.len()).map(off).collect()
     }
+}
+
+/// The arguments of a function at these cosines, in any kind of number. `values` are those after the cosine, without textures.
+pub(super) fn arguments<N: Num>(
+    function: &Checked,
+    values: &[[f32; 3]],
+    table: Option<&Texels>,
+    cosines: &[f32],
+) -> Vec<Value<N>> {
+    let number = |c: &f32| N::from_f64(f64::from(*c));
+    let mut values = values.iter().map(|value| value.map(f64::from));
+    let mut value = |param: &Param| match param.ty {
+        Ty::Texture => Value::Texture(table.cloned()),
+        Ty::Rgb => Value::rgb(values.next().unwrap_or_default()),
+        _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
+        _ => Value::scalar(values.next().unwrap_or_default()[0]),
+    };
+    function.params.iter().map(&mut value).collect()
 }
 
 /// The largest difference of each texel to a neighbour. The error of a sampler's weights is a share of it.

@@ -4,10 +4,9 @@
 mod over;
 mod search;
 
+use crate::code_error::{coefficient_code_error, library_code_error, library_code_error_at};
 use fresnel_gen::generator::request::{Materials, Request};
-use fresnel_gen::lab::verify::{
-    coefficient_code_error, cosines, library_code_error, library_code_error_at, worst_media,
-};
+use fresnel_gen::lab::verify::{cosines, worst_media};
 use fresnel_gen::language::methods::{self, Contract, Method};
 
 /// Random media over which a library function's code error is taken, and cosines for each.

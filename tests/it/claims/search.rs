@@ -5,8 +5,9 @@
 //!
 //! In place of `all` stand names of methods, with commas between them. It takes a quarter of an hour for all.
 
+use crate::code_error::{library_code_error_at, random_medium};
 use fresnel_gen::generator::request::{Materials, Request};
-use fresnel_gen::lab::verify::{Random, library_code_error_at, random_medium};
+use fresnel_gen::lab::verify::Random;
 use fresnel_gen::language::methods::{self, Class, Contract, Method};
 use fresnel_gen::physics::materials::Channels;
 
