@@ -441,17 +441,20 @@ fn code_error(row: &VerifyRow) -> Option<String> {
 }
 
 fn allowed(row: &VerifyRow) -> Option<String> {
-    match row.bound.as_ref()? {
-        AllowedError::Ulp(allowed) if allowed.ulp == Some(0.0) => Some("2^-22".to_owned()),
-        AllowedError::Ulp(allowed) => allowed.ulp.map(|ulp| format!("{ulp:.1}")),
-        AllowedError::Absolute(allowed) if row.effect.is_some() => {
-            allowed.max_abs.map(|most| format!("{most:.0e} abs"))
+    Some(match row.bound.as_ref()? {
+        AllowedError::Ulp { ulp: Some(0.0), .. } => "2^-22".to_owned(),
+        AllowedError::Ulp { ulp, .. } => format!("{:.1}", (*ulp)?),
+        AllowedError::Absolute { max_abs, .. } => {
+            let max_abs = (*max_abs)?;
+            if row.effect.is_some() {
+                format!("{max_abs:.0e} abs")
+            } else if row.precision.is_half() {
+                format!("{max_abs:.5} abs")
+            } else {
+                format!("{max_abs:.1e} abs")
+            }
         }
-        AllowedError::Absolute(allowed) if row.precision.is_half() => {
-            allowed.max_abs.map(|most| format!("{most:.5} abs"))
-        }
-        AllowedError::Absolute(allowed) => allowed.max_abs.map(|most| format!("{most:.1e} abs")),
-    }
+    })
 }
 
 /// The share of all numbers that was tried. A sample finds a result that is wrong at a single number only by luck.

@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use super::judge::{PathRun, RanFunction};
+use super::judge::{PathRun, RanFunction, RunResult};
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 use super::run;
@@ -13,7 +13,7 @@ use crate::generator::reference::ReferenceCurve;
 use crate::lab::fault::Fault;
 use crate::lab::verify::compilers::{self, Verdict};
 use crate::lab::verify::run::{Devices, ExecutionPath, Runnable, ShippedFunction};
-use crate::lab::verify::{Outcome, beyond, cosines_around, share};
+use crate::lab::verify::{beyond, cosines_around, share};
 use crate::language::ir::Column;
 use crate::language::targets::Stack;
 use crate::physics::num::each_channel;
@@ -166,19 +166,12 @@ impl<'a> FileTrial<'a> {
             &other
         };
         if self.emitted.precision.is_half() {
-            let ran = run::run_in_half(runnable, &shown, &case.trial)?;
-            let device = self
-                .devices
-                .device_for(shown.target, path)?
-                .adapter
-                .to_string();
-            return Ok(PathRun { device, ..ran });
+            return run::run_in_half(runnable, &shown, &case.trial);
         }
         let mut points = cosines_around(self.effort.points, &case.limits);
         points.extend(beyond());
         let expected = case.trial.expected(&points);
         let got = runnable.run(&case.trial, &expected.cosines)?;
-        let outcome: Outcome = expected.judge(&got);
         let model_error = match (&case.reference, path) {
             (Some(reference), ExecutionPath::Own) => {
                 Some(self.model_error(runnable, case, reference)?)
@@ -188,16 +181,12 @@ impl<'a> FileTrial<'a> {
         Ok(PathRun {
             points: expected.cosines.len(),
             share: share(&expected.cosines),
-            bound: Some(expected.bound),
-            outcome,
-            half: None,
-            effect: None,
+            result: RunResult::Single {
+                outcome: expected.judge(&got),
+                bound: Some(expected.bound),
+            },
             model_error,
-            device: self
-                .devices
-                .device_for(shown.target, path)?
-                .adapter
-                .to_string(),
+            device: runnable.device.clone(),
         })
     }
 

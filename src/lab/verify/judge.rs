@@ -4,8 +4,8 @@ use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
 use super::requested::{PlannedFile, ShippedPage};
 use super::row::{
-    AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
-    ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
+    AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, Status,
+    VerifyRow, finite,
 };
 use super::run::ExecutionPath;
 use super::{HalfError, Miss, Outcome};
@@ -21,18 +21,28 @@ pub struct PathRun {
     pub points: usize,
     /// Their share of all numbers from 0 to 1.
     pub share: f64,
-    /// The allowed difference, in ulp. None where nothing is promised.
-    pub bound: Option<f64>,
-    /// The result in f32.
-    pub outcome: Outcome,
-    /// The result in half precision.
-    pub half: Option<HalfRun>,
-    /// The result for an effect's function.
-    pub effect: Option<EffectRun>,
+    /// The result.
+    pub result: RunResult,
     /// The error against the reference, where there is one.
     pub model_error: Option<ModelError>,
     /// The device that it ran on.
     pub device: String,
+}
+
+/// The result of running a function, by what it is judged by.
+#[derive(Clone, Debug)]
+pub enum RunResult {
+    /// In f32.
+    Single {
+        /// The device against f64.
+        outcome: Outcome,
+        /// The allowed difference, in ulp. None where nothing is promised.
+        bound: Option<f64>,
+    },
+    /// In half precision.
+    Half(HalfRun),
+    /// Of an effect's function.
+    Effect(EffectRun),
 }
 
 /// The result of running an effect's function.
@@ -93,47 +103,26 @@ pub struct RanFunction<'a> {
     pub runs: &'a [(ExecutionPath, Result<PathRun, Fault>)],
 }
 
-/// The verdict on a run.
-struct Judged {
-    status: Status,
-    reasons: Vec<String>,
-    figures: Option<RunFigures>,
-}
-
-/// What was measured in a run.
-struct RunFigures {
-    device: String,
-    points: usize,
-    share: f64,
-    bound: AllowedError,
-    code_error: CodeErrorFigures,
-    model_error: Option<ModelErrorFigures>,
-    emulation: Option<Emulation>,
-}
-
 impl RanFunction<'_> {
     /// The row.
     pub fn verify_row(&self) -> VerifyRow {
-        let (path, own) = &self.runs[0];
-        let own = self.judged(*path, own);
-        let (mut status, mut reasons) = (own.status, own.reasons);
+        let mut opinions = self.runs.iter().map(|(path, run)| self.judged(*path, run));
         let mut row = row_without_run(self.file, self.emitted);
         row.material = Some(self.material.to_owned()).filter(|name| !name.is_empty());
-        if let Some(figures) = own.figures {
-            row.device = Some(figures.device);
-            row.points = Some(figures.points);
-            row.share = finite(figures.share);
-            row.bound = Some(figures.bound);
-            row.code_error = Some(figures.code_error);
-            row.model_error = figures.model_error;
-            row.emulation = figures.emulation;
-        }
-        for (path, run) in &self.runs[1..] {
-            let judged = self.judged(*path, run);
-            row.second_opinions.push(second_opinion(*path, &judged));
-            if judged.status == Status::Fail {
+        let own = opinions.next().expect("a function is run by its own path");
+        row.device = own.device;
+        row.points = own.points;
+        row.share = own.share;
+        row.bound = own.bound;
+        row.code_error = own.code_error;
+        row.model_error = own.model_error;
+        row.emulation = own.emulation;
+        row.second_opinions = opinions.collect();
+        let (mut status, mut reasons) = (own.status, Vec::from_iter(own.reason));
+        for opinion in &row.second_opinions {
+            if opinion.status == Status::Fail {
                 status = Status::Fail;
-                reasons.extend(judged.reasons);
+                reasons.extend(opinion.reason.clone());
             }
         }
         let refusals = self
@@ -156,72 +145,74 @@ impl RanFunction<'_> {
         row
     }
 
-    /// The verdict on a run.
-    fn judged(&self, path: ExecutionPath, run: &Result<PathRun, Fault>) -> Judged {
+    /// The verdict on a run by an execution path.
+    fn judged(&self, path: ExecutionPath, run: &Result<PathRun, Fault>) -> SecondOpinion {
+        let without_figures = |status, reason| SecondOpinion {
+            execution_path: path.name().to_owned(),
+            device: None,
+            points: None,
+            share: None,
+            bound: None,
+            code_error: None,
+            emulation: None,
+            model_error: None,
+            status,
+            reason,
+        };
         let run = match run {
             Err(Fault::Absent(why)) => {
-                return Judged::without_figures(Status::NotChecked, why.clone());
+                return without_figures(Status::NotChecked, Some(why.clone()));
             }
             Err(Fault::Failed(why)) => {
                 let why = format!("{}: {}: {why}", self.page().path, self.emitted.name);
-                return Judged::without_figures(Status::Fail, why);
+                return without_figures(Status::Fail, Some(why));
             }
             Ok(run) => run,
         };
-        let fault = match (&run.half, &run.effect) {
-            (_, Some(effect)) => self.fault_of_effect(path, effect),
-            (Some(half), _) => self.fault_in_half(half),
-            (None, None) => run
-                .outcome
-                .miss
-                .as_ref()
-                .map(|miss| self.missed(path, miss)),
+        let (fault, emulation) = match &run.result {
+            RunResult::Single { outcome, .. } => {
+                (outcome.miss.map(|miss| self.missed(path, &miss)), None)
+            }
+            RunResult::Half(half) => (self.fault_in_half(half), Some(half.emulation())),
+            RunResult::Effect(effect) => (self.fault_of_effect(path, effect), None),
         };
-        Judged {
-            status: match fault {
-                None => Status::Pass,
-                Some(_) => Status::Fail,
-            },
-            reasons: fault.into_iter().collect(),
-            figures: Some(self.figures(run)),
+        let status = match fault {
+            None => Status::Pass,
+            Some(_) => Status::Fail,
+        };
+        let (bound, code_error) = self.errors(&run.result);
+        SecondOpinion {
+            device: Some(run.device.clone()),
+            points: Some(run.points),
+            share: finite(run.share),
+            bound: Some(bound),
+            code_error: Some(code_error),
+            emulation,
+            model_error: run.model_error.as_ref().map(ModelErrorFigures::from),
+            ..without_figures(status, fault)
         }
     }
 
-    fn figures(&self, run: &PathRun) -> RunFigures {
+    /// The allowed and the measured difference.
+    fn errors(&self, result: &RunResult) -> (AllowedError, CodeErrorFigures) {
         let text = bound_text(self.emitted);
-        let (bound, code_error) = match (&run.half, &run.effect) {
-            (_, Some(effect)) => {
-                let max_abs = finite(effect.allowed);
-                let bound = AllowedError::Absolute(AllowedAbsolute { max_abs, text });
-                (bound, CodeErrorFigures::from(&effect.outcome))
-            }
-            (Some(half), _) => {
-                let max_abs = finite(half.allowed);
-                let bound = AllowedError::Absolute(AllowedAbsolute { max_abs, text });
-                (bound, CodeErrorFigures::from(&half.error))
-            }
-            (None, None) => {
-                let bound = match (run.bound, &self.emitted.code) {
-                    (Some(_), Measured::Yes(CodeBound::Absolute(most))) => {
-                        let max_abs = finite(*most);
-                        AllowedError::Absolute(AllowedAbsolute { max_abs, text })
-                    }
-                    _ => {
-                        let ulp = run.bound.and_then(finite);
-                        AllowedError::Ulp(AllowedUlp { ulp, text })
-                    }
-                };
-                (bound, CodeErrorFigures::from(&run.outcome.error))
-            }
+        let absolute = |max_abs: f64, text| AllowedError::Absolute {
+            max_abs: finite(max_abs),
+            text,
         };
-        RunFigures {
-            device: run.device.clone(),
-            points: run.points,
-            share: run.share,
-            bound,
-            code_error,
-            model_error: run.model_error.as_ref().map(ModelErrorFigures::from),
-            emulation: run.half.as_ref().map(HalfRun::emulation),
+        match result {
+            RunResult::Effect(effect) => (absolute(effect.allowed, text), (&effect.outcome).into()),
+            RunResult::Half(half) => (absolute(half.allowed, text), (&half.error).into()),
+            RunResult::Single { outcome, bound } => {
+                let allowed = match (bound, &self.emitted.code) {
+                    (Some(_), Measured::Yes(CodeBound::Absolute(most))) => absolute(*most, text),
+                    _ => AllowedError::Ulp {
+                        ulp: bound.and_then(finite),
+                        text,
+                    },
+                };
+                (allowed, (&outcome.error).into())
+            }
         }
     }
 
@@ -250,10 +241,7 @@ impl RanFunction<'_> {
     fn fault_of_effect(&self, path: ExecutionPath, effect: &EffectRun) -> Option<String> {
         let EffectRun { outcome, allowed } = effect;
         let is_right = outcome.max_abs <= *allowed;
-        let path = match path {
-            ExecutionPath::Own => String::new(),
-            path => format!(", by {}", path.name()),
-        };
+        let path = by_path(path);
         (!is_right).then(|| {
             format!(
                 "{}: {}{path}: {}: {:e} off, and {allowed:e} is allowed",
@@ -268,11 +256,7 @@ impl RanFunction<'_> {
     /// A miss in a form that people and editors read.
     fn missed(&self, path: ExecutionPath, miss: &Miss) -> String {
         let channel = ["red", "green", "blue"][miss.channel];
-        let path = if path == ExecutionPath::Own {
-            String::new()
-        } else {
-            format!(", by {}", path.name())
-        };
+        let path = by_path(path);
         let edited = if self.page().is_current {
             ""
         } else {
@@ -296,29 +280,10 @@ impl RanFunction<'_> {
     }
 }
 
-impl Judged {
-    fn without_figures(status: Status, reason: String) -> Judged {
-        Judged {
-            status,
-            reasons: vec![reason],
-            figures: None,
-        }
-    }
-}
-
-fn second_opinion(path: ExecutionPath, judged: &Judged) -> SecondOpinion {
-    let figures = judged.figures.as_ref();
-    SecondOpinion {
-        execution_path: path.name().to_owned(),
-        device: figures.map(|one| one.device.clone()),
-        points: figures.map(|one| one.points),
-        share: figures.and_then(|one| finite(one.share)),
-        bound: figures.map(|one| one.bound.clone()),
-        code_error: figures.map(|one| one.code_error.clone()),
-        emulation: figures.and_then(|one| one.emulation.clone()),
-        model_error: figures.and_then(|one| one.model_error.clone()),
-        status: judged.status,
-        reason: judged.reasons.first().cloned(),
+fn by_path(path: ExecutionPath) -> String {
+    match path {
+        ExecutionPath::Own => String::new(),
+        path => format!(", by {}", path.name()),
     }
 }
 

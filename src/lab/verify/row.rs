@@ -124,32 +124,22 @@ impl From<&Verdict> for Answer {
 
 /// The difference that a function is allowed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, deny_unknown_fields)]
 pub enum AllowedError {
     /// In units of the last place.
-    Ulp(AllowedUlp),
-    /// As an absolute difference, in half precision.
-    Absolute(AllowedAbsolute),
-}
-
-/// An allowed difference in units of the last place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AllowedUlp {
-    /// How many. None where nothing is promised.
-    pub ulp: Option<f64>,
-    /// What is promised, in words.
-    pub text: String,
-}
-
-/// An allowed absolute difference.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AllowedAbsolute {
-    /// The difference. None where nothing is promised.
-    pub max_abs: Option<f64>,
-    /// What is promised, in words.
-    pub text: String,
+    Ulp {
+        /// How many. None where nothing is promised.
+        ulp: Option<f64>,
+        /// What is promised, in words.
+        text: String,
+    },
+    /// As an absolute difference.
+    Absolute {
+        /// The difference. None where nothing is promised.
+        max_abs: Option<f64>,
+        /// What is promised, in words.
+        text: String,
+    },
 }
 
 /// A code error in a report. Figures that are not finite are none.

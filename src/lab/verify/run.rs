@@ -18,11 +18,11 @@ use super::compilers::{HlslVersion, Verdict, hlsl_to_spirv, hlsl_to_spirv_in};
 use super::effect_trial::{EffectTrial, TEXELS};
 use super::file::FileTrial;
 use super::harness::{self, Call, ENTRY};
-use super::judge::{EffectRun, HalfRun, PathRun, RanFunction};
+use super::judge::{EffectRun, HalfRun, PathRun, RanFunction, RunResult};
+use super::naga_translation;
 use super::requested::VerifyPlan;
 use super::row::VerifyRow;
 use super::trial::Trial;
-use super::{Outcome, naga_translation};
 use crate::generator::emit::{EffectPart, EmittedFunction, batch_entry, batch_program, places};
 use crate::generator::fit::{Measured, values_for_material_in};
 use crate::lab::fault::Fault;
@@ -114,6 +114,8 @@ pub struct ShippedFunction<'a> {
 pub struct Runnable {
     target: &'static Target,
     kernel: Kernel,
+    /// The description of its device.
+    pub device: String,
     params: Vec<Param>,
     /// Whether the values of the arguments stand in the text, as in naga's translations.
     is_bound: bool,
@@ -186,11 +188,11 @@ impl Devices {
                 uniforms: &uniforms,
                 texture: call.is_textured().then_some(TextureShape::Flat),
             };
-            let (kernel, params) = (device.prepare(&program)?, params.clone());
             Ok(Runnable {
                 target: shown.target,
-                kernel,
-                params,
+                kernel: device.prepare(&program)?,
+                device: device.adapter.to_string(),
+                params: params.clone(),
                 is_bound,
             })
         };
@@ -396,10 +398,7 @@ impl FileTrial<'_> {
         Ok(PathRun {
             points: outcome.points,
             share: f64::NAN,
-            bound: None,
-            outcome: Outcome::NONE,
-            half: None,
-            effect: Some(EffectRun { outcome, allowed }),
+            result: RunResult::Effect(EffectRun { outcome, allowed }),
             model_error: None,
             device: device.adapter.to_string(),
         })
@@ -461,12 +460,9 @@ pub(super) fn run_in_half(
     Ok(PathRun {
         points: cosines.len(),
         share: 1.0,
-        bound: None,
-        outcome: Outcome::NONE,
-        effect: None,
-        half: Some(result),
+        result: RunResult::Half(result),
         model_error: emitted.model_error,
-        device: String::new(),
+        device: runnable.device.clone(),
     })
 }
 

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use super::code_error::CodeError;
 use super::harness;
-use super::judge::{PathRun, RanFunction};
+use super::judge::{PathRun, RanFunction, RunResult};
 use super::machine::{self, MachineStatement};
 use super::points::{WITHIN, cosines};
 use super::requested::{PlannedFile, VerifyPlan};
@@ -288,13 +288,13 @@ fn run(
         Ok(PathRun {
             points: all as usize,
             share: (all as f64 / WITHIN as f64).min(1.0),
-            bound: match trial.bound {
-                Measured::Yes(ulp) => Some(ulp),
-                Measured::No(_) => None,
+            result: RunResult::Single {
+                outcome,
+                bound: match trial.bound {
+                    Measured::Yes(ulp) => Some(ulp),
+                    Measured::No(_) => None,
+                },
             },
-            outcome,
-            half: None,
-            effect: None,
             model_error: emitted.model_error,
             device: devices
                 .device_for(file.target, ExecutionPath::Own)?
