@@ -11,7 +11,7 @@
 
 use glam::DVec3;
 
-use super::draw::{Mesh, Vertex};
+use super::mesh::{Mesh, Vertex};
 
 /// The longest side of a body's box, in metres.
 const EXTENT: f64 = 1.0;
@@ -26,27 +26,22 @@ const FREQUENCY: f64 = 7.0;
 pub struct Body {
     /// Its name.
     pub name: &'static str,
-    /// A short description.
-    pub summary: &'static str,
     build: fn() -> Mesh,
 }
 
-/// The cube.
+/// A cube with flat faces and sides of 1 m.
 pub static CUBE: Body = Body {
     name: "cube",
-    summary: "a cube with flat faces and sides of 1 m",
     build: cube,
 };
-/// The relief.
+/// A sphere with bumps along a gyroid, 1 m wide, 196 608 triangles with exact normals.
 pub static RELIEF: Body = Body {
     name: "relief",
-    summary: "a sphere with bumps along a gyroid, 1 m wide, 196 608 triangles with exact normals",
     build: relief,
 };
-/// The sphere.
+/// A sphere, 1 m wide, 196 608 triangles with exact normals.
 pub static SPHERE: Body = Body {
     name: "sphere",
-    summary: "a sphere, 1 m wide, 196 608 triangles with exact normals",
     build: sphere,
 };
 

@@ -3,7 +3,9 @@
 //! A bin holds its weight and the mean of its cosines, so that the mean of a smooth function over it is right to the second order
 //! of the bin's width.
 
-use super::draw::{Camera, Mesh, draw};
+use super::camera::Camera;
+use super::draw::draw;
+use super::mesh::Mesh;
 use crate::physics::num::in_parallel;
 
 /// The number of bins between 0 and 1.

@@ -12,20 +12,21 @@
 //! koeficijenata Frenelove refleksije u programima za senčenje", diploma thesis, University of Belgrade, 2014.
 
 mod body;
+mod camera;
 mod draw;
 mod ears;
 mod histogram;
+mod mesh;
 mod obj;
 mod rendered_error;
 
 pub use body::{Body, CUBE, RELIEF, SPHERE};
-pub use draw::{
-    Camera, Frame, Lens, Mesh, SurfacePoint, Turntable, Vertex, draw, rotated, surface_points,
-    surface_points_of,
-};
+pub use camera::{Camera, Lens, Turntable, rotated};
+pub use draw::{Frame, SurfacePoint, draw, surface_points, surface_points_of};
 pub use histogram::{BINS, CosineHistogram, Shown, shown};
+pub use mesh::{Mesh, Vertex};
 pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
 pub use rendered_error::{
-    ChannelErrors, MAGNIFIED, Painted, RelativeErrors, RenderedError, SceneErrorRow, drawn_errors,
-    mean_relative, rendered_error,
+    ChannelErrors, MAGNIFIED, Painted, RelativeErrors, RenderedError, SceneErrorRow, mean_relative,
+    rendered_error,
 };

@@ -12,8 +12,8 @@ use std::io::{self, BufRead, Read};
 use glam::DVec3;
 use thiserror::Error;
 
-use super::draw::{Mesh, Vertex};
 use super::ears::{MOST_CONCAVE, triangles_of_faces};
+use super::mesh::{Mesh, Vertex};
 
 /// The most triangles of a mesh, and the most corners.
 pub const MOST_TRIANGLES: usize = 4_000_000;

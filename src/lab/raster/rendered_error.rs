@@ -48,32 +48,8 @@ pub fn rendered_error(
     error
 }
 
-/// The errors by direct rendering: reflectances are computed at every pixel of every frame. The mean over pixels, then over frames.
-pub fn drawn_errors(
-    frames: &[Frame],
-    function: &Checked,
-    reference: &ReferenceCurve,
-) -> RelativeErrors {
-    let shown = frames.iter().filter(|frame| !frame.covered.is_empty());
-    let mut sum = [0.0; 3];
-    let mut count = 0.0;
-    for frame in shown {
-        let cosines: Vec<f64> = frame.covered.iter().map(|(_, c)| *c).collect();
-        let got = values(function, reference, &cosines);
-        let want: Vec<[f64; 3]> = cosines.iter().map(|c| reference.at(*c)).collect();
-        let mean = mean_relative(&got, &want, &vec![1.0; cosines.len()])?;
-        sum = each_channel(|i| sum[i] + mean[i]);
-        count += 1.0;
-    }
-    (count > 0.0).then(|| sum.map(|sum| sum / count))
-}
-
 /// The values of a function at these cosines. A table that it reads is made from the reference.
-pub(super) fn values(
-    function: &Checked,
-    reference: &ReferenceCurve,
-    cosines: &[f64],
-) -> Vec<[f64; 3]> {
+fn values(function: &Checked, reference: &ReferenceCurve, cosines: &[f64]) -> Vec<[f64; 3]> {
     let table = table_of(function, |cos_theta| reference.at(cos_theta));
     let got = evaluate(function, &arguments(cosines.to_vec(), table.as_ref()));
     (0..cosines.len()).map(|point| got.at(point)).collect()

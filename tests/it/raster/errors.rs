@@ -7,9 +7,10 @@ use crate::stated::{check_stated, short, stated};
 use fresnel_gen::generator::fit;
 use fresnel_gen::generator::reference::{Derivation, ReferenceCurve};
 use fresnel_gen::lab::raster::{
-    CUBE, CosineHistogram, Frame, Lens, RELIEF, RelativeErrors, Turntable, draw, drawn_errors,
+    CUBE, CosineHistogram, Frame, Lens, RELIEF, RelativeErrors, Turntable, draw, mean_relative,
     rendered_error, shown,
 };
+use fresnel_gen::language::ir::{Checked, evaluate};
 use fresnel_gen::language::methods::{self, Light};
 use fresnel_gen::physics::materials::{self, Channels, Surface, THESIS_NM};
 
@@ -42,6 +43,29 @@ const PAIRS: [(&str, &str); 6] = [
 
 fn mean(errors: RelativeErrors) -> f64 {
     errors.unwrap().iter().sum::<f64>() / 3.0
+}
+
+/// The errors by direct rendering: reflectances are computed at every pixel of every frame. The mean over pixels, then over frames.
+fn drawn_errors(
+    frames: &[Frame],
+    function: &Checked,
+    reference: &ReferenceCurve,
+) -> RelativeErrors {
+    let table = fit::table_of(function, |cos_theta| reference.at(cos_theta));
+    let seen = frames.iter().filter(|frame| !frame.covered.is_empty());
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for frame in seen {
+        let cosines: Vec<f64> = frame.covered.iter().map(|(_, c)| *c).collect();
+        let got = evaluate(function, &fit::arguments(cosines.clone(), table.as_ref()));
+        let got: Vec<[f64; 3]> = (0..cosines.len()).map(|point| got.at(point)).collect();
+        let want: Vec<[f64; 3]> = cosines.iter().map(|c| reference.at(*c)).collect();
+        let mean = mean_relative(&got, &want, &vec![1.0; cosines.len()])?;
+        for (sum, mean) in sum.iter_mut().zip(mean) {
+            *sum += mean;
+        }
+        count += 1.0;
+    }
+    (count > 0.0).then(|| sum.map(|sum| sum / count))
 }
 
 #[test]
