@@ -7,7 +7,7 @@ use glow::{HasContext, PixelUnpackData};
 
 use super::egl::Context;
 use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
-use super::slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+use super::texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 use crate::lab::fault::Fault;
 
 /// The number of cosines in a draw.

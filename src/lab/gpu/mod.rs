@@ -8,7 +8,8 @@
 //! No driver library is linked. A missing one is a [`Fault::Absent`] that says what to install, never a result.
 
 mod adapter;
-mod draw;
+mod canvas;
+mod compute;
 mod egl;
 mod gles;
 mod gles_compiler;
@@ -18,19 +19,22 @@ mod passthrough;
 mod program;
 mod quiet;
 mod slot;
+pub mod spirv;
+mod texture;
 mod vulkan_compiler;
 
 use std::rc::Rc;
 
 use crate::lab::fault::Fault;
+use compute::Compute;
 use program::PointInputs;
 
 pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
-pub use draw::{Canvas, Layer, Shader};
+pub use canvas::{Canvas, Layer, Shader};
 pub use gles_compiler::GlesCompiler;
 pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
 pub use program::{Argument, Program, ShaderCode, Stream, Uniform};
-pub use slot::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
+pub use texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
 /// A device that shaders are run on. It stays on its thread.
@@ -41,7 +45,7 @@ pub struct Device {
 }
 
 enum Stack {
-    Compute(Rc<kernel::Compute>),
+    Compute(Rc<Compute>),
     Gles(Rc<egl::Context>),
 }
 
@@ -69,7 +73,7 @@ impl Device {
             return Device::gles();
         }
         let found = adapter::choose(wanted)?;
-        let compute = kernel::Compute::open(found)?;
+        let compute = Compute::open(found)?;
         Ok(Device {
             adapter: compute.adapter.clone(),
             stack: Stack::Compute(Rc::new(compute)),
@@ -101,10 +105,7 @@ impl Device {
     /// # Errors
     /// It is larger than the device allows, or the device does not draw here: OpenGL ES does not.
     pub fn canvas(&self, pixels: u32) -> Result<Canvas, Fault> {
-        match &self.stack {
-            Stack::Compute(compute) => Canvas::new(compute, pixels),
-            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "drawing in OpenGL ES")),
-        }
+        Canvas::new(self.compute("drawing in OpenGL ES")?, pixels)
     }
 
     /// A device for drawing to textures of floats, which are read back.
@@ -112,9 +113,14 @@ impl Device {
     /// # Errors
     /// The device does not draw here: OpenGL ES does not.
     pub fn offscreen(&self) -> Result<Offscreen, Fault> {
+        Offscreen::new(self.compute("drawing in OpenGL ES")?)
+    }
+
+    /// The device of wgpu. `what` is what OpenGL ES cannot do in its place.
+    fn compute(&self, what: &str) -> Result<&Rc<Compute>, Fault> {
         match &self.stack {
-            Stack::Compute(compute) => Offscreen::new(compute),
-            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "drawing in OpenGL ES")),
+            Stack::Compute(compute) => Ok(compute),
+            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, what)),
         }
     }
 
@@ -123,15 +129,7 @@ impl Device {
     /// # Errors
     /// It does not compile, or not for this device.
     pub fn prepare(&self, program: &Program) -> Result<Kernel, Fault> {
-        let prepared = match &self.stack {
-            Stack::Compute(compute) => {
-                Prepared::Compute(kernel::Kernel::new(compute, program, PointInputs::Cosines)?)
-            }
-            Stack::Gles(context) => {
-                Prepared::Gles(gles::Kernel::new(context, program, PointInputs::Cosines)?)
-            }
-        };
-        Ok(Kernel(prepared))
+        self.prepared(program, PointInputs::Cosines).map(Kernel)
     }
 
     /// Compiles a program of many arguments. Each point has so many groups of four numbers, in binding 1 as
@@ -140,14 +138,17 @@ impl Device {
     /// # Errors
     /// It does not compile, or not for this device.
     pub fn prepare_batch(&self, program: &Program, places: usize) -> Result<Batch, Fault> {
-        let inputs = PointInputs::Places(places);
-        let prepared = match &self.stack {
+        let prepared = self.prepared(program, PointInputs::Places(places))?;
+        Ok(Batch { prepared, places })
+    }
+
+    fn prepared(&self, program: &Program, inputs: PointInputs) -> Result<Prepared, Fault> {
+        Ok(match &self.stack {
             Stack::Compute(compute) => {
                 Prepared::Compute(kernel::Kernel::new(compute, program, inputs)?)
             }
             Stack::Gles(context) => Prepared::Gles(gles::Kernel::new(context, program, inputs)?),
-        };
-        Ok(Batch { prepared, places })
+        })
     }
 
     /// Compiles a program whose binding 1 is `var<uniform> first: u32`, the bits of the block's first number.
@@ -155,13 +156,8 @@ impl Device {
     /// # Errors
     /// It does not compile, or not for this device: OpenGL ES has no streams.
     pub fn prepare_stream(&self, program: &Program) -> Result<Stream, Fault> {
-        match &self.stack {
-            Stack::Compute(compute) => {
-                let kernel = kernel::Kernel::new(compute, program, PointInputs::Bits)?;
-                Ok(Stream(kernel))
-            }
-            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "a stream in OpenGL ES")),
-        }
+        let compute = self.compute("a stream in OpenGL ES")?;
+        kernel::Kernel::new(compute, program, PointInputs::Bits).map(Stream)
     }
 }
 

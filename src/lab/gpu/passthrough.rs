@@ -2,16 +2,9 @@
 #![allow(unsafe_code)]
 
 use super::adapter::Backend;
-use super::kernel::Compute;
+use super::compute::Compute;
+use super::spirv::{HEADER, MAGIC, compute_entries, words};
 use crate::lab::fault::Fault;
-
-/// The first word of every module, the number of words before the first instruction, and what a compute entry point
-/// begins with. Source: Khronos Group, *SPIR-V Specification*, version 1.6, 2021, sections 2.3, 3.3 and 3.42.5,
-/// <https://registry.khronos.org/SPIR-V/specs/unified1/SPIRV.html>.
-const MAGIC: u32 = 0x0723_0203;
-const HEADER: usize = 5;
-const ENTRY_POINT: u32 = 15;
-const GL_COMPUTE: u32 = 5;
 
 /// A shader module of these bytes.
 pub(super) fn module(
@@ -19,14 +12,11 @@ pub(super) fn module(
     bytes: &[u8],
     entry: &str,
 ) -> Result<wgpu::ShaderModule, Fault> {
-    let words: Vec<u32> = bytes
-        .chunks_exact(4)
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect();
+    let words = words(bytes);
     if !bytes.len().is_multiple_of(4) || words.len() < HEADER || words[0] != MAGIC {
         return Err(Fault::refused("this is no SPIR-V module"));
     }
-    let there = entries(&words);
+    let there = compute_entries(&words);
     if !there.iter().any(|name| name == entry) {
         let there = there.join(", ");
         let log = format!("no compute entry point `{entry}`; there is {there}");
@@ -61,20 +51,4 @@ fn pass(compute: &Compute, words: &[u32], entry: &str) -> wgpu::ShaderModule {
     // SAFETY: the driver takes the words unseen. The header is checked above, and so is the entry point; that modules be
     // valid is what `ShaderCode::Spirv` demands of its caller.
     unsafe { compute.device.create_shader_module_passthrough(descriptor) }
-}
-
-/// The names of the compute entry points.
-fn entries(words: &[u32]) -> Vec<String> {
-    let mut names = Vec::new();
-    let mut rest = &words[HEADER..];
-    while let [head, after @ ..] = rest {
-        let operands = (head >> 16).saturating_sub(1) as usize;
-        if let (ENTRY_POINT, [GL_COMPUTE, _, name @ ..]) = (head & 0xFFFF, after) {
-            let bytes = name.iter().flat_map(|word| word.to_le_bytes());
-            let name: Vec<u8> = bytes.take_while(|byte| *byte != 0).collect();
-            names.push(String::from_utf8_lossy(&name).into_owned());
-        }
-        rest = after.get(operands..).unwrap_or(&[]);
-    }
-    names
 }

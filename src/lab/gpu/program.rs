@@ -4,7 +4,8 @@
 //! are in flight: the device computes one while the other is read in mapped memory.
 
 use super::kernel::Kernel;
-use super::slot::{BLOCK, Block, Texture, TextureShape};
+use super::slot::{BLOCK, Block};
+use super::texture::{Texture, TextureShape};
 use crate::lab::fault::Fault;
 
 /// A shader to be run.

@@ -1,12 +1,11 @@
-//! The buffers of one block of points, which is uploaded, computed and read back, and the textures that programs read: a picture
-//! or the six sides of a cube, one level.
+//! The buffers of one block of points, which is uploaded, computed and read back.
 
 use std::sync::mpsc::{Receiver, channel};
 
-use half::f16;
 use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
 
-use super::kernel::{Compute, Kernel, Resources};
+use super::compute::Compute;
+use super::kernel::{Kernel, Resources};
 use super::program::PointInputs;
 use crate::lab::fault::Fault;
 
@@ -69,14 +68,6 @@ impl Block<'_> {
 impl Slot {
     /// Buffers for whole blocks.
     pub fn new(compute: &Compute, inputs: PointInputs) -> Slot {
-        let buffer = |size, usage| {
-            compute.device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
         let points = match inputs {
             PointInputs::Places(_) => BATCH as u64,
             PointInputs::Cosines | PointInputs::Bits => BLOCK as u64,
@@ -86,8 +77,8 @@ impl Slot {
             PointInputs::Cosines => (points * INPUT, BufferUsages::STORAGE),
             PointInputs::Bits => (UNIFORM, BufferUsages::UNIFORM),
         };
-        let inputs = buffer(size, usage | BufferUsages::COPY_DST);
-        let results = |usage| buffer(points * RESULT, usage);
+        let inputs = compute.buffer(size, usage | BufferUsages::COPY_DST);
+        let results = |usage| compute.buffer(points * RESULT, usage);
         if compute.shares_memory() {
             return Slot {
                 inputs,
@@ -173,120 +164,4 @@ fn part(buffer: &wgpu::Buffer, bytes: u64) -> wgpu::BindingResource<'_> {
         offset: 0,
         size: wgpu::BufferSize::new(bytes),
     })
-}
-
-/// The texels and how they are sampled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Texture<'a> {
-    /// Texels of a row.
-    pub width: usize,
-    /// The rows one after the other, the first at v = 0.
-    pub texels: &'a [[f32; 4]],
-    /// The format of a texel on the device.
-    pub format: TextureFormat,
-    /// The addressing beyond the edge.
-    pub wrap: Wrap,
-    /// Whether the rows are a picture or a cube map.
-    pub shape: TextureShape,
-    /// The filter between texels.
-    pub filter: TextureFilter,
-}
-
-/// The shape of a texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextureShape {
-    /// A picture.
-    Flat,
-    /// The sides of a cube map, one below the other, in the order and orientation of OpenGL and Vulkan: +x, -x, +y, -y, +z, -z.
-    Cube,
-}
-
-/// The result of a sampler between texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextureFilter {
-    /// Linear interpolation of neighbours.
-    Linear,
-    /// The nearest texel.
-    Nearest,
-}
-
-/// The number format of a texel. Given values are rounded to nearest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextureFormat {
-    /// binary16.
-    Half,
-    /// binary32. Not every device filters it.
-    Float,
-    /// 8 bits, 0 to 1.
-    Unorm8,
-    /// 16 bits, 0 to 1. Not every device has it.
-    Unorm16,
-    /// The bits of [`TextureFormat::Unorm8`], which the sampler decodes by the sRGB curve.
-    Srgb8,
-}
-
-/// The result of a sampler beyond the edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wrap {
-    /// The last texel.
-    Clamp,
-    /// The texture, repeated.
-    Repeat,
-}
-
-impl Texture<'_> {
-    /// The number of rows.
-    ///
-    /// # Errors
-    /// The texels do not fill whole rows.
-    pub(super) fn height(&self) -> Result<usize, Fault> {
-        let (texels, width) = (self.texels.len(), self.width);
-        if width == 0 || texels == 0 || !texels.is_multiple_of(width) {
-            return Err(Fault::refused(format!(
-                "a texture of {texels} texels has no whole rows of {width}"
-            )));
-        }
-        let rows = texels / width;
-        if self.shape == TextureShape::Cube && rows != 6 * width {
-            return Err(Fault::refused(format!(
-                "a cube of sides of {width} has {} rows, not {rows}",
-                6 * width
-            )));
-        }
-        Ok(rows)
-    }
-
-    /// The bytes of a row.
-    pub(super) fn row_bytes(&self) -> usize {
-        self.width * self.format.bytes()
-    }
-
-    /// The bytes of all texels, in the format of the device.
-    pub(super) fn bytes(&self) -> Vec<u8> {
-        let values = self.texels.iter().flatten().copied();
-        let steps = |value: f32, largest: f32| (value.clamp(0.0, 1.0) * largest).round();
-        match self.format {
-            TextureFormat::Half => values
-                .flat_map(|v| f16::from_f32(v).to_ne_bytes())
-                .collect(),
-            TextureFormat::Float => values.flat_map(f32::to_ne_bytes).collect(),
-            TextureFormat::Unorm8 | TextureFormat::Srgb8 => {
-                values.map(|v| steps(v, 255.0) as u8).collect()
-            }
-            TextureFormat::Unorm16 => values
-                .flat_map(|v| (steps(v, 65_535.0) as u16).to_ne_bytes())
-                .collect(),
-        }
-    }
-}
-
-impl TextureFormat {
-    /// Bytes of a texel.
-    fn bytes(self) -> usize {
-        match self {
-            TextureFormat::Unorm8 | TextureFormat::Srgb8 => 4,
-            TextureFormat::Half | TextureFormat::Unorm16 => 8,
-            TextureFormat::Float => 16,
-        }
-    }
 }

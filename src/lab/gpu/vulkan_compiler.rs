@@ -8,6 +8,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
+use super::spirv::words;
 use crate::lab::fault::Fault;
 
 /// A device that compiles. It lives as long as the process: drivers leave threads behind.
@@ -260,10 +261,7 @@ unsafe fn layout(device: &ash::Device) -> Result<vk::PipelineLayout, vk::Result>
 }
 
 unsafe fn module(device: &ash::Device, bytes: &[u8]) -> Result<vk::ShaderModule, vk::Result> {
-    let words: Vec<u32> = bytes
-        .chunks_exact(4)
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect();
+    let words = words(bytes);
     let wanted = vk::ShaderModuleCreateInfo::default().code(&words);
     // SAFETY: the words live to the end of the call, and are a module that naga wrote.
     unsafe { device.create_shader_module(&wanted, None) }

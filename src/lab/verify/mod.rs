@@ -9,7 +9,6 @@
 
 mod code_error;
 pub mod compilers;
-pub mod drift;
 pub mod effect_trial;
 pub mod file;
 pub mod function_head;
@@ -19,6 +18,7 @@ mod judge;
 mod listed;
 pub mod machine;
 pub mod merge;
+mod module_outline;
 pub mod naga_translation;
 pub mod outline;
 mod points;
@@ -30,16 +30,11 @@ pub mod shard;
 mod shipped;
 mod supervise;
 mod sweep;
+mod tampering;
 mod trial;
 
-pub use code_error::{
-    ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error,
-    library_code_error_at, random_medium,
-};
-pub use half::{
-    HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
-    nearest_half,
-};
+pub use code_error::{ABSOLUTE_FLOOR, CodeError};
+pub use half::{HalfError, HalfTrial, halves, halves_beyond, nearest_half};
 pub use harness::as_object;
 pub use machine::MachineStatement;
 pub use points::{

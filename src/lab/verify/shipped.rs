@@ -8,10 +8,11 @@ use crate::generator::error::Error;
 use crate::generator::generate::GeneratedFile;
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Manifest};
-use crate::lab::verify::drift;
 use crate::lab::verify::listed::{self, Listed};
-use crate::lab::verify::outline::{self, Item, Outline};
+use crate::lab::verify::module_outline::{declarations, entry_points, loops, names};
+use crate::lab::verify::outline::{Item, Outline, outline};
 use crate::lab::verify::requested::ShippedPage;
+use crate::lab::verify::tampering;
 use crate::language::targets::{self, Target};
 use crate::physics::foreign::Foreign;
 
@@ -96,9 +97,9 @@ impl Folder<'_> {
     pub fn functions_in(&self, path: &str) -> Result<Vec<String>, Error> {
         let bytes = folder::read(&self.path.join(path))?.unwrap_or_default();
         if path.ends_with(".spv") {
-            return Ok(outline::names(&bytes));
+            return Ok(names(&bytes));
         }
-        let found = outline::outline(&String::from_utf8_lossy(&bytes), nests(path));
+        let found = outline(&String::from_utf8_lossy(&bytes), nests(path));
         Ok(found.functions())
     }
 
@@ -290,18 +291,18 @@ impl<'a> Today<'a> {
     fn outline(&self, bytes: &[u8]) -> Outline {
         if self.is_module() {
             return Outline {
-                declared: outline::declarations(bytes),
-                loops: outline::loops(bytes),
+                declared: declarations(bytes),
+                loops: loops(bytes),
                 ..Outline::default()
             };
         }
         let nests = nests(&self.made.artifact.path);
-        outline::outline(&String::from_utf8_lossy(bytes), nests)
+        outline(&String::from_utf8_lossy(bytes), nests)
     }
 
     fn held(&self, bytes: &[u8], found: &Outline) -> Vec<String> {
         if self.is_module() {
-            return outline::entry_points(bytes);
+            return entry_points(bytes);
         }
         found.functions()
     }
@@ -328,7 +329,7 @@ impl<'a> Today<'a> {
                 .map(|(emitted, _)| format!("{path}: it lacks `{}`", emitted.name))
                 .collect();
         }
-        drift::findings(
+        tampering::findings(
             path,
             found,
             &self.outline(&self.made.artifact.bytes),

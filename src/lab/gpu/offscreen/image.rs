@@ -62,23 +62,14 @@ impl Offscreen {
             let what = format!("an image of {width} x {height} pixels; at most {most} a side");
             return Err(Fault::unable(&self.compute.adapter.name, what));
         }
-        let descriptor = wgpu::TextureDescriptor {
-            label: None,
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: layers,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
+        let size = wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: layers,
         };
         let texture = self
             .compute
-            .guarded(|| self.compute.device.create_texture(&descriptor))?;
+            .guarded(|| self.compute.texture(size, format, usage))?;
         let dimension = match layers {
             6 => TextureViewDimension::Cube,
             _ => TextureViewDimension::D2,
@@ -96,12 +87,10 @@ impl Offscreen {
         let row = size.width * if is_half { 8 } else { 16 };
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let (buffer, submission) = compute.guarded(|| {
-            let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size: u64::from(padded) * u64::from(size.height),
-                usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            });
+            let buffer = compute.buffer(
+                u64::from(padded) * u64::from(size.height),
+                BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+            );
             let mut encoder = compute.device.create_command_encoder(&Default::default());
             let into = wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,

@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use wgpu::{BufferUsages, Features, TextureFormat, TextureUsages, TextureViewDimension};
 
-use super::kernel::Compute;
+use super::compute::Compute;
 use crate::lab::fault::Fault;
 use pass::{DEPTH_FORMAT, kinds, pass};
 
@@ -112,17 +112,8 @@ impl Offscreen {
     }
 
     fn buffer(&self, bytes: &[u8], usage: BufferUsages) -> Result<wgpu::Buffer, Fault> {
-        let compute = &self.compute;
-        compute.guarded(|| {
-            let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size: bytes.len().max(16) as u64,
-                usage: usage | BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
-            compute.queue.write_buffer(&buffer, 0, bytes);
-            buffer
-        })
+        self.compute
+            .guarded(|| self.compute.filled_buffer(bytes, usage))
     }
 
     /// Draws, and waits for it.

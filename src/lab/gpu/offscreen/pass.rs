@@ -2,6 +2,7 @@
 
 use wgpu::TextureFormat;
 
+use super::super::compute::SUM;
 use super::{Depth, Draw, FIRST_IMAGE, Image, Offscreen, VERTEX_FLOATS};
 
 impl Offscreen {
@@ -32,10 +33,7 @@ impl Offscreen {
         layout: &wgpu::BindGroupLayout,
     ) -> wgpu::RenderPipeline {
         let device = &self.compute.device;
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: None,
-            source: wgpu::ShaderSource::Wgsl(draw.text.into()),
-        });
+        let module = self.compute.module(draw.text);
         let target = Some(wgpu::ColorTargetState {
             format: self.format,
             blend: draw.adds.then_some(SUM),
@@ -152,19 +150,6 @@ pub(super) fn pass(
 }
 
 pub(super) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
-
-/// Additive blending.
-const SUM: wgpu::BlendState = {
-    let sum = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    };
-    wgpu::BlendState {
-        color: sum,
-        alpha: sum,
-    }
-};
 
 const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: (VERTEX_FLOATS * size_of::<f32>()) as u64,

@@ -23,7 +23,7 @@ const PROMISES: [&str; 12] = [
     "Licence",
 ];
 /// The most findings of a kind that are reported.
-const TOLD: usize = 10;
+const MOST: usize = 10;
 
 /// The findings in a file, a sentence each, with its line. `path` is for the message. `is_wanted` says whether the file must hold a
 /// function.
@@ -37,63 +37,53 @@ pub fn findings(
         0 => path.to_owned(),
         line => format!("{path}:{line}"),
     };
-    let added = missing_from(&today.declared, &found.declared)
-        .into_iter()
-        .map(|item| {
-            format!(
-                "{}: it declares `{}`, which fresnel-gen does not write",
-                place(item),
-                shown(&item.words)
-            )
-        });
-    let wanted = |item: &&Item| function_name(&item.words).is_none_or(is_wanted);
-    let absent = missing_from(&found.declared, &today.declared)
-        .into_iter()
-        .filter(wanted);
-    let absent = absent.map(|item| format!("{path}: it lacks `{}`", shown(&item.words)));
-    let numbers = false_statements(&found.comments, &today.comments);
-    let numbers = numbers.into_iter().map(|(item, right)| match right {
-        Some(right) => format!(
-            "{}: it says `{}`, and right is `{right}`",
+    let mut all = Vec::new();
+    for item in missing_from(&today.declared, &found.declared).take(MOST) {
+        all.push(format!(
+            "{}: it declares `{}`, which fresnel-gen does not write",
             place(item),
             shown(&item.words)
-        ),
-        None => format!(
-            "{}: it says `{}`, which fresnel-gen does not say of it",
-            place(item),
-            shown(&item.words)
-        ),
-    });
-    let narrow = missing_from(&today.narrow, &found.narrow).into_iter();
-    let narrow = narrow.map(|item| {
-        format!(
+        ));
+    }
+    for item in missing_from(&today.narrow, &found.narrow).take(MOST) {
+        all.push(format!(
             "{}: it says `{}`, which makes numbers narrower than fresnel-gen does",
             place(item),
             item.words
-        )
-    });
-    added
-        .take(TOLD)
-        .chain(narrow.take(TOLD))
-        .chain(absent.take(TOLD))
-        .chain(numbers.take(TOLD))
-        .collect()
+        ));
+    }
+    let wanted = |item: &&Item| function_name(&item.words).is_none_or(is_wanted);
+    let absent = missing_from(&found.declared, &today.declared).filter(wanted);
+    all.extend(
+        absent
+            .take(MOST)
+            .map(|item| format!("{path}: it lacks `{}`", shown(&item.words))),
+    );
+    let statements = false_statements(&found.comments, &today.comments);
+    for (item, right) in statements.into_iter().take(MOST) {
+        let (place, said) = (place(item), shown(&item.words));
+        all.push(match right {
+            Some(right) => format!("{place}: it says `{said}`, and right is `{right}`"),
+            None => format!("{place}: it says `{said}`, which fresnel-gen does not say of it"),
+        });
+    }
+    all
 }
 
 /// The items of `all` that `known` lacks, by their words. An item that occurs twice must occur twice in both.
-fn missing_from<'a>(known: &[Item], all: &'a [Item]) -> Vec<&'a Item> {
+fn missing_from<'a>(known: &'a [Item], all: &'a [Item]) -> impl Iterator<Item = &'a Item> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for item in known {
         *counts.entry(&item.words).or_default() += 1;
     }
-    let is_missing = |item: &&Item| match counts.get_mut(item.words.as_str()) {
-        Some(count) if *count > 0 => {
-            *count -= 1;
-            false
-        }
-        _ => true,
-    };
-    all.iter().filter(is_missing).collect()
+    all.iter()
+        .filter(move |item| match counts.get_mut(item.words.as_str()) {
+            Some(count) if *count > 0 => {
+                *count -= 1;
+                false
+            }
+            _ => true,
+        })
 }
 
 /// Comments that would not be written today and state something: anything with a digit, a promise, or another text after the

@@ -8,8 +8,8 @@ use std::rc::Rc;
 use wgpu::{BufferUsages, Features};
 
 use super::adapter::Adapter;
-use super::kernel::{self, Compute};
-use super::slot::Texture;
+use super::compute::{Compute, SUM};
+use super::texture::{self, Texture};
 use crate::lab::fault::Fault;
 
 /// The format of the target. Half floats can be blended on all devices.
@@ -66,7 +66,7 @@ impl Canvas {
         let (view, stamps) = compute.guarded(|| {
             let stamps = compute.has(Features::TIMESTAMP_QUERY);
             (
-                target(&compute.device, pixels),
+                target(compute, pixels),
                 stamps.then(|| Stamps::new(compute)),
             )
         })?;
@@ -101,10 +101,10 @@ impl Canvas {
         let compute = &*self.compute;
         let table = shader
             .texture
-            .map(|texture| kernel::table(compute, texture));
+            .map(|texture| texture::table(compute, texture));
         let table = table.transpose()?;
         compute.guarded(|| {
-            let pipeline = pipeline(&compute.device, shader);
+            let pipeline = pipeline(compute, shader);
             let group = bound(compute, &pipeline, shader.uniforms, table.as_ref());
             Layer { pipeline, group }
         })
@@ -177,14 +177,7 @@ impl Canvas {
 
 impl Stamps {
     fn new(compute: &Compute) -> Stamps {
-        let buffer = |usage| {
-            compute.device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size: STAMPS,
-                usage: usage | BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
+        let buffer = |usage| compute.buffer(STAMPS, usage | BufferUsages::COPY_DST);
         Stamps {
             set: compute.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: None,
@@ -220,21 +213,13 @@ impl Stamps {
     }
 }
 
-fn target(device: &wgpu::Device, pixels: u32) -> wgpu::TextureView {
-    let made = device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d {
-            width: pixels,
-            height: pixels,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
+fn target(compute: &Compute, pixels: u32) -> wgpu::TextureView {
+    let size = wgpu::Extent3d {
+        width: pixels,
+        height: pixels,
+        depth_or_array_layers: 1,
+    };
+    let made = compute.texture(size, FORMAT, wgpu::TextureUsages::RENDER_ATTACHMENT);
     made.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
@@ -245,7 +230,8 @@ fn bound(
     uniforms: &[u8],
     table: Option<&(wgpu::TextureView, wgpu::Sampler)>,
 ) -> Option<wgpu::BindGroup> {
-    let block = (!uniforms.is_empty()).then(|| kernel::uniform_block(compute, uniforms));
+    let block =
+        (!uniforms.is_empty()).then(|| compute.filled_buffer(uniforms, BufferUsages::UNIFORM));
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
     let mut entries = Vec::new();
     if let Some(block) = &block {
@@ -267,17 +253,14 @@ fn bound(
     (!entries.is_empty()).then(bind)
 }
 
-fn pipeline(device: &wgpu::Device, shader: &Shader) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(shader.text.into()),
-    });
+fn pipeline(compute: &Compute, shader: &Shader) -> wgpu::RenderPipeline {
+    let module = compute.module(shader.text);
     let targets = [Some(wgpu::ColorTargetState {
         format: FORMAT,
-        blend: shader.blends.then_some(ADDED),
+        blend: shader.blends.then_some(SUM),
         write_mask: wgpu::ColorWrites::ALL,
     })];
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    let descriptor = wgpu::RenderPipelineDescriptor {
         label: None,
         layout: None,
         vertex: wgpu::VertexState {
@@ -297,18 +280,6 @@ fn pipeline(device: &wgpu::Device, shader: &Shader) -> wgpu::RenderPipeline {
         }),
         multiview_mask: None,
         cache: None,
-    })
-}
-
-/// Additive blending.
-const ADDED: wgpu::BlendState = {
-    let sum = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
     };
-    wgpu::BlendState {
-        color: sum,
-        alpha: sum,
-    }
-};
+    compute.device.create_render_pipeline(&descriptor)
+}
