@@ -34,6 +34,7 @@ mod headline;
 mod incidents;
 mod licences;
 mod lut;
+mod numbers;
 mod oracle;
 mod overdraw;
 mod pages;

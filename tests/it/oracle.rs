@@ -5,7 +5,8 @@
 //! agree with every row to 1e-16, which is what rounding the table to `f64` takes. `f64` must agree to 1e-14 on ordinary
 //! rows and to 1e-7 on hard ones (these reach 6e-11; at the critical angle itself √1e-16 = 1e-8 is what an `f64` allows).
 
-use fresnel_gen::physics::num::{Dd, Num};
+use super::numbers::Dd;
+use fresnel_gen::physics::num::Num;
 use fresnel_gen::physics::optics::{Reflectance, conductor};
 
 /// One line of either table.

@@ -254,7 +254,7 @@ fn the_test_of_imports_sees_groups_and_skips_comments() {
         ]
     );
     assert_eq!(
-        imports("// use crate::generator::emit\nlet x = crate::physics::num::Dd;"),
+        imports("// use crate::generator::emit\nlet x = crate::physics::num::Half;"),
         [pair("physics", "num")]
     );
 }

@@ -312,8 +312,8 @@ impl CoatedRow {
     pub fn new(f0: [f64; 3], f82: [f64; 3], index: f64) -> CoatedRow {
         let under: [UnderCoat; 3] = [0, 1, 2].map(|i| under_coat(f0[i], f82[i], index));
         let in_coat = |i: usize| {
-            let UnderCoat { n, k, .. } = under[i];
-            conductor(n / index, k / index, COS_82).unpolarised()
+            let air = under[i].index;
+            conductor(air.n / index, air.k / index, COS_82).unpolarised()
         };
         CoatedRow {
             index,
@@ -321,9 +321,9 @@ impl CoatedRow {
             f82,
             f0_in_coat: under.map(|channel| channel.f0),
             f82_in_coat: each_channel(in_coat),
-            n: under.map(|channel| channel.n),
-            k: under.map(|channel| channel.k),
-            exact: under.map(|channel| channel.exact),
+            n: under.map(|channel| channel.index.n),
+            k: under.map(|channel| channel.index.k),
+            exact: under.map(|channel| channel.index.exact),
         }
     }
 }

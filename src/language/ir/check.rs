@@ -7,7 +7,7 @@
 //! 4. constants are finite in the precision of the code;
 //! 5. names are identifiers in every language: a letter, then letters, digits and single underscores, none last;
 //! 6. names of arguments and steps are unique in the function;
-//! 7. arguments are numbers or textures, and the result is one number or three;
+//! 7. no argument is the answer to a comparison, and the result is one number or three;
 //! 8. the result depends on every node: nothing is computed in vain;
 //! 9. a step that is used twice has a name, unless it is a comparison, or only names a constant or an argument.
 
@@ -27,7 +27,7 @@ pub const RULES: [&str; 9] = [
     "constants are finite in the precision of the code",
     "names are identifiers in every language",
     "names are unique",
-    "arguments are numbers or textures, the result is a number",
+    "no argument is a comparison's answer, the result is one number or three",
     "every node is needed",
     "a shared step has a name",
 ];
@@ -71,20 +71,17 @@ pub fn check(function: Function) -> Result<Checked, BrokenRule> {
 /// # Errors
 /// A node, or the function as a whole, breaks one of [`RULES`](super::RULES).
 pub fn check_in(precision: Precision, function: Function) -> Result<Checked, BrokenRule> {
-    for (id, node) in function.nodes.iter().enumerate() {
-        check_node(precision, &function, id, node).map_err(|(rule, what)| BrokenRule {
-            function: function.name.clone(),
-            place: format!("node {id} ({})", node.op.info().name),
-            rule,
-            what,
-        })?;
-    }
-    check_whole(&function).map_err(|(rule, what)| BrokenRule {
+    let broken = |place: String, (rule, what): Broken| BrokenRule {
         function: function.name.clone(),
-        place: "as a whole".to_owned(),
+        place,
         rule,
         what,
-    })?;
+    };
+    for (id, node) in function.nodes.iter().enumerate() {
+        let place = || format!("node {id} ({})", node.op.info().name);
+        check_node(precision, &function, id, node).map_err(|fault| broken(place(), fault))?;
+    }
+    check_whole(&function).map_err(|fault| broken("as a whole".to_owned(), fault))?;
     Ok(Checked(function))
 }
 

@@ -33,5 +33,5 @@ pub use evaluate::{Column, Value, evaluate};
 pub use fold::{USED_TWICE, fold, fold_in, specialise, specialise_in};
 pub use graph::{COSINE, Function, Label, Letters, Node, NodeId, Param, Ty};
 pub use op::{OPS, Op, OpInfo, Payload, Signature};
-pub use text::{ParseError, parse, print};
+pub use text::print;
 pub use texture::{CubeTexels, Filter, Texels, Weights, filtered};

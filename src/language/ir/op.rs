@@ -199,11 +199,6 @@ impl Op {
     pub fn info(self) -> &'static OpInfo {
         &OPS[self as usize]
     }
-
-    /// The operation of this name.
-    pub fn from_name(name: &str) -> Option<Op> {
-        OPS.iter().find(|row| row.name == name).map(|row| row.op)
-    }
 }
 
 #[cfg(test)]
@@ -214,7 +209,6 @@ mod tests {
     fn rows_stand_in_the_order_of_the_operations() {
         for (index, row) in OPS.iter().enumerate() {
             assert_eq!(row.op as usize, index, "{}", row.name);
-            assert_eq!(Op::from_name(row.name), Some(row.op));
         }
     }
 

@@ -137,6 +137,16 @@ const fn face(lies: (usize, f64), s: (usize, f64), t: (usize, f64)) -> Face {
     Face { lies, s, t }
 }
 
+impl Face {
+    /// Where a direction hits the plane of the face, along both axes: from -1 to 1 inside it.
+    fn hit<N: Num>(&self, direction: [N; 3]) -> [N; 2] {
+        let place = |(axis, sign): (usize, f64)| {
+            N::from_f64(sign) * direction[axis] / direction[self.lies.0].abs()
+        };
+        [self.s, self.t].map(place)
+    }
+}
+
 const FACES: [Face; 6] = [
     face((0, 1.0), (2, -1.0), (1, -1.0)),
     face((0, -1.0), (2, 1.0), (1, -1.0)),
@@ -150,16 +160,14 @@ impl CubeTexels {
     /// The value in a direction of any length, filtered across the edges of faces. A NaN or a zero vector gives some texel.
     pub fn sample<N: Num>(&self, direction: [N; 3]) -> [N; 3] {
         let face = face_of(direction.map(N::to_f64));
-        let Face { lies, s, t } = &FACES[face];
         let half = N::from_f64(0.5);
         let size = N::from_f64(self.size as f64);
-        let place = |(axis, sign): (usize, f64)| {
-            let along = N::from_f64(sign) * direction[axis] / direction[lies.0].abs();
+        let place = |along: N| {
             let place = (along + N::from_f64(1.0)) * half * size - half;
             // `min` and `max` of a NaN and a number give the number.
             place.max(N::from_f64(-1.0)).min(size)
         };
-        let (s, t) = (place(*s), place(*t));
+        let [s, t] = FACES[face].hit(direction).map(place);
         let [left, top] = [s, t].map(|place| place.to_f64().floor());
         let texel = |right: f64, down: f64| {
             let texel = self.texel(face, left + right, top + down);
@@ -198,13 +206,12 @@ impl CubeTexels {
     /// The texel that a direction hits.
     fn nearest(&self, direction: [f64; 3]) -> (usize, f64, f64) {
         let face = face_of(direction);
-        let Face { lies, s, t } = &FACES[face];
-        let place = |(axis, sign): (usize, f64)| {
-            let along = sign * direction[axis] / direction[lies.0].abs();
+        let place = |along: f64| {
             let place = ((along + 1.0) / 2.0 * self.size as f64).floor();
             place.max(0.0).min(self.size as f64 - 1.0)
         };
-        (face, place(*s), place(*t))
+        let [column, row] = FACES[face].hit(direction).map(place);
+        (face, column, row)
     }
 }
 

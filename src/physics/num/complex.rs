@@ -110,32 +110,6 @@ impl<N: Num> Mul for Complex<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::num::Dd;
-
-    #[track_caller]
-    fn check_near<N: Num>(got: Complex<N>, want: Complex<N>, tolerance: f64) {
-        let error = (got - want).modulus().to_f64() / want.modulus().to_f64();
-        assert!(error <= tolerance, "{got:?} is {error:e} from {want:?}");
-    }
-
-    fn check_parts<N: Num>(tolerance: f64) {
-        let parts = [-1e150, -3.0, -1e-8, 0.0, 2e-100, 0.7, 4.0, 1e149];
-        for (re, im) in parts.iter().flat_map(|&re| parts.map(|im| (re, im))) {
-            if re == 0.0 && im == 0.0 {
-                continue;
-            }
-            let z = Complex::new(N::from_f64(re), N::from_f64(im));
-            let root = z.sqrt();
-            check_near(root * root, z, tolerance);
-            assert!(root.re.to_f64() >= 0.0, "√{z:?} = {root:?}");
-        }
-    }
-
-    #[test]
-    fn the_root_undoes_the_product() {
-        check_parts::<f64>(1e-15);
-        check_parts::<Dd>(1e-30);
-    }
 
     #[test]
     fn root_on_the_cut_points_up() {

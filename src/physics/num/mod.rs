@@ -1,10 +1,9 @@
 //! Numbers: the trait that a formula computes with, and the number types that implement it.
 //!
 //! Code error is measured by evaluating one formula in several precisions. The same graph runs in [`Half`] (rounded after
-//! every operation), `f32`, `f64` and [`Dd`] (double-double), and in [`Interval`], which gives the range of each step.
+//! every operation), `f32` and `f64`, and in [`Interval`], which gives the range of each step. Tests also run it in double-double.
 
 mod complex;
-mod dd;
 mod decimal_comma;
 mod half;
 mod interval;
@@ -18,7 +17,6 @@ use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use complex::Complex;
-pub use dd::Dd;
 pub use decimal_comma::{POINT_NOT_COMMA, has_decimal_commas};
 pub use half::Half;
 pub use interval::Interval;
@@ -54,7 +52,7 @@ pub fn each_channel<T>(mut of: impl FnMut(usize) -> T) -> [T; 3] {
 /// A number that a formula computes with.
 ///
 /// Every operation rounds once, to the nearest representable value, except `inverse_sqrt` (twice), `exp2` and `log2`, and all of
-/// [`Dd`] and [`Interval`], whose errors each implementation states. A comparison with a NaN is
+/// [`Interval`], whose errors each implementation states. A comparison with a NaN is
 /// [`Truth::No`]; `min` and `max` return the other operand when one is a NaN, as IEEE 754-2008 `minNum` does.
 pub trait Num:
     Copy
@@ -66,9 +64,6 @@ pub trait Num:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The name used in reports: `f16`, `f32`, `f64`, `double-double`, `interval`.
-    const NAME: &'static str;
-
     /// The nearest value to `x`.
     fn from_f64(x: f64) -> Self;
     /// The nearest `f64` (for an interval, its midpoint).

@@ -43,8 +43,6 @@ impl<const LOG: i8, const EXP: i8> Neg for VulkanTolerance<LOG, EXP> {
 }
 
 impl<const LOG: i8, const EXP: i8> Num for VulkanTolerance<LOG, EXP> {
-    const NAME: &'static str = "loose";
-
     fn from_f64(x: f64) -> Self {
         VulkanTolerance(x)
     }

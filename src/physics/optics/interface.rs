@@ -92,34 +92,6 @@ pub fn normal_incidence<N: Num>(n: N, k: N) -> N {
     power_ratio(Complex::real(N::from_f64(1.0)), Complex::new(n, k))
 }
 
-/// The cosine of Brewster's angle, where R_p = 0 and tan θ = η: 1/√(1 + η²).
-///
-/// ```
-/// use fresnel_gen::physics::optics::{brewster_cos, dielectric};
-///
-/// let reflected: f64 = dielectric(1.5, brewster_cos(1.5)).p;
-/// assert!(reflected < 1e-12);
-/// ```
-#[inline]
-pub fn brewster_cos<N: Num>(eta: N) -> N {
-    (N::from_f64(1.0) + eta * eta).inverse_sqrt()
-}
-
-/// The cosine of the critical angle, where sin θ = η: √(1 − η²). None for η ≥ 1.
-///
-/// ```
-/// use fresnel_gen::physics::optics::critical_cos;
-///
-/// let inside: f64 = critical_cos(0.5).expect("light leaves the denser medium");
-/// assert!((inside - 0.75f64.sqrt()).abs() < 1e-12);
-/// assert_eq!(critical_cos(1.5), None);
-/// ```
-#[inline]
-pub fn critical_cos<N: Num>(eta: N) -> Option<N> {
-    let one = N::from_f64(1.0);
-    (eta.less(one) == Truth::Yes).then(|| ((one - eta) * (one + eta)).sqrt())
-}
-
 /// w² = m² − sin²θ.
 ///
 /// At large angles it is computed as (m² − 1) + cos²θ, which keeps the digits of n near 1. At small ones it is computed
@@ -232,71 +204,6 @@ fn reflectance_82(n: f64, k: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::num::Dd;
-
-    #[test]
-    fn exactly_one_past_the_critical_angle_and_at_grazing() {
-        let one = Reflectance { s: 1.0, p: 1.0 };
-        for eta in [0.1, 0.5, 1.0 / 1.5, 0.999] {
-            let critical = critical_cos(eta).expect("eta is below 1");
-            for share in [0.0, 0.1, 0.5, 0.9, 0.999] {
-                assert_eq!(dielectric(eta, share * critical), one, "{eta} {share}");
-            }
-            assert!(dielectric(eta, 1.001 * critical).unpolarised() < 1.0);
-        }
-        for (n, k) in [
-            (1.0, 1e-300),
-            (1.5, 0.0),
-            (0.2, 3.0),
-            (0.0, 0.0),
-            (1.0 + 1e-7, 0.0),
-        ] {
-            assert_eq!(conductor(n, k, 0.0), one, "{n} {k}");
-        }
-        assert_eq!(critical_cos(1.0), None);
-    }
-
-    #[test]
-    fn nothing_is_reflected_between_equal_media() {
-        for cos_theta in [0.0, 1e-300, 0.3, 1.0] {
-            assert_eq!(dielectric(1.0, cos_theta).unpolarised(), 0.0);
-            assert_eq!(
-                dielectric(Dd::from(1.0), Dd::from(cos_theta)).s,
-                Dd::from(0.0)
-            );
-        }
-        assert!(dielectric(f64::NAN, 0.5).s.is_nan());
-        assert!(conductor(1.0, f64::NAN, 0.5).s.is_nan());
-    }
-
-    #[test]
-    fn nothing_is_reflected_at_brewsters_angle() {
-        for eta in [0.4, 0.7, 1.33, 2.42, 50.0] {
-            let eta = Dd::from(eta);
-            assert!(dielectric(eta, brewster_cos(eta)).p.to_f64() < 1e-60);
-        }
-    }
-
-    #[test]
-    fn f64_agrees_with_double_double_away_from_the_critical_angle() {
-        let mut worst: f64 = 0.0;
-        for n in [1e-4, 0.3, 1.0 - 1e-7, 1.0, 1.0 + 1e-7, 1.5, 50.0] {
-            for k in [0.0, 1e-300, 1e-7, 0.1, 3.0, 1000.0] {
-                for cos_theta in [1e-8, 1e-5, 1e-3, 0.02, 0.2, 0.6, 0.9, 0.9999, 1.0] {
-                    let w = normal_component(n, k, cos_theta).sqrt().modulus();
-                    if w < 0.1 * cos_theta {
-                        continue;
-                    }
-                    let exact = conductor(Dd::from(n), Dd::from(k), Dd::from(cos_theta));
-                    let rounded = conductor(n, k, cos_theta);
-                    let s_error = (exact.s - Dd::from(rounded.s)).abs().to_f64();
-                    let p_error = (exact.p - Dd::from(rounded.p)).abs().to_f64();
-                    worst = worst.max(s_error).max(p_error);
-                }
-            }
-        }
-        assert!(worst < 8.0 * f64::EPSILON, "worst {worst:e}");
-    }
 
     #[test]
     fn normal_incidence_is_the_law_at_cos_one() {
@@ -313,12 +220,6 @@ mod tests {
             assert!((law.p - expected).abs() < 1e-15, "{n} {k}");
         }
     }
-}
-
-#[cfg(test)]
-mod inverse_tests {
-    use super::*;
-    use crate::physics::optics::normal_incidence;
 
     const F0: [f64; 12] = [
         1e-6, 1e-4, 0.01, 0.02, 0.04, 0.1, 0.2, 0.5, 0.7, 0.9, 0.99, LARGEST_F0,

@@ -15,8 +15,7 @@ use crate::physics::num::Num;
 pub use coat::{UnderCoat, under_coat};
 pub use ggx::Ggx;
 pub use interface::{
-    EffectiveIndex, LARGEST_F0, brewster_cos, conductor, critical_cos, dielectric,
-    index_from_f0_f82, normal_incidence,
+    EffectiveIndex, LARGEST_F0, conductor, dielectric, index_from_f0_f82, normal_incidence,
 };
 
 /// The angle of the second colour of a metal, about 81.79 degrees: cos θ = 1/7 is where the correction of Schlick's

@@ -5,10 +5,11 @@
 mod published;
 mod recorded;
 
+use crate::numbers::Dd;
 use fresnel_gen::lab::verify::cosines;
 use fresnel_gen::language::ir::{Checked, Value, evaluate};
 use fresnel_gen::language::methods;
-use fresnel_gen::physics::num::{Dd, Num, ulp_distance, ulp_of};
+use fresnel_gen::physics::num::{Num, ulp_distance, ulp_of};
 use fresnel_gen::physics::optics;
 
 /// What unfused f32 may be off, in ulp.

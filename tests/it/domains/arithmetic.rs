@@ -100,14 +100,17 @@ impl<const KIND: u8> Neg for Fast<KIND> {
     }
 }
 
-impl<const KIND: u8> Num for Fast<KIND> {
-    const NAME: &'static str = match KIND {
+impl<const KIND: u8> Fast<KIND> {
+    /// The name in messages.
+    pub const NAME: &'static str = match KIND {
         UNFUSED => "unfused",
         FUSED_LEFT => "fused, left first",
         FUSED_RIGHT => "fused, right first",
         _ => "by reciprocals",
     };
+}
 
+impl<const KIND: u8> Num for Fast<KIND> {
     fn from_f64(x: f64) -> Self {
         Fast::of(x as f32)
     }

@@ -3,6 +3,7 @@
 //! promise that each file's reader relies on.
 
 use crate::not_checked;
+use crate::physics::critical_cos;
 use fresnel_gen::generator::emit::{self, Bounds, EmittedFunction, Naming};
 use fresnel_gen::generator::fit::{self, Measured};
 use fresnel_gen::generator::reference::MaterialInMedium;
@@ -111,7 +112,7 @@ impl Seen<'_> {
     /// Clearly past the critical angle of something transparent; of a material f64 knows it.
     fn is_past_critical(&self) -> bool {
         let past = |(n, k): (f32, f32)| {
-            let critical = optics::critical_cos(f64::from(n));
+            let critical = critical_cos(f64::from(n));
             k == 0.0 && critical.is_some_and(|c| f64::from(self.cos_theta) < c - 1e-3)
         };
         let known = self.want == 1.0 && !self.cos_theta.is_nan();

@@ -67,7 +67,7 @@ proptest! {
     #[test]
     fn p_falls_to_zero_and_s_rises(eta in 1.01f64..12.0) {
         for eta in [eta, 1.0 / eta] {
-            let brewster = optics::brewster_cos(eta);
+            let brewster = super::brewster_cos(eta);
             prop_assert!(optics::dielectric(eta, brewster).p < 1e-20, "{eta}");
             let at = |i: u32| optics::dielectric(eta, f64::from(i) / 1000.0);
             for (steeper, flatter) in (1..=1000).map(|i| (at(i), at(i - 1))) {

@@ -171,7 +171,7 @@ proptest! {
     /// A polarising filter that would not darken anything.
     #[test]
     fn brewsters_angle_has_no_p_reflection_whatever_the_index(eta in spread(0.25, 12.0)) {
-        let brewster = optics::brewster_cos(f64::from(eta));
+        let brewster = super::brewster_cos(f64::from(eta));
         // Within something denser the angle lies beside the critical one.
         let steep = 1.0 + f64::from(eta).powi(-4);
         let f = double("dielectric_exact_p", brewster, &[f64::from(eta)]);
@@ -217,7 +217,7 @@ proptest! {
         n in spread(0.25, 0.999), k in spread(1e-9, 1e-3), cos_theta in cosine(),
     ) {
         let (wide, c) = (f64::from(n), f64::from(cos_theta));
-        let critical = optics::critical_cos(wide).unwrap_or(1.0);
+        let critical = super::critical_cos(wide).unwrap_or(1.0);
         let most = 10.0 * (2.0 * wide * f64::from(k)).sqrt() / (wide * wide * critical);
         let clear = double("dielectric_exact", c, &[wide]);
         let absorbing = double("conductor_exact", c, &[wide, f64::from(k)]);

@@ -180,32 +180,22 @@ fn copy<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Expr<'b> {
 }
 
 fn constant<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<Expr<'b>> {
-    // Compose and splat of numbers *are* how a constant colour is written.
-    if node.is_leaf() || matches!(node.op, Op::Compose | Op::Splat | Op::Less) {
-        return None;
-    }
-    if node.op == Op::Select {
+    // Compose and splat of numbers *are* how a constant colour is written. Ranges decide comparisons and choices.
+    let stays = matches!(node.op, Op::Compose | Op::Splat | Op::Less | Op::Select);
+    if node.is_leaf() || stays {
         return None;
     }
     let values: Vec<Value<f64>> = args
         .iter()
         .map(|arg| value_of(builder, arg.id()))
         .collect::<Option<_>>()?;
-    let same = node.args.len() == 2 && node.args[0] == node.args[1];
-    let places = if same {
-        vec![0, 0]
-    } else {
-        (0..node.args.len()).collect()
+    // Equal arguments have one place: `x x` is a square.
+    let place = |arg| node.args.iter().position(|other| other == arg);
+    let alone = Node {
+        args: node.args.iter().map(place).collect::<Option<_>>()?,
+        ..node.clone()
     };
-    let value = apply(
-        &Node {
-            args: places,
-            ..node.clone()
-        },
-        &values,
-        &[],
-    );
-    let channels = value.at(0);
+    let channels = apply(&alone, &values, &[]).at(0);
     if !channels.iter().all(|channel| channel.is_finite()) {
         return None;
     }
@@ -214,60 +204,4 @@ fn constant<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<
     } else {
         builder.number(channels[0])
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::text::{parse, print};
-    use super::*;
-
-    #[track_caller]
-    fn check(input: &str, expected: &str) {
-        let function = parse(input).expect("the case parses");
-        assert_eq!(print(&fold(&function)).trim(), expected.trim());
-    }
-
-    #[test]
-    fn constants_are_computed() {
-        check(
-            "fn f(x: scalar) -> scalar\n  a = mul 2 3\n  b = add a x\n  return b",
-            "fn f(x: scalar) -> scalar\n  b = add 6 x\n  return b",
-        );
-    }
-
-    #[test]
-    fn a_comparison_that_always_holds_is_dropped_and_its_choice_gives_the_name() {
-        check(
-            "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = sub c 2\n  l = less t 0\n  s = select l c t\n  return s",
-            "fn f(x: scalar) -> scalar\n  s = saturate x\n  return s",
-        );
-    }
-
-    #[test]
-    fn a_guard_that_never_acts_is_dropped_and_one_that_may_stays() {
-        check(
-            "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = add c 1\n  g = max t 1e-30\n  q = div c g\n  return q",
-            "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = add c 1\n  q = div c t\n  return q",
-        );
-        check(
-            "fn f(x: scalar) -> scalar\n  c = saturate x\n  g = max c 1e-30\n  q = div 1 g\n  return q",
-            "fn f(x: scalar) -> scalar\n  c = saturate x\n  g = max c 1e-30\n  q = div 1 g\n  return q",
-        );
-    }
-
-    #[test]
-    fn constants_merge_through_a_sum() {
-        check(
-            "fn f(x: scalar) -> scalar\n  a = mul 3 x\n  b = add 2 a\n  c = div b 4\n  return c",
-            "fn f(x: scalar) -> scalar\n  %0 = mul 0.75 x\n  c = add 0.5 %0\n  return c",
-        );
-    }
-
-    #[test]
-    fn three_channels_of_one_colour_are_the_colour() {
-        check(
-            "fn f(x: rgb) -> rgb\n  r = channel 0 x\n  g = channel 1 x\n  b = channel 2 x\n  y = compose r g b\n  z = mul y 2\n  return z",
-            "fn f(x: rgb) -> rgb\n  z = mul x 2\n  return z",
-        );
-    }
 }

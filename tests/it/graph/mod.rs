@@ -1,11 +1,16 @@
 //! The graph, over all methods: its text form, its checker, its meaning in every kind of number.
 
+mod fold;
+mod text;
+
+use self::text::parse;
+use super::numbers::Dd;
 use fresnel_gen::generator::fit;
 use fresnel_gen::language::ir::{
-    BrokenRule, Checked, Function, Label, Op, Payload, Ty, Value, check, evaluate, parse, print,
+    BrokenRule, Checked, Function, Label, Op, Payload, Ty, Value, check, evaluate, print,
 };
 use fresnel_gen::language::methods;
-use fresnel_gen::physics::num::{Dd, Half, Num, Precision};
+use fresnel_gen::physics::num::{Half, Num, Precision};
 
 fn all_functions() -> Vec<Checked> {
     let colour = methods::ALL
