@@ -4,44 +4,41 @@
 //! <https://doi.org/10.1145/1111411.1111439>; triangles after Watt, *Light-Water Interaction Using Backward Beam Tracing*, SIGGRAPH, 1990,
 //! <https://doi.org/10.1145/97879.97902>. The splat is Epanechnikov's kernel.
 
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance, cross, length};
-use crate::language::ir::{Expr, Letters};
-use crate::physics::cite::Citation;
+use super::*;
 
 const T_ENTRY: Argument = Argument::vector(
     "t_entry",
     "the transmitted share 1 - R at the first surface",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const T_EXIT: Argument = Argument::vector(
     "t_exit",
     "the same at the second; for a caustic by reflection 1, with R in the place of t_entry",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const AREA: Argument = Argument::scalar(
     "area",
     "of the photon's share of the light's cross-section, in square units of the world",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const FLUX: Argument = Argument::vector(
     "flux",
     "of the triangle: the mean of t_entry t_exit at its corners, times its area before the body",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
-const A: Argument = Argument::vector("a", "where the first photon lands, in the world", -1.0, 1.0);
-const B: Argument = Argument::vector("b", "where the second lands", -1.0, 1.0);
-const C: Argument = Argument::vector("c", "where the third lands", -1.0, 1.0);
+const A: Argument = Argument::vector(
+    "a",
+    "where the first photon lands, in the world",
+    [-1.0, 1.0],
+);
+const B: Argument = Argument::vector("b", "where the second lands", [-1.0, 1.0]);
+const C: Argument = Argument::vector("c", "where the third lands", [-1.0, 1.0]);
 const OFFSET: Argument = Argument::pair(
     "offset",
     "from the splat's centre, in units of the world",
-    -1.0,
-    1.0,
+    [-1.0, 1.0],
 );
-const RADIUS: Argument = Argument::scalar("radius", "of the splat, above 0", 0.5, 2.0);
+const RADIUS: Argument = Argument::scalar("radius", "of the splat, above 0", [0.5, 2.0]);
 
 /// A triangle with less area than this, in square world units, counts as degenerate.
 const SMALLEST: f64 = 1e-20;
@@ -75,28 +72,24 @@ pub static EFFECT: Effect = Effect {
             name: "photon_energy",
             gives: "the flux (power) of a photon, for light of irradiance 1; area is in it",
             arguments: &[T_ENTRY, T_EXIT, AREA],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: |with| with.get(T_ENTRY) * with.get(T_EXIT) * with.get(AREA),
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "triangle_irradiance",
             gives: "the irradiance inside the triangle; 0 where it has no area",
             arguments: &[FLUX, A, B, C],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: triangle_irradiance,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "splat_weight",
             gives: "the share of a photon's flux per square unit at an offset from where it lands",
             arguments: &[OFFSET, RADIUS],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: splat_weight,
+            ..EffectFunction::BASE
         },
     ],
 };

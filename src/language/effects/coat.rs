@@ -8,47 +8,39 @@
 //! One R stands for both polarisations. Composed from the mean of both, a coated metal of the catalogue is off by .014 at most,
 //! and thin glass of index 1.5 by .022.
 
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use crate::language::ir::{Expr, Letters};
-use crate::physics::cite::Citation;
+use super::*;
 
 const F0: Argument = Argument::vector(
     "f0",
     "the metal's reflectance in air at normal incidence",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const F82: Argument = Argument::vector(
     "f82",
     "the metal's reflectance in air at 81.79 degrees",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const COS_I: Argument = Argument::scalar(
     "cos_i",
     "cosine of the angle of incidence, on the side that the light comes from",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const ETA: Argument = Argument::scalar(
     "eta",
     "n_t / n_i, the index behind the interface by that before it, above 0",
-    0.4,
-    2.5,
+    [0.4, 2.5],
 );
 const COAT_R: Argument = Argument::scalar(
     "coat_r",
     "R of the coat's interface, at the cosine outside",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const BASE_R: Argument = Argument::vector(
     "base_r",
     "R of the base under the coat, at the refracted cosine",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
-const SLAB_R: Argument = Argument::vector("r", "R of one interface of the slab", 0.0, 1.0);
+const SLAB_R: Argument = Argument::vector("r", "R of one interface of the slab", [0.0, 1.0]);
 
 /// The fit of F0 under a coat of index 1.5: least squares over the three channels of 75 measurements of metals and semiconductors.
 /// The reference is each measurement's F0 from its spectrum, in a medium of index 1.5.
@@ -93,37 +85,30 @@ pub static EFFECT: Effect = Effect {
             name: "coated_metal_f0",
             gives: "F0 of a metal under a coat of index 1.5, 0 to 1",
             arguments: &[F0, F82],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: coated_metal_f0,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "interface_and_cosine",
             gives: "R of a dielectric interface, 1 - R, and the refracted cosine, in this order; 1, 0 and 0 past the critical angle",
             arguments: &[COS_I, ETA],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: interface_and_cosine,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "coated_reflectance",
             gives: "R of coat and base together, all reflections between them summed",
             arguments: &[COAT_R, BASE_R],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: coated_reflectance,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "slab_reflectance",
             gives: "R of both interfaces of a slab, a window pane for example",
             arguments: &[SLAB_R],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: slab_reflectance,
+            ..EffectFunction::BASE
         },
     ],
 };

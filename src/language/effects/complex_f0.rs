@@ -3,17 +3,14 @@
 //! Source: Born, Wolf, *Principles of Optics*, 1999, section 14.2, <https://doi.org/10.1017/CBO9781139644181>.
 //! Exact at normal incidence for each channel of n and k.
 
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use crate::language::ir::{Expr, Letters};
-use crate::physics::cite::Citation;
+use super::*;
 
 const N: Argument = Argument::vector(
     "n",
     "refractive index, relative to the medium before the surface",
-    0.05,
-    5.0,
+    [0.05, 5.0],
 );
-const K: Argument = Argument::vector("k", "extinction coefficient, relative likewise", 0.0, 8.0);
+const K: Argument = Argument::vector("k", "extinction coefficient, relative likewise", [0.0, 8.0]);
 
 /// The record of this effect.
 pub static EFFECT: Effect = Effect {
@@ -37,10 +34,8 @@ pub static EFFECT: Effect = Effect {
         name: "complex_f0",
         gives: "F0 of each channel, 0 to 1",
         arguments: &[N, K],
-        reflectance: Reflectance::Unused,
-        code_abs: 2e-7,
-        letters: Letters::Rgb,
         build: complex_f0,
+        ..EffectFunction::BASE
     }],
 };
 

@@ -3,29 +3,22 @@
 //! Source: Born, Wolf, *Principles of Optics*, 1999, section 4.7, <https://doi.org/10.1017/CBO9781139644181>; the weights are ours.
 //! One reflectance for all channels is right for real media: it differs by at most half a step of 255 for water and BK7.
 
-use super::effect::{
-    Argument, Arguments, Effect, EffectFunction, INCIDENT, NORMAL, Reflectance, refraction,
-};
-use crate::language::ir::{Expr, Letters};
-use crate::physics::cite::Citation;
+use super::*;
 
 const ETAS: Argument = Argument::vector(
     "etas",
     "n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse",
-    0.4,
-    2.5,
+    [0.4, 2.5],
 );
 const INDEX: Argument = Argument::scalar(
     "index",
     "which sample, 0 to count - 1, from red to blue",
-    0.0,
-    15.0,
+    [0.0, 15.0],
 );
 const COUNT: Argument = Argument::scalar(
     "count",
     "how many samples, 1 or more: as many as red and blue lie pixels apart are enough",
-    1.0,
-    16.0,
+    [1.0, 16.0],
 );
 
 /// The record of this effect.
@@ -56,37 +49,32 @@ pub static EFFECT: Effect = Effect {
             name: "refracted_red",
             gives: "the red ray; zero past its critical angle",
             arguments: &[INCIDENT, NORMAL, ETAS],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: |with| of_channel(with, 0),
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "refracted_green",
             gives: "the green ray; zero past its critical angle",
             arguments: &[INCIDENT, NORMAL, ETAS],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: |with| of_channel(with, 1),
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "refracted_blue",
             gives: "the blue ray; zero past its critical angle",
             arguments: &[INCIDENT, NORMAL, ETAS],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: |with| of_channel(with, 2),
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "spectral_weight",
             gives: "the weight of a sample in red, green and blue; over all samples each sums to 1",
             arguments: &[INDEX, COUNT],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: spectral_weight,
+            ..EffectFunction::BASE
         },
     ],
 };

@@ -4,7 +4,7 @@
 use crate::language::ir::{
     BrokenRule, Builder, Checked, Expr, Letters, Ty, USED_TWICE, check, specialise,
 };
-use crate::language::methods::{Forms, Inputs, Method, Values};
+use crate::language::methods::{Input, Inputs, Method, Values};
 use crate::physics::cite::Citation;
 use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
@@ -103,73 +103,50 @@ impl Domain {
 }
 
 impl Argument {
+    const fn new(name: &'static str, meaning: &'static str, ty: Ty, domain: Domain) -> Argument {
+        Argument {
+            name,
+            meaning,
+            ty,
+            domain,
+        }
+    }
+
     /// A number between `least` and `most`.
     pub const fn scalar(
         name: &'static str,
         meaning: &'static str,
-        least: f64,
-        most: f64,
+        [least, most]: [f64; 2],
     ) -> Argument {
-        let domain = Domain::Within(least, most);
-        Argument {
-            name,
-            meaning,
-            ty: Ty::Scalar,
-            domain,
-        }
+        Argument::new(name, meaning, Ty::Scalar, Domain::Within(least, most))
     }
 
     /// A point or a colour, with components between `least` and `most`.
     pub const fn vector(
         name: &'static str,
         meaning: &'static str,
-        least: f64,
-        most: f64,
+        [least, most]: [f64; 2],
     ) -> Argument {
-        let domain = Domain::Within(least, most);
-        Argument {
-            name,
-            meaning,
-            ty: Ty::Rgb,
-            domain,
-        }
+        Argument::new(name, meaning, Ty::Rgb, Domain::Within(least, most))
     }
 
     /// A direction.
     pub const fn direction(name: &'static str, meaning: &'static str) -> Argument {
-        let domain = Domain::UnitLength;
-        Argument {
-            name,
-            meaning,
-            ty: Ty::Rgb,
-            domain,
-        }
+        Argument::new(name, meaning, Ty::Rgb, Domain::UnitLength)
     }
 
     /// Two numbers between `least` and `most`.
     pub const fn pair(
         name: &'static str,
         meaning: &'static str,
-        least: f64,
-        most: f64,
+        [least, most]: [f64; 2],
     ) -> Argument {
-        let domain = Domain::Within(least, most);
-        Argument {
-            name,
-            meaning,
-            ty: Ty::Vec2,
-            domain,
-        }
+        Argument::new(name, meaning, Ty::Vec2, Domain::Within(least, most))
     }
 
     /// A matrix, a map of texture coordinates or a texture.
     pub const fn whole(name: &'static str, meaning: &'static str, ty: Ty) -> Argument {
-        Argument {
-            name,
-            meaning,
-            ty,
-            domain: Domain::Whole,
-        }
+        Argument::new(name, meaning, ty, Domain::Whole)
     }
 }
 
@@ -219,25 +196,34 @@ pub struct BuiltEffect {
 }
 
 impl EffectFunction {
+    /// The defaults: colours, without a Fresnel method, within the error that all functions keep so far. The rest is empty.
+    pub(super) const BASE: EffectFunction = EffectFunction {
+        name: "",
+        gives: "",
+        arguments: &[],
+        reflectance: Reflectance::Unused,
+        code_abs: 2e-7,
+        letters: Letters::Rgb,
+        build: |with| with.number(0.0),
+    };
+
     /// This function in each form that it has with this method: a single one, or a colour form and a scalar form.
     ///
     /// # Errors
     /// The graph breaks a rule of [`crate::language::ir::RULES`]; tests hold that none does.
     pub fn built(&'static self, method: &'static Method) -> Result<Vec<BuiltEffect>, BrokenRule> {
-        let has_scalar_form = self.reflectance.is_used() && method.forms == Forms::ColourAndScalar;
-        let forms = [(false, ""), (true, "_scalar")];
-        let forms = forms
-            .into_iter()
-            .filter(|(is_scalar, _)| !is_scalar || has_scalar_form);
-        forms
-            .map(|(is_scalar, suffix)| {
-                Ok(BuiltEffect {
-                    name: format!("{}{suffix}", self.name),
-                    record: self,
-                    function: self.graph(method, is_scalar, &Values::new())?,
-                })
+        let form = |is_scalar: bool, suffix: &str| {
+            Ok(BuiltEffect {
+                name: format!("{}{suffix}", self.name),
+                record: self,
+                function: self.graph(method, is_scalar, &Values::new())?,
             })
-            .collect()
+        };
+        let mut forms = vec![form(false, "")?];
+        if self.reflectance.is_used() && method.has_scalar_form() {
+            forms.push(form(true, "_scalar")?);
+        }
+        Ok(forms)
     }
 
     /// This function with the arguments fixed that have a value here; nothing where none has.
@@ -270,9 +256,10 @@ impl EffectFunction {
         };
         let given = self.arguments.iter().map(declare).collect();
         let fresnel = (self.reflectance.is_used()).then(|| {
-            let ty = |ty: Ty| if is_scalar { Ty::Scalar } else { ty };
-            let declare =
-                |input: &crate::language::methods::Input| builder.param(input.name, ty(input.ty));
+            let declare = |input: &Input| {
+                let ty = if is_scalar { Ty::Scalar } else { input.ty };
+                builder.param(input.name, ty)
+            };
             (method, method.inputs.iter().map(declare).collect())
         });
         let arguments = Arguments {
@@ -303,8 +290,7 @@ pub const NORMAL: Argument = Argument::direction(
 pub const ETA: Argument = Argument::scalar(
     "eta",
     "n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse",
-    0.4,
-    2.5,
+    [0.4, 2.5],
 );
 /// A matrix from the world to clip space.
 pub const VIEW_PROJECTION: Argument = Argument::whole(

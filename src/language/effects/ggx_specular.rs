@@ -5,25 +5,26 @@
 //! Microfacet-Based BRDFs*, JCGT 3, 2014, <https://jcgt.org/published/0003/02/03/>.
 //! It is single scattering: light that bounces twice is lost, up to two thirds of it at alpha 1.
 
-use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
-use crate::language::ir::{Expr, Letters};
-use crate::physics::cite::Citation;
+use super::*;
 
-const N_DOT_V: Argument = Argument::scalar("n_dot_v", "cosine between normal and view", -1.0, 1.0);
-const N_DOT_L: Argument = Argument::scalar("n_dot_l", "cosine between normal and light", -1.0, 1.0);
-const N_DOT_H: Argument =
-    Argument::scalar("n_dot_h", "cosine between normal and half vector", 0.0, 1.0);
+const N_DOT_V: Argument =
+    Argument::scalar("n_dot_v", "cosine between normal and view", [-1.0, 1.0]);
+const N_DOT_L: Argument =
+    Argument::scalar("n_dot_l", "cosine between normal and light", [-1.0, 1.0]);
+const N_DOT_H: Argument = Argument::scalar(
+    "n_dot_h",
+    "cosine between normal and half vector",
+    [0.0, 1.0],
+);
 const V_DOT_H: Argument = Argument::scalar(
     "v_dot_h",
     "cosine between view and half vector: the angle that F is taken at",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 const ALPHA: Argument = Argument::scalar(
     "alpha",
     "roughness squared; below .001 it counts as .001",
-    0.0,
-    1.0,
+    [0.0, 1.0],
 );
 
 /// The record of this effect.
@@ -51,9 +52,8 @@ pub static EFFECT: Effect = Effect {
         gives: "the BRDF, per steradian; 0 where light or view is below the surface",
         arguments: &[N_DOT_V, N_DOT_L, N_DOT_H, V_DOT_H, ALPHA],
         reflectance: Reflectance::EachChannel,
-        code_abs: 2e-7,
-        letters: Letters::Rgb,
         build: ggx_specular,
+        ..EffectFunction::BASE
     }],
 };
 

@@ -4,11 +4,7 @@
 //! `eta` is the ratio of two arbitrary indices: below 1, light leaves the denser medium. The direction keeps unit length to rounding.
 //! Close to the critical angle, a rounding error of `incident` turns it by the square root of that error.
 
-use super::effect::{
-    Arguments, ETA, Effect, EffectFunction, INCIDENT, NORMAL, Reflectance, mirrored, refraction,
-};
-use crate::language::ir::{Expr, Letters, USED_TWICE};
-use crate::physics::cite::Citation;
+use super::*;
 
 /// The record of this effect.
 pub static EFFECT: Effect = Effect {
@@ -37,28 +33,25 @@ pub static EFFECT: Effect = Effect {
             name: "reflected",
             gives: "the direction of the reflected ray; zero where the incident ray or the normal is zero",
             arguments: &[INCIDENT, NORMAL],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: reflected,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "refracted",
             gives: "the direction of the refracted ray; zero past the critical angle, and where the incident ray or the normal is zero",
             arguments: &[INCIDENT, NORMAL, ETA],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: refracted,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "interface_reflectance",
             gives: "the reflected share R; 1 where the incident ray or the normal is zero",
             arguments: &[INCIDENT, NORMAL],
             reflectance: Reflectance::EachChannel,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: interface_reflectance,
+            ..EffectFunction::BASE
         },
     ],
 };

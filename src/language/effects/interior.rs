@@ -5,25 +5,18 @@
 //! Image-space refraction at two surfaces is Wyman's (2005, <https://doi.org/10.1145/1073204.1073310>).
 //! It converges fast on convex bodies. It also finds total reflection where there is none.
 
-use super::effect::{
-    Argument, Arguments, ETA, Effect, EffectFunction, Reflectance, UV_SCALE_BIAS, VIEW_PROJECTION,
-    length, mirrored, refraction,
-};
-use crate::language::ir::{Expr, Letters, Ty, USED_TWICE};
-use crate::physics::cite::Citation;
+use super::*;
 
 const ENTRY: Argument = Argument::vector(
     "entry",
     "where the ray enters, or starts, in the world",
-    -1.0,
-    1.0,
+    [-1.0, 1.0],
 );
 const DIRECTION: Argument = Argument::direction("direction", "of the ray, of unit length");
 const DISTANCE: Argument = Argument::scalar(
     "distance",
     "the estimate so far, in units of the world: begin with the body's size; the sign is not read",
-    -4.0,
-    4.0,
+    [-4.0, 4.0],
 );
 const POSITIONS: Argument = Argument::whole(
     "positions",
@@ -79,29 +72,26 @@ pub static EFFECT: Effect = Effect {
                 UV_SCALE_BIAS,
                 POSITIONS,
             ],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: interior_search_step,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "exit_direction",
             gives: "the direction outside, or inside after total reflection, where exit_transmittance is 0; zero for a zero direction, unchanged for \
                     a zero normal",
             arguments: &[DIRECTION, NORMAL_OUT, ETA],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: exit_direction,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "exit_transmittance",
             gives: "the transmitted share T = 1 - R, 0 past the critical angle",
             arguments: &[DIRECTION, NORMAL_OUT],
             reflectance: Reflectance::FromWithin,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: exit_transmittance,
+            ..EffectFunction::BASE
         },
     ],
 };

@@ -2,17 +2,23 @@
 //! source and where it must be wrong.
 //!
 //! To add one, write its file: a `//!` header with formula and source, and a `pub static EFFECT: Effect`. Then run `tests/lists`, which
-//! writes the list below.
+//! writes the list below. Each file begins with `use super::*`, which brings the words that an effect is written with.
 //! An effect is a graph like a method's, so it is printed, run and measured in the same way. There are no loops: the application
 //! repeats a step.
 
 use std::str::FromStr;
 
+use crate::language::ir::{Expr, Letters, Ty, USED_TWICE};
+use crate::physics::cite::Citation;
 use crate::physics::names::{UnknownName, named};
 
 mod effect;
 
 pub use effect::{Argument, BuiltEffect, Domain, Effect, EffectFunction, Reflectance};
+use effect::{
+    Arguments, ETA, INCIDENT, NORMAL, UV_SCALE_BIAS, VIEW_PROJECTION, cross, length, mirrored,
+    refraction, unit_or_zero,
+};
 
 // BEGIN list (written by tests/lists)
 mod caustics;

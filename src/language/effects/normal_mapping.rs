@@ -4,11 +4,7 @@
 //! <http://image.diku.dk/projects/media/morten.mikkelsen.08.pdf>.
 //! Reflection, refraction and look-ups then happen in one space, and no ray is transformed twice.
 
-use super::effect::{
-    Argument, Arguments, Effect, EffectFunction, NORMAL, Reflectance, cross, unit_or_zero,
-};
-use crate::language::ir::{Expr, Letters};
-use crate::physics::cite::Citation;
+use super::*;
 
 const TANGENT_NORMAL: Argument = Argument::direction(
     "tangent_normal",
@@ -18,8 +14,7 @@ const TANGENT: Argument = Argument::direction("tangent", "of unit length, along 
 const BITANGENT_SIGN: Argument = Argument::scalar(
     "bitangent_sign",
     "1, or -1 where the texture is mirrored: bitangent = sign cross(normal, tangent)",
-    -1.0,
-    1.0,
+    [-1.0, 1.0],
 );
 
 /// The record of this effect.
@@ -44,10 +39,9 @@ pub static EFFECT: Effect = Effect {
         name: "normal_to_world",
         gives: "the mapped normal, of unit length, in the space of tangent and normal; zero where these are zero",
         arguments: &[TANGENT_NORMAL, TANGENT, BITANGENT_SIGN, NORMAL],
-        reflectance: Reflectance::Unused,
-        code_abs: 2e-7,
         letters: Letters::Xyz,
         build: normal_to_world,
+        ..EffectFunction::BASE
     }],
 };
 

@@ -6,17 +6,12 @@
 //! 2005, <https://doi.org/10.1111/j.1467-8659.2005.0m894.x>.
 //! A box is intersected in closed form. Any other room is intersected by steps of a search in a cube map of distances.
 
-use super::effect::{
-    Argument, Arguments, Effect, EffectFunction, Reflectance, length, unit_or_zero,
-};
-use crate::language::ir::{Expr, Letters, Ty};
-use crate::physics::cite::Citation;
+use super::*;
 
 const POSITION: Argument = Argument::vector(
     "position",
     "where the ray starts, inside the room, in the world",
-    -1.0,
-    1.0,
+    [-1.0, 1.0],
 );
 const DIRECTION: Argument = Argument::direction(
     "direction",
@@ -25,22 +20,19 @@ const DIRECTION: Argument = Argument::direction(
 const BOX_MIN: Argument = Argument::vector(
     "box_min",
     "the room's corner with the smallest coordinates",
-    -4.0,
-    -1.0,
+    [-4.0, -1.0],
 );
 const BOX_MAX: Argument = Argument::vector(
     "box_max",
     "the room's corner with the largest coordinates",
-    1.0,
-    4.0,
+    [1.0, 4.0],
 );
 const CUBE_CENTRE: Argument =
-    Argument::vector("cube_centre", "where the cube map was taken", -1.0, 1.0);
+    Argument::vector("cube_centre", "where the cube map was taken", [-1.0, 1.0]);
 const DISTANCE: Argument = Argument::scalar(
     "distance",
     "the estimate so far, in units of the world: begin with the room's size",
-    0.0,
-    4.0,
+    [0.0, 4.0],
 );
 const DISTANCE_CUBE: Argument = Argument::whole(
     "distance_cube",
@@ -80,19 +72,17 @@ pub static EFFECT: Effect = Effect {
             name: "box_parallax",
             gives: "the direction of the look-up, of the length from cube_centre to the wall; zero for a zero direction",
             arguments: &[POSITION, DIRECTION, BOX_MIN, BOX_MAX, CUBE_CENTRE],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: box_parallax,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "cube_search_step",
             gives: "a better distance",
             arguments: &[POSITION, DIRECTION, DISTANCE, CUBE_CENTRE, DISTANCE_CUBE],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: cube_search_step,
+            ..EffectFunction::BASE
         },
     ],
 };

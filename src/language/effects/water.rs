@@ -4,19 +4,14 @@
 //! <https://developer.nvidia.com/gpugems/gpugems2/part-ii-shading-lighting-and-shadows/chapter-19-generic-refraction-simulation>.
 //! The refracted look-up is used only where it shows something below the water, so nothing in front of the water leaks into it.
 
-use super::effect::{
-    Argument, Arguments, Effect, EffectFunction, Reflectance, UV_SCALE_BIAS, VIEW_PROJECTION,
-};
-use crate::language::ir::{Expr, Letters, Ty};
-use crate::physics::cite::Citation;
+use super::*;
 
-const POSITION: Argument = Argument::vector("position", "in the world", -1.0, 1.0);
-const UV: Argument = Argument::pair("uv", "of the pixel in the picture", 0.0, 1.0);
+const POSITION: Argument = Argument::vector("position", "in the world", [-1.0, 1.0]);
+const UV: Argument = Argument::pair("uv", "of the pixel in the picture", [0.0, 1.0]);
 const DISTORTION: Argument = Argument::pair(
     "distortion",
     "by how much the waves bend it, in texture coordinates",
-    -0.1,
-    0.1,
+    [-0.1, 0.1],
 );
 const MAP: Argument = Argument::whole(
     "map",
@@ -55,19 +50,16 @@ pub static EFFECT: Effect = Effect {
             name: "planar_uv",
             gives: "texture coordinates in x and y, and w in z: 0 or less is behind the camera",
             arguments: &[POSITION, VIEW_PROJECTION, UV_SCALE_BIAS],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: planar_uv,
+            ..EffectFunction::BASE
         },
         EffectFunction {
             name: "water_refraction",
             gives: "the colour below the water, never one from before it",
             arguments: &[UV, DISTORTION, MAP],
-            reflectance: Reflectance::Unused,
-            code_abs: 2e-7,
-            letters: Letters::Rgb,
             build: water_refraction,
+            ..EffectFunction::BASE
         },
     ],
 };
