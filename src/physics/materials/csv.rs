@@ -15,7 +15,7 @@
 use super::decimal::{Unit, clipped};
 use super::file::FileFault;
 use super::page::{Page, check_text};
-use super::rows::{Columns, RowFault, TableReader};
+use super::rows::{Columns, TableReader};
 use crate::physics::spectra::is_separator;
 
 const ALLOWED: &str =
@@ -33,51 +33,40 @@ impl Page {
             ..Page::default()
         };
         let mut table: Option<Table> = None;
-        for (at, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-            let source = Line {
-                file,
-                number: at + 1,
-                text: line,
-            };
+        for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
             // `sep=;` is for Excel.
             if line.trim().is_empty() || line.starts_with('#') || is_separator(line) {
                 continue;
             }
-            match (header(line), &mut table) {
+            match (header(line, number), &mut table) {
                 (Some(next), _) => {
-                    let last = table.replace(Table::new(next, at + 1));
-                    page.add_table(last)?;
+                    if let Some(last) = table.replace(next) {
+                        page.add_table(last)?;
+                    }
                 }
                 (None, Some(table)) => {
                     let row = table.rows.push(cells(line, table.separator));
-                    row.map_err(|fault| source.in_row(fault, table.separator))?;
+                    row.map_err(|fault| {
+                        let cells = line.split(table.separator).take(fault.column);
+                        let before: usize = cells.map(|cell| cell.chars().count() + 1).sum();
+                        FileFault::new(file, number, before + 1, fault.what)
+                    })?;
                 }
-                (None, None) => return Err(source.no_header()),
+                (None, None) => return Err(FileFault::new(file, number, 1, no_header(line))),
             }
         }
-        let is_empty = table.is_none();
-        page.add_table(table)?;
-        if is_empty {
+        let Some(last) = table else {
             let what = format!("no table; a header begins one: {ALLOWED}");
-            return Err(Line {
-                file,
-                number: 1,
-                text,
-            }
-            .fault(0, what));
-        }
+            return Err(FileFault::new(file, 1, 1, what));
+        };
+        page.add_table(last)?;
         Ok(page)
     }
 
-    fn add_table(&mut self, table: Option<Table>) -> Result<(), FileFault> {
-        let Some(table) = table else { return Ok(()) };
+    fn add_table(&mut self, table: Table) -> Result<(), FileFault> {
         if table.rows.is_empty() {
-            let line = Line {
-                file: &self.file,
-                number: table.line,
-                text: "",
-            };
-            return Err(line.fault(0, "the table of this header has no rows".to_owned()));
+            let what = "the table of this header has no rows".to_owned();
+            return Err(FileFault::new(&self.file, table.line, 1, what));
         }
         let mut remarks = Vec::new();
         let (n, k) = table.rows.curves(&mut remarks);
@@ -93,34 +82,22 @@ struct Table {
     line: usize,
 }
 
-impl Table {
-    fn new(header: Header, line: usize) -> Table {
-        Table {
-            rows: TableReader::new(header.columns, header.unit),
-            separator: header.separator,
-            line,
-        }
-    }
-}
-
-struct Header {
-    columns: Columns,
-    unit: Unit,
-    separator: char,
-}
-
 /// The separator that stands for any blanks.
 const BLANK: char = ' ';
 
-/// The header in a line, if the line is one.
-fn header(line: &str) -> Option<Header> {
+/// The table that this line begins, if it is a header.
+fn header(line: &str, number: usize) -> Option<Table> {
     let separators = [';', '\t', ',', BLANK];
-    separators
-        .into_iter()
-        .find_map(|separator| header_with(line, separator))
+    separators.into_iter().find_map(|separator| {
+        Some(Table {
+            rows: rows_with(line, separator)?,
+            separator,
+            line: number,
+        })
+    })
 }
 
-fn header_with(line: &str, separator: char) -> Option<Header> {
+fn rows_with(line: &str, separator: char) -> Option<TableReader> {
     // With blanks as separators, a unit in brackets would be a cell of its own.
     let line = match separator {
         BLANK => line.replace(" (", "(").replace(" [", "["),
@@ -135,11 +112,7 @@ fn header_with(line: &str, separator: char) -> Option<Header> {
         ["n", "k"] => Columns::Nk,
         _ => return None,
     };
-    Some(Header {
-        columns,
-        unit: unit(first)?,
-        separator,
-    })
+    Some(TableReader::new(columns, unit(first)?))
 }
 
 /// The unit in the name of a wavelength column.
@@ -196,41 +169,14 @@ fn bare(cell: &str) -> &str {
     inside.unwrap_or(cell)
 }
 
-/// A line of the file, for messages.
-struct Line<'a> {
-    file: &'a str,
-    number: usize,
-    text: &'a str,
-}
-
-impl Line<'_> {
-    fn no_header(&self) -> FileFault {
-        let found = clipped(self.text.trim());
-        let is_row = self
-            .text
-            .trim_start_matches(['"', ' ', '+', '-', '.'])
-            .starts_with(|c: char| c.is_ascii_digit());
-        let what = if is_row {
-            format!("`{found}` stands before any header, which names the unit; {ALLOWED}")
-        } else {
-            format!("`{found}` is no header that is understood; {ALLOWED}")
-        };
-        self.fault(0, what)
-    }
-
-    fn in_row(&self, fault: RowFault, separator: char) -> FileFault {
-        let cells = self.text.split(separator).take(fault.column);
-        let column = cells.map(|cell| cell.chars().count() + 1).sum();
-        self.fault(column, fault.what)
-    }
-
-    fn fault(&self, column: usize, what: String) -> FileFault {
-        FileFault {
-            file: self.file.to_owned(),
-            line: self.number,
-            column: column + 1,
-            what,
-        }
+/// What is wrong with a line before any header.
+fn no_header(line: &str) -> String {
+    let found = clipped(line.trim());
+    let sign = line.trim_start_matches(['"', ' ', '+', '-', '.']);
+    if sign.starts_with(|c: char| c.is_ascii_digit()) {
+        format!("`{found}` stands before any header, which names the unit; {ALLOWED}")
+    } else {
+        format!("`{found}` is no header that is understood; {ALLOWED}")
     }
 }
 
@@ -279,44 +225,41 @@ mod tests {
     }
 
     #[track_caller]
-    fn refused(text: &str, line: usize, column: usize, says: &str) {
+    fn refused(text: &str, at: [usize; 2], says: &str) {
         let fault = Page::parse_csv("gold.csv", text).expect_err("it is refused");
         assert!(fault.what.contains(says), "{fault}");
-        assert_eq!((fault.line, fault.column), (line, column), "{fault}");
+        assert_eq!([fault.line, fault.column], at, "{fault}");
     }
 
     #[test]
     fn each_fault_names_its_line() {
-        refused("", 1, 1, "no table");
-        refused("# nothing\n", 1, 1, "no table");
+        refused("", [1, 1], "no table");
+        refused("# nothing\n", [1, 1], "no table");
         refused(
             "400,1.5\n",
-            1,
-            1,
+            [1, 1],
             "`400,1.5` stands before any header, which names the unit; allowed are",
         );
         refused(
             "wavelength,n\n400,1.5\n",
-            1,
-            1,
+            [1, 1],
             "`wavelength,n` is no header that is understood; allowed are",
         );
-        refused("ev,n\n4,1.5\n", 1, 1, "no header that is understood");
-        refused("nm,n\n", 1, 1, "has no rows");
-        refused("nm,n\nnm,k\n400,1", 1, 1, "has no rows");
-        refused("nm,n\n400,1.5\n\n500,x\n", 4, 5, "`x` is no number");
+        refused("ev,n\n4,1.5\n", [1, 1], "no header that is understood");
+        refused("nm,n\n", [1, 1], "has no rows");
+        refused("nm,n\nnm,k\n400,1", [1, 1], "has no rows");
+        refused("nm,n\n400,1.5\n\n500,x\n", [4, 5], "`x` is no number");
         refused(
             "nm,n,k\n400,1.5\n",
-            2,
-            1,
+            [2, 1],
             "a row of 2 numbers; it wants wavelength, n, k",
         );
-        refused("nm,n\n400,1.80-17\n", 2, 5, "did you mean 1.80e-17?");
-        refused("nm;n\n400;1,5\n", 2, 5, "did you mean 1.5?");
-        refused("nm,n\n0,1\n", 2, 1, "must be above 0");
-        refused("nm,n\n400,nan\n", 2, 5, "not a finite number");
-        refused("nm,k\n400,-1\n", 2, 5, "k is -1");
-        refused("nm,n\n400,1\0\n", 2, 6, "NUL");
+        refused("nm,n\n400,1.80-17\n", [2, 5], "did you mean 1.80e-17?");
+        refused("nm;n\n400;1,5\n", [2, 5], "did you mean 1.5?");
+        refused("nm,n\n0,1\n", [2, 1], "must be above 0");
+        refused("nm,n\n400,nan\n", [2, 5], "not a finite number");
+        refused("nm,k\n400,-1\n", [2, 5], "k is -1");
+        refused("nm,n\n400,1\0\n", [2, 6], "NUL");
     }
 
     #[test]

@@ -56,16 +56,7 @@ struct Raw {
     data: Option<RawRows>,
     n: Option<RawRows>,
     k: Option<RawRows>,
-    n_formula: Option<Spanned<RawFormula>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawFormula {
-    number: u8,
-    from_nm: f64,
-    to_nm: f64,
-    coefficients: Vec<f64>,
+    n_formula: Option<Spanned<Formula>>,
 }
 
 const FIELDS: [&str; 15] = [
@@ -129,17 +120,16 @@ impl Material {
             place.one_line(name, field)?;
         }
         for (name, field) in [("page", &raw.page), ("conditions", &raw.conditions)] {
-            field
-                .iter()
-                .try_for_each(|field| place.one_line(name, field))?;
+            if let Some(field) = field {
+                place.one_line(name, field)?;
+            }
         }
-        let rgb_nm = raw
-            .rgb_nm
-            .as_ref()
-            .map(|rgb| place.three(rgb))
-            .transpose()?;
+        let rgb_nm = raw.rgb_nm.as_ref();
+        let rgb_nm = rgb_nm.map(|rgb| place.three(rgb)).transpose()?;
         let (n, k) = curves(&raw, &place)?;
         let name = raw.name.into_inner();
+        let text =
+            |field: Option<Spanned<String>>| field.map_or(String::new(), Spanned::into_inner);
         Ok(Material {
             substance: raw.substance.map_or(name.clone(), Spanned::into_inner),
             name,
@@ -148,9 +138,9 @@ impl Material {
             licence: raw.licence.into_inner(),
             reference: raw.reference.into_inner(),
             link: raw.link.into_inner(),
-            page: raw.page.map_or(String::new(), Spanned::into_inner),
-            conditions: raw.conditions.map_or(String::new(), Spanned::into_inner),
-            note: raw.note.map_or(String::new(), Spanned::into_inner),
+            page: text(raw.page),
+            conditions: text(raw.conditions),
+            note: text(raw.note),
             rgb_nm,
             n,
             k,
@@ -220,13 +210,10 @@ fn formula_fault(formula: &Formula) -> Option<String> {
 }
 
 fn check_name(field: &str, name: &Spanned<String>, place: &FileText) -> Result<(), FileFault> {
-    match name_fault(name.get_ref()) {
-        None => Ok(()),
-        Some(why) => {
-            let what = format!("field `{field}`: `{}` is no name: {why}", name.get_ref());
-            Err(place.fault(name.span().start, what))
-        }
-    }
+    name_fault(name.get_ref()).map_or(Ok(()), |why| {
+        let what = format!("field `{field}`: `{}` is no name: {why}", name.get_ref());
+        Err(place.fault(name.span().start, what))
+    })
 }
 
 /// Why a material cannot have this name: it becomes part of the names of functions and files.
@@ -287,11 +274,8 @@ impl FileText<'_> {
         field: &str,
         columns: &[Column],
     ) -> Result<Vec<Vec<f64>>, FileFault> {
-        let wanted = columns
-            .iter()
-            .map(|(name, ..)| *name)
-            .collect::<Vec<_>>()
-            .join(", ");
+        let names: Vec<&str> = columns.iter().map(|(name, ..)| *name).collect();
+        let wanted = names.join(", ");
         if rows.get_ref().is_empty() {
             let what = format!("field `{field}` is empty; it wants rows of [{wanted}]");
             return Err(self.fault(rows.span().start, what));
@@ -351,16 +335,9 @@ impl FileText<'_> {
     }
 
     /// A formula, checked to have all its numbers.
-    fn formula(&self, raw: &Spanned<RawFormula>) -> Result<Formula, FileFault> {
-        let fields = raw.get_ref();
-        let formula = Formula {
-            number: fields.number,
-            coefficients: fields.coefficients.clone(),
-            from_nm: fields.from_nm,
-            to_nm: fields.to_nm,
-        };
-        match formula_fault(&formula) {
-            None => Ok(formula),
+    fn formula(&self, raw: &Spanned<Formula>) -> Result<Formula, FileFault> {
+        match formula_fault(raw.get_ref()) {
+            None => Ok(raw.get_ref().clone()),
             Some(what) => Err(self.fault(raw.span().start, format!("field `n_formula`: {what}"))),
         }
     }

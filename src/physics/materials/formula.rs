@@ -18,21 +18,24 @@
 //! Source: M. N. Polyanskiy, *Refractiveindex.info database of optical constants*, Scientific Data 11, 94 (2024),
 //! <https://doi.org/10.1038/s41597-023-02898-2>, and the document "Dispersion formulas" of that database.
 
+use serde::Deserialize;
+
 use super::decimal::short;
 use crate::physics::num::{Interval, Num};
 use crate::physics::spectra::Spectrum;
 
 /// A dispersion formula with its coefficients and the range that it was fitted to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct RawFormula")]
 pub struct Formula {
     /// 1 to 9.
     pub number: u8,
-    /// C1, C2, …
-    pub coefficients: Vec<f64>,
     /// The shortest wavelength, in nanometres.
     pub from_nm: f64,
     /// The longest wavelength, in nanometres.
     pub to_nm: f64,
+    /// C1, C2, …
+    pub coefficients: Vec<f64>,
 }
 
 /// The formula numbers that exist.
@@ -362,16 +365,25 @@ impl DispersionCurve {
 mod tests {
     use super::*;
 
-    #[track_caller]
-    fn check(number: u8, coefficients: &[f64], nm: f64, n: f64, within: f64) {
-        let formula = Formula {
+    fn formula(number: u8, coefficients: &[f64]) -> Formula {
+        Formula {
             number,
             coefficients: coefficients.to_vec(),
             from_nm: 100.0,
             to_nm: 10_000.0,
-        };
-        let got = formula.n(nm).expect("an index");
+        }
+    }
+
+    #[track_caller]
+    fn check(number: u8, coefficients: &[f64], nm: f64, n: f64, within: f64) {
+        let got = formula(number, coefficients).n(nm).expect("an index");
         assert!((got - n).abs() <= within, "{got} {n}");
+    }
+
+    /// The same at 500 nm, for what follows by hand: the formula's value is n², to rounding.
+    #[track_caller]
+    fn check_square(number: u8, coefficients: &[f64], square: f64) {
+        check(number, coefficients, 500.0, square.sqrt(), 1e-15);
     }
 
     /// Each with an index that the manufacturer prints, or that follows by hand.
@@ -391,56 +403,27 @@ mod tests {
             103.560653,
         ];
         check(2, &bk7, 587.5618, 1.5168, 5e-6);
-        check(
-            3,
-            &[2.25, 0.04, -2.0, 0.0001, 4.0],
-            500.0,
-            (2.41000625_f64).sqrt(),
-            1e-15,
-        );
+        check_square(3, &[2.25, 0.04, -2.0, 0.0001, 4.0], 2.41000625);
         // 2 + 3·0.25/(0.25 - 0.01) + 0 + 0.5·0.25
         let four = [2.0, 3.0, 2.0, 0.1, 2.0, 0.0, 0.0, 0.0, 0.0, 0.5, 2.0];
-        check(4, &four, 500.0, (2.0_f64 + 3.125 + 0.125).sqrt(), 1e-15);
+        check_square(4, &four, 2.0 + 3.125 + 0.125);
         check(5, &[1.5, 0.01, -2.0], 500.0, 1.54, 1e-15);
         check(6, &[0.0, 0.02, 100.0], 500.0, 1.0 + 0.02 / 96.0, 1e-15);
-        check(
-            7,
-            &[1.5, 0.0222, 0.0, 0.0, 0.0, 16.0],
-            500.0,
-            1.5 + 0.1 + 0.25,
-            1e-14,
-        );
+        let seven = [1.5, 0.0222, 0.0, 0.0, 0.0, 16.0];
+        check(7, &seven, 500.0, 1.5 + 0.1 + 0.25, 1e-14);
         // A value of 1/4 is n² = 1.5/0.75.
-        check(8, &[0.25], 500.0, 2.0_f64.sqrt(), 1e-15);
-        check(
-            9,
-            &[1.0, 0.24, 0.01, 0.5, 0.5, 1.0],
-            500.0,
-            2.0_f64.sqrt(),
-            1e-15,
-        );
+        check_square(8, &[0.25], 2.0);
+        check_square(9, &[1.0, 0.24, 0.01, 0.5, 0.5, 1.0], 2.0);
     }
 
     #[test]
     fn a_coefficient_without_its_partner_has_the_partner_0() {
-        check(
-            2,
-            &[0.0, 1.0, 0.01, 0.5],
-            500.0,
-            (1.0_f64 + 0.25 / 0.24 + 0.5).sqrt(),
-            1e-15,
-        );
+        check_square(2, &[0.0, 1.0, 0.01, 0.5], 1.0 + 0.25 / 0.24 + 0.5);
     }
 
     #[track_caller]
     fn misses(number: u8, count: usize, says: Option<&str>) {
-        let formula = Formula {
-            number,
-            coefficients: vec![1.0; count],
-            from_nm: 100.0,
-            to_nm: 10_000.0,
-        };
-        let found = formula.missing_partner();
+        let found = formula(number, &vec![1.0; count]).missing_partner();
         let is_said = match (&found, says) {
             (Some(found), Some(says)) => found.contains(says),
             (found, says) => found.is_none() && says.is_none(),
@@ -480,34 +463,18 @@ mod tests {
         misses(9, 4, Some("C4 wants all up to C6"));
         misses(9, 5, Some("C4 wants all up to C6"));
         // A factor of 0 adds nothing, whatever its exponent or pole.
-        let zeros = Formula {
-            number: 4,
-            coefficients: vec![2.0, 1.0, 2.0, 0.1, 2.0, 0.0, 0.0],
-            from_nm: 100.0,
-            to_nm: 10_000.0,
-        };
-        assert_eq!(zeros.missing_partner(), None);
+        let zeros = [2.0, 1.0, 2.0, 0.1, 2.0, 0.0, 0.0];
+        assert_eq!(formula(4, &zeros).missing_partner(), None);
     }
 
     #[test]
     fn what_is_no_index_is_refused() {
-        let formula = |number, coefficients: &[f64]| Formula {
-            number,
-            coefficients: coefficients.to_vec(),
-            from_nm: 100.0,
-            to_nm: 1000.0,
-        };
         assert!(formula(3, &[-1.0]).n(500.0).is_err());
         assert!(formula(5, &[-1.0]).n(500.0).is_err());
         assert!(formula(2, &[0.0, 1.0, 0.25]).n(500.0).is_err());
         assert!(formula(10, &[1.0]).n(500.0).is_err());
         assert!(formula(5, &[]).n(500.0).is_err());
     }
-}
-
-#[cfg(test)]
-mod dispersion_tests {
-    use super::*;
 
     fn table() -> DispersionCurve {
         DispersionCurve::table(vec![(400.0, 1.0), (500.0, 3.0)]).expect("it ascends")

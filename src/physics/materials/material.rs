@@ -240,6 +240,7 @@ impl fmt::Display for ConstantIndex {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::materials::name_fault;
     use crate::physics::optics;
 
     #[test]
@@ -262,12 +263,6 @@ mod tests {
         let same = murky.relative_to(murky);
         assert!((same.n - 1.0).abs() < 1e-15 && same.k == 0.0);
     }
-}
-
-#[cfg(test)]
-mod constant_tests {
-    use super::*;
-    use crate::physics::materials::{Extrapolate, Index, name_fault};
 
     #[track_caller]
     fn check(word: &str, argument: &str, name: &str) {

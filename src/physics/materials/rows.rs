@@ -319,14 +319,9 @@ mod tests {
             "k is -0.21; it must not be below 0, and only down to -0.2 is it taken for noise",
         );
     }
-}
-
-#[cfg(test)]
-mod trim_tests {
-    use super::*;
 
     #[track_caller]
-    fn check(from_nm: f64, to_nm: f64, kept: &[f64]) {
+    fn check_within(from_nm: f64, to_nm: f64, kept: &[f64]) {
         let point = |nm| (nm, 1.0);
         let points = [300.0, 400.0, 500.0, 600.0].map(point);
         let got = within(&points, from_nm, to_nm).iter().map(|p| p.0);
@@ -335,14 +330,14 @@ mod trim_tests {
 
     #[test]
     fn the_rows_around_the_range_stay() {
-        check(400.0, 500.0, &[400.0, 500.0]);
-        check(401.0, 499.0, &[400.0, 500.0]);
-        check(399.0, 501.0, &[300.0, 400.0, 500.0, 600.0]);
-        check(100.0, 900.0, &[300.0, 400.0, 500.0, 600.0]);
-        check(100.0, 200.0, &[300.0]);
-        check(700.0, 900.0, &[600.0]);
-        check(500.0, 400.0, &[500.0]);
-        check(f64::NAN, f64::NAN, &[300.0]);
+        check_within(400.0, 500.0, &[400.0, 500.0]);
+        check_within(401.0, 499.0, &[400.0, 500.0]);
+        check_within(399.0, 501.0, &[300.0, 400.0, 500.0, 600.0]);
+        check_within(100.0, 900.0, &[300.0, 400.0, 500.0, 600.0]);
+        check_within(100.0, 200.0, &[300.0]);
+        check_within(700.0, 900.0, &[600.0]);
+        check_within(500.0, 400.0, &[500.0]);
+        check_within(f64::NAN, f64::NAN, &[300.0]);
         assert_eq!(within(&[], 1.0, 2.0), &[]);
     }
 }

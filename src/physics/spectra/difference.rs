@@ -107,6 +107,9 @@ pub fn colour_error(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::optics;
+    use crate::physics::spectra::{Integrator, Space, Spectrum};
+    use glam::DVec2;
 
     /// L, a, b of two colours and their difference: table 1 of Sharma, Wu and Dalal.
     #[rustfmt::skip]
@@ -151,26 +154,11 @@ mod tests {
     fn the_published_pairs_come_out_both_ways() {
         assert_eq!(PAIRS.len(), 34);
         for [l1, a1, b1, l2, a2, b2, wanted] in PAIRS {
-            let (one, other) = (
-                Lab {
-                    l: l1,
-                    a: a1,
-                    b: b1,
-                },
-                Lab {
-                    l: l2,
-                    a: a2,
-                    b: b2,
-                },
-            );
-            assert!(
-                (ciede2000(one, other) - wanted).abs() < 1e-4,
-                "{one:?} {other:?}"
-            );
-            assert!(
-                (ciede2000(other, one) - wanted).abs() < 1e-4,
-                "{other:?} {one:?}"
-            );
+            let lab = |l, a, b| Lab { l, a, b };
+            let (one, other) = (lab(l1, a1, b1), lab(l2, a2, b2));
+            for got in [ciede2000(one, other), ciede2000(other, one)] {
+                assert!((got - wanted).abs() < 1e-4, "{one:?} {other:?}");
+            }
             assert_eq!(ciede2000(one, one), 0.0);
         }
     }
@@ -190,14 +178,6 @@ mod tests {
         check(0.001, 116.0 * (0.841 / 108.0 + 4.0 / 29.0) - 16.0);
         check(0.0, 0.0);
     }
-}
-
-#[cfg(test)]
-mod colour_error_tests {
-    use super::*;
-    use crate::physics::optics;
-    use crate::physics::spectra::{Integrator, Space, Spectrum};
-    use glam::DVec2;
 
     /// Gold, n and k by wavelength in nm: P. B. Johnson, R. W. Christy, Phys. Rev. B 6, 4370, 1972, table I, as given by
     /// refractiveindex.info (CC0), main/Au/nk/Johnson.

@@ -87,12 +87,7 @@ impl Illuminant {
     pub fn parse(file: &str, text: &str) -> Result<Illuminant, FileFault> {
         let rows = rows(file, text, COLUMNS)?;
         if let Some((line, what)) = range_fault(&rows) {
-            return Err(FileFault {
-                file: file.to_owned(),
-                line,
-                column: 1,
-                what,
-            });
+            return Err(FileFault::new(file, line, 1, what));
         }
         let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
         Ok(Illuminant::Table {

@@ -170,7 +170,6 @@ const ACES_ADAPTS: &str = "a mirror is made white by dividing each channel; ACES
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::spectra::{Adaptation, Illuminant, Observer, Space, Step};
 
     /// All combinations of named choices.
     fn all_choices() -> Vec<Integration> {
@@ -292,12 +291,6 @@ mod tests {
         };
         assert!(Integrator::new(&choices).is_err());
     }
-}
-
-#[cfg(test)]
-mod tristimulus_tests {
-    use super::*;
-    use crate::physics::spectra::{Space, Step};
 
     fn white(light: &Illuminant, step: Step) -> DVec3 {
         let wavelengths = step.wavelengths();
@@ -336,11 +329,6 @@ mod tristimulus_tests {
             "{rgb}"
         );
     }
-}
-
-#[cfg(test)]
-mod integration_tests {
-    use super::*;
 
     #[test]
     fn one_line_says_all() {

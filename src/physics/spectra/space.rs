@@ -243,6 +243,7 @@ pub fn bradford(from: DVec3, to: DVec3) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::spectra::{Illuminant, Observer, Step, weighted_sum, xyz_weights};
 
     #[test]
     fn encoding_is_that_of_the_standard() {
@@ -315,11 +316,6 @@ mod tests {
             );
         }
     }
-}
-
-#[cfg(test)]
-mod gamut_tests {
-    use super::*;
 
     #[track_caller]
     fn check(rgb: [f64; 3], clip: [f64; 3], scale: [f64; 3]) {
@@ -339,12 +335,6 @@ mod gamut_tests {
             assert!(gamut.apply(DVec3::NAN).is_nan());
         }
     }
-}
-
-#[cfg(test)]
-mod adaptation_tests {
-    use super::*;
-    use crate::physics::spectra::{Illuminant, Observer, Space, Step, weighted_sum, xyz_weights};
 
     #[test]
     fn white_becomes_white_and_back() {

@@ -48,11 +48,8 @@ pub(super) fn rows<const N: usize>(
             continue;
         }
         let before = rows.last().map(|row| row.values[0]);
-        let values = numbers(&fields, columns, before).map_err(|(offset, what)| FileFault {
-            file: file.to_owned(),
-            line: index + 1,
-            column: line[..offset].chars().count() + 1,
-            what,
+        let values = numbers(&fields, columns, before).map_err(|(offset, what)| {
+            FileFault::new(file, index + 1, line[..offset].chars().count() + 1, what)
         })?;
         rows.push(SpectrumRow {
             line: index + 1,
@@ -60,12 +57,8 @@ pub(super) fn rows<const N: usize>(
         });
     }
     if rows.is_empty() {
-        return Err(FileFault {
-            file: file.to_owned(),
-            line: text.lines().count().max(1),
-            column: 1,
-            what: format!("no row of numbers; a row is {}", columns.join(", ")),
-        });
+        let what = format!("no row of numbers; a row is {}", columns.join(", "));
+        return Err(FileFault::new(file, text.lines().count().max(1), 1, what));
     }
     Ok(rows)
 }
@@ -193,37 +186,36 @@ mod tests {
     }
 
     #[track_caller]
-    fn check(text: &str, line: usize, column: usize, says: &str) {
+    fn check(text: &str, at: [usize; 2], says: &str) {
         let fault = read(text).expect_err("a fault");
         assert!(fault.what.contains(says), "{fault}");
-        assert_eq!((fault.line, fault.column), (line, column), "{fault}");
+        assert_eq!([fault.line, fault.column], at, "{fault}");
     }
 
     #[test]
     fn each_fault_names_its_place_and_what_is_allowed() {
-        check("", 1, 1, "no row of numbers");
-        check("# only this\nnm,power\n", 2, 1, "no row of numbers");
-        check("380,1\n780", 2, 1, "1 fields; a row is 2 numbers");
-        check("380,1\n 780,2,3", 2, 2, "3 fields");
-        check("380,1,,\n", 1, 1, "3 fields");
-        check("380;1\n780;2,5", 2, 5, "`2,5`, which is no number");
-        check("380,1\n780,", 2, 5, "``, which is no number");
-        check("38O,1\n", 1, 1, "`38O`");
-        check("nm,power\nnm,power\n380,1", 2, 1, "`nm`");
-        check("380,1\nnm,power", 2, 1, "`nm`");
-        check("nan,nan", 1, 1, "nm is NaN");
-        check("380,1\nινφ,inf", 2, 1, "`ινφ`");
+        check("", [1, 1], "no row of numbers");
+        check("# only this\nnm,power\n", [2, 1], "no row of numbers");
+        check("380,1\n780", [2, 1], "1 fields; a row is 2 numbers");
+        check("380,1\n 780,2,3", [2, 2], "3 fields");
+        check("380,1,,\n", [1, 1], "3 fields");
+        check("380;1\n780;2,5", [2, 5], "`2,5`, which is no number");
+        check("380,1\n780,", [2, 5], "``, which is no number");
+        check("38O,1\n", [1, 1], "`38O`");
+        check("nm,power\nnm,power\n380,1", [2, 1], "`nm`");
+        check("380,1\nnm,power", [2, 1], "`nm`");
+        check("nan,nan", [1, 1], "nm is NaN");
+        check("380,1\nινφ,inf", [2, 1], "`ινφ`");
         check(
             "380,1\n390, inf",
-            2,
-            6,
+            [2, 6],
             "power is inf; it must lie between 0 and 1e30",
         );
-        check("380,-1", 1, 5, "power is -1");
-        check("380,1e400", 1, 5, "power is inf");
-        check("0.38,1", 1, 1, "between 1 and 1e6");
-        check("380,1\n380,1", 2, 1, "must ascend");
-        check("380,1\n379,1", 2, 1, "379 nm after 380 nm");
+        check("380,-1", [1, 5], "power is -1");
+        check("380,1e400", [1, 5], "power is inf");
+        check("0.38,1", [1, 1], "between 1 and 1e6");
+        check("380,1\n380,1", [2, 1], "must ascend");
+        check("380,1\n379,1", [2, 1], "379 nm after 380 nm");
     }
 
     #[test]

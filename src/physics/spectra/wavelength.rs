@@ -68,15 +68,22 @@ pub struct FileFault {
 }
 
 impl FileFault {
+    /// A fault at a line and a column, both from 1.
+    pub fn new(file: &str, line: usize, column: usize, what: String) -> FileFault {
+        FileFault {
+            file: file.to_owned(),
+            line,
+            column,
+            what,
+        }
+    }
+
     /// A fault at a byte offset of a text, from which line and column are counted.
     pub fn at(file: &str, text: &str, offset: usize, what: String) -> FileFault {
         let before = text.get(..offset).unwrap_or("");
-        FileFault {
-            file: file.to_owned(),
-            line: before.matches('\n').count() + 1,
-            column: before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
-            what,
-        }
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        FileFault::new(file, line, column, what)
     }
 }
 

@@ -27,12 +27,7 @@ pub fn read(
     text: &str,
     data: Option<Vec<Spanned<RawItem>>>,
 ) -> Result<Vec<Item>, FileFault> {
-    let whole = |what: &str| FileFault {
-        file: file.to_owned(),
-        line: 1,
-        column: 1,
-        what: what.to_owned(),
-    };
+    let whole = |what: &str| FileFault::new(file, 1, 1, what.to_owned());
     match data {
         None => Err(whole("DATA is missing: no page of refractiveindex.info")),
         Some(items) if items.is_empty() => Err(whole("DATA is empty")),
@@ -202,12 +197,8 @@ impl Source<'_> {
         }
         let token = line.split_whitespace().nth(fault.column).unwrap_or(line);
         let before = token.as_ptr() as usize - line.as_ptr() as usize;
-        FileFault {
-            file: self.file.to_owned(),
-            line: number,
-            column: line[..before].chars().count() + 1,
-            what: fault.what,
-        }
+        let column = line[..before].chars().count() + 1;
+        FileFault::new(self.file, number, column, fault.what)
     }
 
     fn fault(&self, at: Location, what: String) -> FileFault {

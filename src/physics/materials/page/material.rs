@@ -85,12 +85,7 @@ impl Page {
     }
 
     fn fault(&self, what: String) -> FileFault {
-        FileFault {
-            file: self.file.clone(),
-            line: 1,
-            column: 1,
-            what,
-        }
+        FileFault::new(&self.file, 1, 1, what)
     }
 }
 

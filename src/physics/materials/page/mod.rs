@@ -270,123 +270,112 @@ PROPERTIES:
         }
         refused(
             &formula("1", "0.3 2.5", "1e155"),
-            3,
-            9,
+            [3, 9],
             "formula 1 gives n^2 = 1e155 at 300 nm; n must lie between 0.001 and 10000",
         );
         refused(
             &formula("5", "0.3 2.5", "-1"),
-            3,
-            9,
+            [3, 9],
             "formula 5 gives n = -1",
         );
     }
 
     #[track_caller]
-    fn refused(text: &str, line: usize, column: usize, says: &str) {
+    fn refused(text: &str, at: [usize; 2], says: &str) {
         let fault = Page::parse("p.yml", text).expect_err("it is refused");
         assert!(fault.what.contains(says), "{fault}");
-        assert_eq!((fault.line, fault.column), (line, column), "{fault}");
+        assert_eq!([fault.line, fault.column], at, "{fault}");
     }
 
     #[test]
     fn a_fault_in_a_row_names_its_line_and_column() {
         refused(
             &table("nk", "0.4 1 1; 0.5 1.80-17 0"),
-            6,
-            10,
+            [6, 10],
             "`1.80-17` is no number; did you mean 1.80e-17?",
         );
-        refused(&table("n", "0.4 1; 0,5 1"), 6, 6, "did you mean 0.5?");
+        refused(&table("n", "0.4 1; 0,5 1"), [6, 6], "did you mean 0.5?");
         refused(
             &table("n", "0.4 nan"),
-            5,
-            10,
+            [5, 10],
             "`nan` is not a finite number",
         );
         refused(
             &table("n", "0.4 1;; 0.5 -inf"),
-            7,
-            10,
+            [7, 10],
             "not a finite number",
         );
         refused(
             &table("nk", "0.4 1"),
-            5,
-            6,
+            [5, 6],
             "a row of 2 numbers; it wants wavelength, n, k",
         );
         refused(
             &table("k", "0.4 1 2"),
-            5,
-            6,
+            [5, 6],
             "a row of 3 numbers; it wants wavelength, k",
         );
-        refused(&table("k", "0.4 -0.21"), 5, 10, "k is -0.21");
-        refused(&table("n", "0 1"), 5, 6, "the wavelength is 0");
-        refused(&table("n", "-0.4 1"), 5, 6, "the wavelength is -0.4");
+        refused(&table("k", "0.4 -0.21"), [5, 10], "k is -0.21");
+        refused(&table("n", "0 1"), [5, 6], "the wavelength is 0");
+        refused(&table("n", "-0.4 1"), [5, 6], "the wavelength is -0.4");
         // Lines that YAML folded into one have no place of their own.
         refused(
             &data("- type: tabulated n\n  data: >\n    0.4 1\n    0.5 x\n"),
-            5,
-            5,
+            [5, 5],
             "a row of 4 numbers",
         );
         refused(
             &data("- type: tabulated n\n  data: \"0.4 x\"\n"),
-            4,
-            9,
+            [4, 9],
             "`x` is no number",
         );
     }
 
     #[test]
     fn a_page_that_is_none_is_refused() {
-        refused("", 1, 1, "");
-        refused("a text", 1, 1, "expected mapping start");
-        refused("REFERENCES: r\n", 1, 1, "DATA is missing");
-        refused("DATA: []\n", 1, 1, "DATA is empty");
-        refused("DATA:\n", 1, 1, "DATA is missing");
-        refused("DATA: x\n", 1, 7, "");
+        refused("", [1, 1], "");
+        refused("a text", [1, 1], "expected mapping start");
+        refused("REFERENCES: r\n", [1, 1], "DATA is missing");
+        refused("DATA: []\n", [1, 1], "DATA is empty");
+        refused("DATA:\n", [1, 1], "DATA is missing");
+        refused("DATA: x\n", [1, 7], "");
+        for (item, column, says) in [
+            (
+                "data: |\n    1 2",
+                3,
+                "without `type`; allowed: tabulated nk",
+            ),
+            (
+                "type: tabulated nkx",
+                9,
+                "unknown type `tabulated nkx`; allowed: tabulated nk",
+            ),
+            ("type: formula 10", 9, "unknown type `formula 10`; allowed"),
+            ("type: formula A", 9, "formula 1 to formula 9"),
+            (
+                "type: tabulated n2\n  data: |\n     0.4 1",
+                9,
+                "gives the nonlinear index n2, not n and k",
+            ),
+            (
+                "type: tabulated n",
+                9,
+                "the table `tabulated n` has no rows",
+            ),
+            ("type: tabulated n\n  data:", 9, "has no rows"),
+            ("type: tabulated n\n  data: |", 9, "has no rows"),
+        ] {
+            refused(&data(&format!("- {item}\n")), [3, column], says);
+        }
+        refused(&GOOD.replace("1.28", "1\0"), [9, 17], "NUL");
         refused(
-            &data("- data: |\n    1 2\n"),
-            3,
-            3,
-            "without `type`; allowed: tabulated nk",
+            "DATA: []\nDATA: []\n",
+            [2, 1],
+            "duplicate mapping key: DATA",
         );
-        refused(
-            &data("- type: tabulated nkx\n"),
-            3,
-            9,
-            "unknown type `tabulated nkx`; allowed: tabulated nk",
-        );
-        refused(
-            &data("- type: formula 10\n"),
-            3,
-            9,
-            "unknown type `formula 10`; allowed",
-        );
-        refused(&data("- type: formula A\n"), 3, 9, "formula 1 to formula 9");
-        refused(
-            &table("n2", "0.4 1"),
-            3,
-            9,
-            "gives the nonlinear index n2, not n and k",
-        );
-        refused(
-            &data("- type: tabulated n\n"),
-            3,
-            9,
-            "the table `tabulated n` has no rows",
-        );
-        refused(&data("- type: tabulated n\n  data:\n"), 3, 9, "has no rows");
-        refused(&table("n", ""), 3, 9, "has no rows");
-        refused(&GOOD.replace("1.28", "1\0"), 9, 17, "NUL");
-        refused("DATA: []\nDATA: []\n", 2, 1, "duplicate mapping key: DATA");
         refused(
             "DATA: []\n---\nDATA: []\n",
-            2,
-            1,
+            [2, 1],
             "a second document; a page is one",
         );
     }
@@ -395,66 +384,40 @@ PROPERTIES:
     fn a_formula_that_is_none_is_refused() {
         refused(
             &data("- type: formula 1\n  coefficients: 1\n"),
-            3,
-            9,
+            [3, 9],
             "`formula 1` without `wavelength_range`",
         );
         refused(
             &data("- type: formula 1\n  wavelength_range: 1 2\n"),
-            3,
-            9,
+            [3, 9],
             "without `coefficients`",
         );
-        refused(
-            &formula("1", "0.3", "1"),
-            4,
-            21,
-            "`wavelength_range` has 1 numbers",
-        );
-        refused(&formula("1", "2.5 0.3", "1"), 4, 21, "does not ascend");
-        refused(&formula("1", "1 1", "1"), 4, 21, "does not ascend");
-        refused(&formula("1", "0 1", "1"), 4, 21, "must be above 0");
-        refused(
-            &formula("1", "a 1", "1"),
-            4,
-            21,
-            "`wavelength_range`: `a` is no number",
-        );
-        refused(
-            &formula("1", "0.3 2.5", "1 1.8-2"),
-            5,
-            17,
-            "did you mean 1.8e-2?",
-        );
-        refused(
-            &formula("1", "0.3 2.5", "1 inf"),
-            5,
-            17,
-            "not a finite number",
-        );
-        refused(
-            &formula("1", "0.3 2.5", "\"\""),
-            5,
-            17,
-            "0 of them; a formula has 1 to 64",
-        );
-        refused(
-            &formula("1", "0.3 2.5", &"1 ".repeat(65)),
-            5,
-            17,
-            "65 of them",
-        );
+        for (range, says) in [
+            ("0.3", "`wavelength_range` has 1 numbers"),
+            ("2.5 0.3", "does not ascend"),
+            ("1 1", "does not ascend"),
+            ("0 1", "must be above 0"),
+            ("a 1", "`wavelength_range`: `a` is no number"),
+        ] {
+            refused(&formula("1", range, "1"), [4, 21], says);
+        }
+        for (coefficients, says) in [
+            ("1 1.8-2", "did you mean 1.8e-2?"),
+            ("1 inf", "not a finite number"),
+            ("\"\"", "0 of them; a formula has 1 to 64"),
+            (&"1 ".repeat(65), "65 of them"),
+        ] {
+            refused(&formula("1", "0.3 2.5", coefficients), [5, 17], says);
+        }
         assert!(read(&formula("1", "0.3 2.5", &"0 ".repeat(63))).n.is_some());
         refused(
             &formula("4", "0.3 5", "1 1.04 2 0.09 2 0.9 0 9.9"),
-            5,
-            17,
+            [5, 17],
             "formula 4 has 8 coefficients, and C6 wants all up to C9",
         );
         refused(
             &formula("2", "0.3 2.5", "0 1 0.01 2"),
-            5,
-            17,
+            [5, 17],
             "C4 wants all up to C5",
         );
     }
@@ -472,22 +435,20 @@ PROPERTIES:
     fn bombs_are_refused() {
         refused(
             &format!("DATA: {}", "[".repeat(100)),
-            1,
-            23,
+            [1, 23],
             "recursion limit",
         );
         let anchors = "no page has anchors or aliases";
-        refused(&data("- &a\n  type: x\n- *a\n"), 4, 3, anchors);
-        refused(&data("- <<: {type: x}\n"), 3, 3, anchors);
+        refused(&data("- &a\n  type: x\n- *a\n"), [4, 3], anchors);
+        refused(&data("- <<: {type: x}\n"), [3, 3], anchors);
         let deep: String = (0..100).map(|depth| " ".repeat(depth) + "a:\n").collect();
-        refused(&deep, 17, 17, "nested deeper than any page");
+        refused(&deep, [17, 17], "nested deeper than any page");
         let wide = "A: [".to_owned() + &"a,".repeat(20_000) + "]";
-        refused(&wide, 1, 19_995, "more than any page holds");
+        refused(&wide, [1, 19_995], "more than any page holds");
         let long = "x".repeat(MOST_BYTES + 1);
         refused(
             &long,
-            1,
-            1,
+            [1, 1],
             "the file has 67108865 bytes; at most 67108864 are read",
         );
     }

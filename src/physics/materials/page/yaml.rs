@@ -86,11 +86,10 @@ impl<'de> Visitor<'de> for PairsVisitor {
 
 /// The fields of a page.
 pub fn read(file: &str, text: &str) -> Result<Raw, FileFault> {
-    serde_saphyr::from_str_with_options(text, options()).map_err(|error| FileFault {
-        file: file.to_owned(),
-        line: error.location().map_or(1, |at| at.line() as usize).max(1),
-        column: error.location().map_or(1, |at| at.column() as usize).max(1),
-        what: message(&error),
+    serde_saphyr::from_str_with_options(text, options()).map_err(|error| {
+        let line = error.location().map_or(1, |at| at.line() as usize).max(1);
+        let column = error.location().map_or(1, |at| at.column() as usize).max(1);
+        FileFault::new(file, line, column, message(&error))
     })
 }
 
@@ -140,10 +139,5 @@ fn beyond(breach: &BudgetBreach) -> &'static str {
 
 /// The place of a fault in a field.
 pub fn fault(file: &str, at: Location, what: String) -> FileFault {
-    FileFault {
-        file: file.to_owned(),
-        line: at.line() as usize,
-        column: at.column() as usize,
-        what,
-    }
+    FileFault::new(file, at.line() as usize, at.column() as usize, what)
 }
