@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use crate::tables::stability::stability_document;
 use fresnel_gen::lab::stability::{Failure, StabilityRow, scan};
-use fresnel_gen::language::methods::{self, Class, Contract, Method, Over};
+use fresnel_gen::language::methods::{self, Class, Contract, MediaSet, Method};
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::records;
 
@@ -112,7 +112,7 @@ fn half_precision_is_a_reflectance_for_the_media_that_it_is_meant_for() {
             finding.failure.words(),
             finding.region
         );
-        assert!(!Over::Half.holds(n, value("k")), "{what}");
+        assert!(!MediaSet::Half.holds(n, value("k")), "{what}");
     }
 }
 

@@ -75,7 +75,7 @@ impl Average {
         let coefficients: Vec<[f64; 3]> = names
             .map(|name| own(name).copied())
             .collect::<Option<_>>()?;
-        let averages = shape.averages();
+        let averages = Basis::Fitted(shape).averages();
         let sum = |channel: usize| {
             let terms = coefficients.iter().zip(&averages);
             terms.map(|(c, average)| c[channel] * average).sum()

@@ -4,7 +4,7 @@ use super::code_bound::{CodeBound, FILTERED};
 use super::function::EmittedFunction;
 use crate::generator::fit::{Measured, ModelError, rounded_up};
 use crate::language::ir::Op;
-use crate::language::methods::{Colours, Input, Method};
+use crate::language::methods::{ColourClaim, Input, Method};
 use crate::physics::num::Precision;
 
 /// What a method promises in half precision, or why it is not available there.
@@ -68,7 +68,7 @@ pub(super) fn beyond_colours(method: &Method) -> Option<String> {
 }
 
 /// What a method promises to artists.
-fn colours_line(method: &Method, colours: Colours) -> String {
+fn colours_line(method: &Method, colours: ColourClaim) -> String {
     let range = |input: &Input| format!("{} {}", input.name, colours.range(input).words());
     let ranges: Vec<String> = method.inputs.iter().map(range).collect();
     format!(

@@ -132,7 +132,7 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
     let class = subject.material.kind.name();
     let n = subject.effective.channels.n;
     let is_gas = class == "dielectric" && n.iter().any(|n| *n < LEAST_FITTED_N);
-    let promise = by_class(method, class).filter(|_| !is_gas)?;
+    let promise = method.claims.for_class(class).filter(|_| !is_gas)?;
     let limit = promise.limit;
     if max_abs <= limit {
         return None;

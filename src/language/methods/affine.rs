@@ -1,5 +1,4 @@
-//! Methods that are affine in numbers of a material ([`Affine`]), and the surface that inputs are derived from
-//! ([`KnownSurface`]).
+//! Methods that are affine in numbers of a material: their fitted coefficients, or what the method names ([`Affine`]).
 //!
 //! Such a method is `F = N0 + N1 w1 + N2 w2 + ...` before clamping, with weights w of c = cos θ that all materials share. Its
 //! means over the hemisphere and over the lobe of a rough surface are affine too, so one table of the means of the weights
@@ -9,12 +8,9 @@
 use std::sync::LazyLock;
 
 use super::input::{Input, Inputs};
-use super::method::{Build, Method, Values};
 use super::shape::Shape;
-use crate::language::ir::{BrokenRule, Builder, Checked, Expr, check_in, evaluate, fold_in};
-use crate::language::methods::formulas::BELCOUR_COSINES;
-use crate::physics::num::{Legendre, Precision, each_channel};
-use crate::physics::optics::{self, COS_82};
+use crate::language::ir::Expr;
+use crate::physics::num::Legendre;
 
 /// The most terms of an affine method: the channels of a texture.
 pub const MOST_TERMS: usize = 4;
@@ -35,16 +31,10 @@ impl Affine {
     pub(super) const fn to_white(weights: fn(f64) -> [f64; MOST_TERMS]) -> Affine {
         Affine {
             numbers: &["f0", "1 - f0"],
-            build: f0_and_rise,
+            build: |x| vec![x.get(Input::F0), 1.0 - x.get(Input::F0)],
             weights,
         }
     }
-}
-
-/// F0, and 1 - F0.
-fn f0_and_rise<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
-    let f0 = x.get(Input::F0);
-    vec![f0, 1.0 - f0]
 }
 
 /// What a split-sum table of a method integrates: functions of the cosine, each multiplied by a number.
@@ -56,7 +46,7 @@ pub enum Basis {
     Affine(Affine),
 }
 
-/// The quadrature rule for means: weights are smooth, and more points change nothing.
+/// The quadrature rule for means: weights and factors are smooth, and more points change nothing.
 static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
 
 impl Basis {
@@ -71,10 +61,7 @@ impl Basis {
     /// The numbers as formulas of the method's inputs.
     pub fn numbers(&self) -> Vec<&'static str> {
         match self {
-            Basis::Fitted(shape) => {
-                let inputs = Input::COEFFICIENTS[..shape.terms()].iter();
-                inputs.map(|input| input.name).collect()
-            }
+            Basis::Fitted(shape) => shape.inputs().iter().map(|input| input.name).collect(),
             Basis::Affine(affine) => affine.numbers.to_vec(),
         }
     }
@@ -104,10 +91,7 @@ impl Basis {
     /// The numbers as nodes of a graph.
     pub(super) fn build<'b>(&self, x: &Inputs<'b>) -> Vec<Expr<'b>> {
         match self {
-            Basis::Fitted(shape) => {
-                let inputs = Input::COEFFICIENTS[..shape.terms()].iter();
-                inputs.map(|input| x.get(*input)).collect()
-            }
+            Basis::Fitted(shape) => shape.inputs().iter().map(|input| x.get(*input)).collect(),
             Basis::Affine(affine) => (affine.build)(x),
         }
     }
@@ -122,152 +106,11 @@ impl Basis {
     }
 }
 
-/// A mean over the hemisphere, `2 ∫ F c dc`, that is fitted.
-#[derive(Clone, Copy, Debug)]
-pub struct FittedAverage {
-    /// Builds it. The inputs have no cosine.
-    pub build: Build,
-    /// Its largest difference from the true mean.
-    pub max_abs: f64,
-    /// The arguments that this holds for, in words.
-    pub over: &'static str,
-    /// The errors of published fits of the same mean, with their source.
-    pub published: &'static str,
-}
-
-impl Method {
-    /// What a split-sum table of this method integrates; none where F is not affine in numbers of a material.
-    pub fn basis(&self) -> Option<Basis> {
-        let fitted = self.shape.map(Basis::Fitted);
-        fitted.or_else(|| self.affine.map(Basis::Affine))
-    }
-
-    /// The mean over the hemisphere with the method's inputs as run-time arguments. None for methods that have neither a basis nor
-    /// a fit.
-    pub fn average_in(
-        &self,
-        precision: Precision,
-        scalar_form: bool,
-    ) -> Option<Result<Checked, BrokenRule>> {
-        let builder = Builder::new();
-        let inputs = Inputs::without_cosine(&builder, self.inputs, scalar_form, precision);
-        let mean = match (self.basis(), self.average) {
-            (Some(basis), _) => basis.build_average(&inputs),
-            (None, Some(average)) => (average.build)(&inputs),
-            (None, None) => return None,
-        };
-        let whole = builder.finish(self.name, mean);
-        Some(check_in(precision, fold_in(precision, &whole)))
-    }
-
-    /// A coefficient of a fitted method from this method's inputs as run-time arguments, three channels. None for methods that
-    /// compute none.
-    pub fn coefficient_in(
-        &self,
-        precision: Precision,
-        place: usize,
-    ) -> Option<Result<Checked, BrokenRule>> {
-        let coefficients = self.coefficients?;
-        let builder = Builder::new();
-        let inputs = Inputs::without_cosine(&builder, self.inputs, false, precision);
-        let whole = builder.finish(self.name, (coefficients.build)(&inputs)[place]);
-        Some(check_in(precision, fold_in(precision, &whole)))
-    }
-
-    /// The number of each term, from values of the method's inputs, three channels each. None where there are none.
-    pub fn numbers(&self, values: &Values) -> Option<Vec<[f64; 3]>> {
-        let basis = self.basis()?;
-        let arguments = self.arguments::<f64>(values, None);
-        let number = |place: usize| {
-            let builder = Builder::new();
-            let inputs = Inputs::without_cosine(&builder, self.inputs, false, Precision::F32);
-            let number = basis.build(&inputs)[place].rgb();
-            let whole = builder.finish(self.name, number);
-            let checked = check_in(Precision::F32, fold_in(Precision::F32, &whole)).ok()?;
-            Some(evaluate(&checked, &arguments).at(0))
-        };
-        (0..basis.terms()).map(number).collect()
-    }
-}
-
-/// cos θ at which the empirical term meets the exact law: 60 degrees.
-pub const COS_60: f64 = 0.5;
-
-/// An index per channel, and reflectances at a few angles. Where a channel is one wavelength, these follow from the index by the
-/// exact law. Where it is a whole spectrum, they are the spectrum's, and the index represents it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct KnownSurface {
-    /// The real part of the index per channel.
-    pub n: [f64; 3],
-    /// The extinction coefficient per channel.
-    pub k: [f64; 3],
-    /// Reflectance at 0 degrees.
-    pub f0: [f64; 3],
-    /// Reflectance at 81.79 degrees.
-    pub f82: [f64; 3],
-    /// Reflectance at 60 degrees.
-    pub f60: [f64; 3],
-    /// cos θ at which λ of the corrected method is matched.
-    pub matching_cos: f64,
-    /// Reflectance there.
-    pub matching: [f64; 3],
-    /// Reflectance at the two angles that determine Belcour's weights.
-    pub belcour: [[f64; 3]; 2],
-}
-
-impl KnownSurface {
-    /// The surface with this index.
-    pub fn of_index(n: [f64; 3], k: [f64; 3], matching_cos: f64) -> KnownSurface {
-        let law = |c: f64| each(|i| optics::conductor(n[i], k[i], c).unpolarised());
-        KnownSurface {
-            f0: each(|i| optics::normal_incidence(n[i], k[i])),
-            ..KnownSurface::with(n, k, law, matching_cos)
-        }
-    }
-
-    /// The surface that this index represents, with its reflectance as a function of the cosine.
-    pub fn with(
-        n: [f64; 3],
-        k: [f64; 3],
-        seen: impl Fn(f64) -> [f64; 3],
-        matching_cos: f64,
-    ) -> KnownSurface {
-        KnownSurface {
-            n,
-            k,
-            f0: seen(1.0),
-            f82: seen(COS_82),
-            f60: seen(COS_60),
-            matching_cos,
-            matching: seen(matching_cos),
-            belcour: BELCOUR_COSINES.map(&seen),
-        }
-    }
-}
-
-/// A value for each channel.
-pub fn each(value: impl Fn(usize) -> f64) -> [f64; 3] {
-    each_channel(value)
-}
-
-/// The mean of the channels.
-pub fn mean(channels: [f64; 3]) -> f64 {
-    channels.iter().sum::<f64>() / 3.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::ir::Value;
-    use crate::language::methods::{ALL, find};
-
-    /// A number of a method, for one channel.
-    fn number(method: &Method, affine: &Affine, place: usize) -> Checked {
-        let builder = Builder::new();
-        let inputs = Inputs::without_cosine(&builder, method.inputs, true, Precision::F32);
-        let whole = builder.finish(method.name, (affine.build)(&inputs)[place]);
-        check_in(Precision::F32, fold_in(Precision::F32, &whole)).unwrap()
-    }
+    use crate::language::methods::limits::value;
+    use crate::language::methods::{ALL, Factor, Method, Values, find};
 
     /// Values of inputs for which hardly any method here is clamped.
     const TRIED: [[f64; 3]; 5] = [
@@ -278,9 +121,8 @@ mod tests {
         [0.95, 0.9, 0.0],
     ];
 
-    /// The largest difference between the sum, clamped to [0, 1], and the method's own graph.
-    fn difference(method: &Method, affine: &Affine) -> f64 {
-        let function = method.function(false).unwrap();
+    /// The largest difference between the sum with these weights, clamped to [0, 1], and the method's own graph.
+    fn difference(method: &Method, weights: fn(f64) -> [f64; MOST_TERMS]) -> f64 {
         let mut most = 0.0;
         for tried in TRIED {
             // Weights of Belcour's curves are small. Other inputs are reflectances or fractions of them.
@@ -288,26 +130,18 @@ mod tests {
             let given: Vec<f64> = (0..method.inputs.len())
                 .map(|i| if small(i) { tried[2] } else { tried[i] })
                 .collect();
-            let alone: Vec<_> = given.iter().map(|value| Value::scalar(*value)).collect();
-            let numbers: Vec<f64> = (0..affine.numbers.len())
-                .map(|i| evaluate(&number(method, affine, i), &alone).at(0)[0])
+            let values: Values = method
+                .inputs
+                .iter()
+                .zip(&given)
+                .map(|(input, value)| (input.name.to_owned(), [*value; 3]))
                 .collect();
+            let numbers = method.numbers(&values).unwrap();
             for step in 0..=200 {
                 let c = f64::from(step) / 200.0;
-                let mut values = vec![Value::<f64>::scalar(c)];
-                values.extend(
-                    function.params[1..]
-                        .iter()
-                        .zip(&given)
-                        .map(|(param, value)| match param.ty.channels() {
-                            3 => Value::rgb([*value; 3]),
-                            _ => Value::scalar(*value),
-                        }),
-                );
-                let want = evaluate(&function, &values).at(0)[0];
-                let weights = (affine.weights)(c);
-                let got: f64 = numbers.iter().zip(weights).map(|(one, w)| one * w).sum();
-                most = f64::max(most, (got.clamp(0.0, 1.0) - want).abs());
+                let terms = numbers.iter().zip(weights(c));
+                let got: f64 = terms.map(|(number, weight)| number[0] * weight).sum();
+                most = f64::max(most, (got.clamp(0.0, 1.0) - value(method, c, &given)).abs());
             }
         }
         most
@@ -322,7 +156,7 @@ mod tests {
             };
             found += 1;
             assert!(affine.numbers.len() <= MOST_TERMS && affine.numbers[0] == "f0");
-            let worst = difference(method, affine);
+            let worst = difference(method, affine.weights);
             assert!(worst < 1e-12, "{}: {worst:e}", method.name);
             let Some(Basis::Affine(_)) = method.basis() else {
                 panic!("{}: it is fitted too", method.name);
@@ -330,16 +164,19 @@ mod tests {
         }
         assert!(found > 0);
         // And the other way round: the weights of another method are detected.
-        let mut wrong = find("hoffman_f82").unwrap().affine.unwrap();
-        wrong.weights = find("fitted_f82").unwrap().affine.unwrap().weights;
-        assert!(difference(find("hoffman_f82").unwrap(), &wrong) > 0.01);
+        let wrong = find("fitted_f82").unwrap().affine.unwrap().weights;
+        assert!(difference(find("hoffman_f82").unwrap(), wrong) > 0.01);
+    }
+
+    #[track_caller]
+    fn close(one: f64, other: f64) {
+        assert!((one - other).abs() < 1e-14, "{one} {other}");
     }
 
     /// Of (1 - c)⁵ it is 2/42, of c (1 - c)⁶ 2 · 2! 6!/9! = 1/126, of F90's weight the same as of white.
     #[test]
     fn averages_are_the_closed_forms() {
         let averages = |name: &str| find(name).unwrap().basis().unwrap().averages();
-        let close = |one: f64, other: f64| assert!((one - other).abs() < 1e-14, "{one} {other}");
         for name in ["schlick", "schlick_f90", "f82_tint", "hoffman_f82"] {
             assert_eq!(averages(name)[0], 1.0);
             close(averages(name)[1], 1.0 / 21.0);
@@ -350,7 +187,25 @@ mod tests {
         assert_eq!(averages("constant_f0"), [1.0]);
     }
 
-    /// A rule of fewer points gives the same.
+    /// Of (1 - c)^p, Euler's beta function: 2 / ((p + 1) (p + 2)). Of e^(-k c), k = a p ln 2, in parts:
+    /// 2 (1 - (1 + k) e^(-k)) / k². Of c e^(-k c) in parts again: 2 (2 - (2 + 2 k + k²) e^(-k)) / k³.
+    #[test]
+    fn averages_of_shapes_are_the_closed_forms() {
+        let averages = |factors| Basis::Fitted(Shape { factors }).averages();
+        let powers = averages(&[Factor::Grazing(3), Factor::Grazing(4)]);
+        close(powers[1], 2.0 / 20.0);
+        close(powers[2], 2.0 / 72.0);
+        let exponential = averages(&[Factor::Exponential(6.5), Factor::Cosine]);
+        let k = 6.5 * std::f64::consts::LN_2;
+        let end = libm::exp2(-6.5);
+        close(exponential[1], 2.0 * (1.0 - (1.0 + k) * end) / (k * k));
+        close(
+            exponential[2],
+            2.0 * (2.0 - (2.0 + 2.0 * k + k * k) * end) / (k * k * k),
+        );
+    }
+
+    /// A rule of fewer points gives the same: no weight or factor is too steep for it.
     #[test]
     fn averages_are_the_integrals() {
         for basis in ALL.iter().filter_map(|method| method.basis()) {
@@ -359,7 +214,7 @@ mod tests {
                 basis.add(c, 2.0 * c * weight, &mut sums);
             }
             for (one, other) in sums.iter().zip(basis.averages()) {
-                assert!((one - other).abs() < 1e-13, "{one} {other}");
+                close(*one, other);
             }
         }
     }

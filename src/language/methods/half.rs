@@ -5,7 +5,7 @@
 //! two numbers near 1 is off by 5e-4. A method whose formula does not survive that builds another one, in its own file, where
 //! [`Inputs::is_half`](super::Inputs::is_half). Most often it is 1 minus a small quotient instead of a quotient near 1.
 
-use super::method::Over;
+use super::media::MediaSet;
 
 /// A method in half precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct HalfClaim {
     /// inputs, over these media and every f16 cosine from 0 to 1.
     pub max_abs: f64,
     /// The media.
-    pub over: Over,
+    pub over: MediaSet,
     /// The weaker promise for other media; may be empty.
     pub beyond: &'static str,
     /// The largest such difference of functions of materials, except those of `data/records/half.csv`. A power of a rounded 1 - c is
@@ -39,18 +39,18 @@ pub struct HalfClaim {
 }
 
 impl InHalf {
-    /// It is written, and promises this over [`Over::Half`].
+    /// It is written, and promises this over [`MediaSet::Half`].
     pub const fn within(max_abs: f64) -> InHalf {
         InHalf::within_but(max_abs, "")
     }
 
     /// The same, with a remark on other media.
     pub const fn within_but(max_abs: f64, beyond: &'static str) -> InHalf {
-        InHalf::within_over(max_abs, Over::Half, beyond)
+        InHalf::within_over(max_abs, MediaSet::Half, beyond)
     }
 
     /// It is written, and promises this over these media, with a remark on others.
-    pub const fn within_over(max_abs: f64, over: Over, beyond: &'static str) -> InHalf {
+    pub const fn within_over(max_abs: f64, over: MediaSet, beyond: &'static str) -> InHalf {
         InHalf::Kept(HalfClaim {
             max_abs,
             over,

@@ -1,7 +1,7 @@
 //! The inputs of methods, one vocabulary: their units, domains, the source of their values, and the values that tests
 //! try. An input of a single method stands in that method's file.
 
-use super::affine::KnownSurface;
+use super::surface::KnownSurface;
 use crate::language::ir::{Builder, COSINE, Expr, Ty};
 use crate::physics::num::Precision;
 
@@ -54,6 +54,10 @@ pub struct Range {
 }
 
 impl Range {
+    pub(super) const fn new(least: f64, most: f64) -> Range {
+        Range { least, most }
+    }
+
     /// In words: `0.001 to 1e9`.
     pub fn words(self) -> String {
         format!("{} to {}", figure(self.least), figure(self.most))
@@ -81,7 +85,7 @@ impl Input {
             name,
             ty: Ty::Rgb,
             meaning,
-            range: Range { least, most },
+            range: Range::new(least, most),
             source,
             raises_limit: false,
             tried: &[0.0, 1.0],
@@ -229,10 +233,18 @@ impl Input {
     .scanned(SHARES_AND_BEYOND);
 }
 
-/// The input of this name, of whichever method takes it.
-pub fn find_input(name: &str) -> Option<&'static Input> {
-    let mut inputs = super::ALL.iter().flat_map(|method| method.inputs);
-    inputs.find(|input| input.name == name)
+/// These inputs as arguments of the function that `builder` builds.
+fn declared<'b>(
+    builder: &'b Builder,
+    inputs: &[Input],
+    scalar_form: bool,
+) -> Vec<(&'static str, Expr<'b>)> {
+    let ty = |input: &Input| match input.ty {
+        Ty::Rgb if scalar_form => Ty::Scalar,
+        ty => ty,
+    };
+    let declared = |input: &Input| (input.name, builder.param(input.name, ty(input)));
+    inputs.iter().map(declared).collect()
 }
 
 /// The arguments of a method while it is built.
@@ -251,18 +263,9 @@ impl<'b> Inputs<'b> {
         scalar_form: bool,
         precision: Precision,
     ) -> Inputs<'b> {
-        let cos_theta = builder.param(COSINE, Ty::Scalar);
-        let ty = |input: &Input| match input.ty {
-            Ty::Rgb if scalar_form => Ty::Scalar,
-            ty => ty,
-        };
-        let given = inputs
-            .iter()
-            .map(|input| (input.name, builder.param(input.name, ty(input))))
-            .collect();
         Inputs {
-            cos_theta,
-            given,
+            cos_theta: builder.param(COSINE, Ty::Scalar),
+            given: declared(builder, inputs, scalar_form),
             precision,
         }
     }
@@ -274,12 +277,8 @@ impl<'b> Inputs<'b> {
         scalar_form: bool,
         precision: Precision,
     ) -> Inputs<'b> {
-        let ty = |input: &Input| if scalar_form { Ty::Scalar } else { input.ty };
-        let declared = inputs
-            .iter()
-            .map(|input| (input.name, builder.param(input.name, ty(input))));
         Inputs {
-            given: declared.collect(),
+            given: declared(builder, inputs, scalar_form),
             cos_theta: builder.number(1.0),
             precision,
         }

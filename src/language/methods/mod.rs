@@ -10,26 +10,32 @@ use std::str::FromStr;
 use crate::physics::names::{UnknownName, named};
 
 mod affine;
+mod claims;
 mod formulas;
 mod half;
 mod input;
 mod limits;
+mod media;
 mod method;
 mod renamed;
 mod shape;
+mod surface;
 
-pub use affine::{Affine, Basis, FittedAverage, KnownSurface, MOST_TERMS};
+pub use affine::{Affine, Basis, MOST_TERMS};
+pub use claims::{ByClass, Claim, Claims, ColourClaim, Spread};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
 pub use half::{HALF_AIM, HalfClaim, InHalf};
-pub use input::{Input, InputSource, Inputs, Range, find_input};
+pub use input::{Input, InputSource, Inputs, Range};
+pub use media::{Class, MediaSet};
 pub use method::{
-    Better, ByClass, Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light,
-    Method, Origin, Over, Spread, Values, by_class, promises_by_class,
+    CoefficientsFromInputs, Contract, FittedAverage, Forms, Light, Method, Origin, Replacement,
+    Values,
 };
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
+pub use surface::KnownSurface;
 
 /// The method of this name, or of this old name.
 ///
@@ -50,6 +56,12 @@ impl FromStr for &'static Method {
     }
 }
 
+/// The input of this name, of whichever method takes it.
+pub fn find_input(name: &str) -> Option<&'static Input> {
+    let mut inputs = ALL.iter().flat_map(|method| method.inputs);
+    inputs.find(|input| input.name == name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{ALL, Input, find_input};
@@ -59,15 +71,14 @@ mod tests {
     #[test]
     fn every_form_of_every_method_is_well_formed() {
         for method in ALL {
-            for scalar_form in
-                [false, true]
-                    .into_iter()
-                    .take(if method.has_scalar_form() { 2 } else { 1 })
-            {
+            let forms: &[bool] = if method.has_scalar_form() {
+                &[false, true]
+            } else {
+                &[false]
+            };
+            for &scalar_form in forms {
                 for precision in Precision::ALL {
-                    if let Err(fault) = method.function_in(precision, scalar_form) {
-                        panic!("{fault}");
-                    }
+                    method.function_in(precision, scalar_form).unwrap();
                 }
             }
         }
@@ -108,6 +119,15 @@ mod tests {
                     .collect();
                 assert!(places.is_sorted(), "{} and {}", method.name, other.name);
             }
+        }
+    }
+    #[test]
+    fn every_fitted_method_promises_something_of_a_class() {
+        for method in ALL {
+            let promises = !method.claims.by_class.is_empty();
+            let is_meant_to = method.name.starts_with("fitted");
+            assert_eq!(promises, is_meant_to, "{}", method.name);
+            assert!(is_meant_to || !method.is_fitted(), "{}", method.name);
         }
     }
 }

@@ -26,11 +26,6 @@ pub fn renamed(name: &str, all: &[Renamed]) -> Option<Renamed> {
 }
 
 impl Renamed {
-    /// Whether a version is past the one in which the old name works.
-    pub fn has_expired(&self, version: (u32, u32)) -> bool {
-        version > self.in_version
-    }
-
     /// What a user of the old name should know.
     pub fn remark(&self) -> String {
         let (major, minor) = self.in_version;
@@ -51,6 +46,11 @@ mod tests {
     use super::*;
     use crate::language::methods;
 
+    /// Whether a version is past the one in which the old name works.
+    fn has_expired(one: Renamed, version: (u32, u32)) -> bool {
+        version > one.in_version
+    }
+
     #[test]
     fn old_names_lead_to_methods_and_none_has_expired() {
         let number = |text: &str| text.parse::<u32>().unwrap();
@@ -62,7 +62,7 @@ mod tests {
             assert!(methods::find(one.new).is_some(), "{one:?}: no such method");
             let is_taken = methods::ALL.iter().any(|method| method.name == one.old);
             assert!(!is_taken, "{one:?}: a method has the old name");
-            assert!(!one.has_expired(version), "{one:?}: remove this line");
+            assert!(!has_expired(*one, version), "{one:?}: remove this line");
             assert!(FORMER.contains(&one.old), "{one:?}: FORMER lacks it");
         }
         for name in FORMER {
@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(renamed("schlick", &all), None);
         let versions = [(0, 1), (0, 2), (0, 3), (1, 0)];
         assert_eq!(
-            versions.map(|version| one.has_expired(version)),
+            versions.map(|version| has_expired(one, version)),
             [false, false, true, true]
         );
     }

@@ -5,16 +5,14 @@
 //! costs one multiplication and one addition a channel.
 //!
 //! The mean over the hemisphere, `2 ∫ F c dc`, is linear too: each coefficient is multiplied by a constant of the shape
-//! ([`Shape::averages`]). Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
+//! ([`Basis::averages`](super::Basis::averages)). Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
 //! <https://blog.selfshadow.com/publications/s2017-shading-course/>, and Turquin, "Practical multiple scattering compensation for
 //! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, need it.
 
 use std::fmt;
-use std::sync::LazyLock;
 
 use super::input::{Input, InputSource, Inputs};
 use crate::language::ir::Expr;
-use crate::physics::num::Legendre;
 
 /// A factor of a shape, as a function of a cosine c in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,16 +44,16 @@ pub struct Shape {
     pub factors: &'static [Factor],
 }
 
-/// The quadrature rule for means: factors are smooth, and more points change nothing.
-static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
-
 impl Shape {
     /// The formula, for a method whose inputs are its coefficients. It is clamped to [0, 1], which is free on a GPU.
     pub fn build<'b>(&self, x: &Inputs<'b>) -> Expr<'b> {
-        let mut made = Made::of(x);
+        let mut made = Made {
+            c: x.cosine(),
+            is_half: x.is_half(),
+            known: Vec::new(),
+        };
         let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
-        let terms = Input::COEFFICIENTS[..self.factors.len()].iter().rev();
-        for (factor, input) in self.factors.iter().rev().zip(terms) {
+        for (factor, input) in self.factors.iter().zip(self.inputs()).rev() {
             sum = x.get(*input) + made.factor(*factor) * sum;
             sum = sum.named(&input.name.replace('c', "sum"), "");
         }
@@ -67,6 +65,11 @@ impl Shape {
         self.factors.len() + 1
     }
 
+    /// Its coefficients.
+    pub fn inputs(&self) -> &'static [Input] {
+        &Input::COEFFICIENTS[..self.terms()]
+    }
+
     /// For each coefficient, adds `weight` times its function at a cosine in [0, 1] to its sum.
     pub fn add(&self, c: f64, weight: f64, sums: &mut [f64]) {
         let mut term = weight;
@@ -75,17 +78,6 @@ impl Shape {
             term *= factor.at(c);
             *sum += term;
         }
-    }
-
-    /// The weight of each coefficient in the mean over the hemisphere, before clamping: twice the integral of its factors
-    /// times c, over c from 0 to 1, by Gauss's rule, within 1e-14.
-    pub fn averages(&self) -> Vec<f64> {
-        let mut sums = vec![0.0; self.terms()];
-        for (c, weight) in RULE.over(0.0, 1.0) {
-            self.add(c, 2.0 * c * weight, &mut sums);
-        }
-        sums[0] = 1.0;
-        sums
     }
 }
 
@@ -144,14 +136,6 @@ struct Made<'b> {
 }
 
 impl<'b> Made<'b> {
-    fn of(x: &Inputs<'b>) -> Made<'b> {
-        Made {
-            c: x.cosine(),
-            is_half: x.is_half(),
-            known: Vec::new(),
-        }
-    }
-
     fn factor(&mut self, factor: Factor) -> Expr<'b> {
         let known = self.known.iter().find(|(other, _)| *other == factor);
         if let Some((_, made)) = known {
@@ -244,48 +228,4 @@ impl Input {
 
 const fn coefficient(name: &'static str, meaning: &'static str) -> Input {
     Input::rgb(name, meaning, [-1000.0, 1000.0], InputSource::Fit).tried(&[0.3, -2.0, 1.0])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::language::methods::ALL;
-
-    fn close(one: &[f64], other: &[f64]) {
-        assert_eq!(one.len(), other.len());
-        for (one, other) in one.iter().zip(other) {
-            assert!((one - other).abs() < 1e-14, "{one} {other}");
-        }
-    }
-
-    /// Of (1 - c)^p, Euler's beta function: 2 / ((p + 1) (p + 2)). Of e^(-k c), k = a p ln 2, in parts:
-    /// 2 (1 - (1 + k) e^(-k)) / k². Of c e^(-k c) in parts again: 2 (2 - (2 + 2 k + k²) e^(-k)) / k³.
-    #[test]
-    fn averages_are_the_closed_forms() {
-        let powers = Shape {
-            factors: &[Factor::Grazing(3), Factor::Grazing(4)],
-        };
-        close(&powers.averages(), &[1.0, 2.0 / 20.0, 2.0 / 72.0]);
-        let exponential = Shape {
-            factors: &[Factor::Exponential(6.5), Factor::Cosine],
-        };
-        let k = 6.5 * std::f64::consts::LN_2;
-        let end = libm::exp2(-6.5);
-        let once = 2.0 * (1.0 - (1.0 + k) * end) / (k * k);
-        let twice = 2.0 * (2.0 - (2.0 + 2.0 * k + k * k) * end) / (k * k * k);
-        close(&exponential.averages(), &[1.0, once, twice]);
-    }
-
-    /// A rule of fewer points gives the same: none of the factors is too steep for it.
-    #[test]
-    fn averages_of_all_shapes_are_the_integrals() {
-        let shapes = ALL.iter().filter_map(|method| method.shape);
-        for shape in shapes {
-            let mut sums = vec![0.0; shape.terms()];
-            for (c, weight) in Legendre::new(40).over(0.0, 1.0) {
-                shape.add(c, 2.0 * c * weight, &mut sums);
-            }
-            close(&shape.averages(), &sums);
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use fresnel_gen::generator::fit::{ModelError, difference, texels, values};
 use fresnel_gen::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
 use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods::{Method, Over};
+use fresnel_gen::language::methods::{Method, MediaSet};
 use fresnel_gen::physics::materials::{Channels, Surface};
 use fresnel_gen::physics::num::each_channel;
 
@@ -11,13 +11,13 @@ use fresnel_gen::physics::num::each_channel;
 const STEPS: usize = 24;
 
 /// The media of a set, three to a `Channels`.
-fn media(over: Over) -> Vec<Channels> {
+fn media(over: MediaSet) -> Vec<Channels> {
     let share = |step: usize, steps: usize| step as f64 / steps as f64;
     let points: Vec<(f64, f64)> = match over {
-        Over::Dielectrics => (0..=2 * STEPS)
+        MediaSet::Dielectrics => (0..=2 * STEPS)
             .map(|i| over.medium(share(i, 2 * STEPS), 0.0))
             .collect(),
-        Over::Metals | Over::Wide | Over::Half => (0..=STEPS)
+        MediaSet::Metals | MediaSet::Wide | MediaSet::Half => (0..=STEPS)
             .flat_map(|i| (0..=STEPS).map(move |j| over.medium(share(i, STEPS), share(j, STEPS))))
             .collect(),
     };
@@ -34,7 +34,7 @@ fn channels(three: &[(f64, f64)]) -> Channels {
 }
 
 /// The model error of a method's library function over a set of media.
-pub fn model_error_over(method: &Method, over: Over) -> ModelError {
+pub fn model_error_over(method: &Method, over: MediaSet) -> ModelError {
     let function = method
         .function(false)
         .expect("every method's function is well formed; a test builds all");

@@ -8,7 +8,7 @@ use arithmetic::{FUSED_LEFT, FUSED_RIGHT, Fast, RECIPROCAL, UNFUSED};
 use fresnel_gen::generator::emit::{self, HeaderForm, Heading, Naming};
 use fresnel_gen::lab::verify::cosines;
 use fresnel_gen::language::ir::{Checked, Ty, Value, evaluate};
-use fresnel_gen::language::methods::{self, Colours, Contract, Input, Method, Range};
+use fresnel_gen::language::methods::{self, ColourClaim, Contract, Input, Method, Range};
 use fresnel_gen::language::targets;
 use fresnel_gen::physics::num::{Num, Precision};
 
@@ -139,7 +139,7 @@ fn every_function_gives_a_reflectance_over_the_ranges_that_it_states() {
 }
 
 /// Colours over the ranges of a promise: in a grid that holds both ends, and random ones.
-fn colours(method: &Method, claim: &Colours) -> Vec<Vec<f32>> {
+fn colours(method: &Method, claim: &ColourClaim) -> Vec<Vec<f32>> {
     let count = method.inputs.len() as u32;
     let places: u32 = if count > 2 { 6 } else { 16 };
     let set = |share: &mut dyn FnMut(u32) -> f32| -> Vec<f32> {

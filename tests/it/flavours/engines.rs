@@ -101,7 +101,7 @@ impl Material {
     fn compensation(&self, cos: f64, roughness: f64) -> [f64; 3] {
         let averages = methods::find(&self.method)
             .unwrap()
-            .shape
+            .basis()
             .unwrap()
             .averages();
         let average = self.sum(&averages).map(|mean| mean.clamp(0.0, 1.0));

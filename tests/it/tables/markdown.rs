@@ -1,5 +1,6 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
+use crate::fits::promises_by_class;
 use fresnel_gen::generator::emit::{Bounds, FunctionForm, Naming, specialised_function};
 use fresnel_gen::generator::flavours;
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
@@ -135,8 +136,8 @@ pub fn errors_table(materials: Vec<Material>) -> Result<String, SurfaceError> {
 
 /// What fitted methods promise of classes of materials.
 pub fn classes_table() -> String {
-    let spread = |spread: Spread| format!("{}, {}", spread.median, spread.ninth);
-    let rows = methods::promises_by_class().map(|(method, row)| {
+    let spread = |spread: Spread| format!("{}, {}", spread.median, spread.percentile_90);
+    let rows = promises_by_class().map(|(method, row)| {
         vec![
             format!("`{}`", method.name),
             format!("{}s", row.class),

@@ -9,18 +9,8 @@
 //! (η 1.333: .0018 against .0016, 1.5: .0039 against .0040, 3: .0018 against .0023).
 //! Domain: F0 from 0 to 1, weights that belong to it; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::{Affine, KnownSurface, each};
-use crate::language::methods::formulas::schlick::to_white;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
-
-/// The cosines of the two angles at which F is exact: the maxima of b2 and of -b3 in a table of 1000 cosines.
-pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];
+use super::schlick::to_white;
+use super::*;
 
 /// The curves b1, b2 and b3, divided by 1 - c, by powers of r: minimax fits by a linear program, to seven digits.
 const CURVES: [[f64; 4]; 3] = [
@@ -38,7 +28,7 @@ impl Input {
         "b2_weight",
         "weight of the second curve, solved at 82.64 degrees",
         [-1000.0, 1000.0],
-        InputSource::Material(|known| each(|i| weights_of(known, i)[0])),
+        InputSource::Material(|known| each_channel(|i| weights_of(known, i)[0])),
     )
     .tried(&[0.0, -0.3, 0.2])
     .scanned(&[-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0]);
@@ -47,7 +37,7 @@ impl Input {
         "b3_weight",
         "weight of the third curve, solved at 64.38 degrees",
         [-1000.0, 1000.0],
-        InputSource::Material(|known| each(|i| weights_of(known, i)[1])),
+        InputSource::Material(|known| each_channel(|i| weights_of(known, i)[1])),
     )
     .tried(Input::B2_WEIGHT.tried)
     .scanned(Input::B2_WEIGHT.scanned);
@@ -75,29 +65,17 @@ pub static METHOD: Method = Method {
     origin: Origin::Adapted("the polynomials that follow its tables are fresnel-gen's"),
     inputs: &[Input::F0, Input::B2_WEIGHT, Input::B3_WEIGHT],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "weights solved for f0; limited to [0, 1]",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0043,
-                at_degrees: 87.8,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.024,
-                at_degrees: 87.3,
-            },
-        ],
+        model: &[Claim::dielectrics(0.0043, 87.8), Claim::metals(0.024, 87.3)],
         code_ulp: 11.5,
-        code_over: Over::Metals,
-        colours: Colours::within(8e-6),
-        by_class: &[],
+        code_over: MediaSet::Metals,
+        colours: ColourClaim::within(8e-6),
+        ..Claims::NONE
     },
     half: InHalf::within_over(
         0.0035,
-        Over::Metals,
+        MediaSet::Metals,
         "for what is nearly matched, where weights are large, off by .008",
     )
     .materials_within(0.0036),
@@ -167,8 +145,7 @@ fn affine_weights(c: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::{BELCOUR_COSINES, METHOD, belcour_weights};
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_begins_at_f0_and_is_limited() {

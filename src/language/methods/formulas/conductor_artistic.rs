@@ -8,21 +8,8 @@
 //! Domain: r in [0, 1), g in [0, 1]. r is clamped to 0.999, because n_max is singular at 1: F0 above it is lowered by
 //! at most .001. Error: none where r and g come from n and k; [`METHOD`]'s claims hold with both derived from n and k.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::each;
-use crate::language::methods::formulas::conductor_exact::{
-    self, conductor, least_squared, root_or_zero,
-};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{
-    Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND,
-};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over, Values,
-};
-use crate::physics::cite::Citation;
-use crate::physics::num::each_channel;
-use crate::physics::optics;
+use super::conductor_exact::{conductor, least_squared, root_or_zero};
+use super::*;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -30,7 +17,9 @@ impl Input {
         "reflectivity",
         "reflectance at normal incidence, linear",
         [0.0, 1.0],
-        InputSource::Material(|known| each(|i| optics::normal_incidence(known.n[i], known.k[i]))),
+        InputSource::Material(|known| {
+            each_channel(|i| optics::normal_incidence(known.n[i], known.k[i]))
+        }),
     )
     .tried(&[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0])
     .scanned(Input::F0.scanned);
@@ -39,7 +28,7 @@ impl Input {
         "edge_tint",
         "1 for the least n that the reflectivity allows, 0 for the most",
         [0.0, 1.0],
-        InputSource::Material(|known| each(|i| edge_tint(known.n[i], known.k[i]))),
+        InputSource::Material(|known| each_channel(|i| edge_tint(known.n[i], known.k[i]))),
     )
     .tried(SHARES)
     .scanned(SHARES_AND_BEYOND);
@@ -71,31 +60,18 @@ pub static METHOD: Method = Method {
         year: 2014,
         link: "https://jcgt.org/published/0003/04/03/",
     },
-    origin: Origin::Published,
     inputs: &[Input::REFLECTIVITY, Input::EDGE_TINT],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Metals,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Metals)],
         code_ulp: 9.5,
-        code_over: Over::Metals,
-        colours: Some(Colours {
+        code_over: MediaSet::Metals,
+        colours: Some(ColourClaim {
             max_abs: 3e-6,
-            ends: &[(
-                "reflectivity",
-                Range {
-                    least: 0.001,
-                    most: 1.0,
-                },
-            )],
+            ends: &[("reflectivity", Range::new(0.001, 1.0))],
             beyond: "below, where n is next to 1, digits go as those of n - 1 do",
         }),
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::Specialised(
         "the square of n_max = (1 + sqrt(r))^2 / (1 - r) overflows where r is above 0.984, as silver's red is",
@@ -138,17 +114,12 @@ fn solved(values: &Values) -> Option<(&'static Method, Values)> {
         let gap = 2.0 * r.sqrt() / (most * (1.0 + r));
         (least + above, (g * (most - least) * (above + gap)).sqrt())
     };
-    let index = each_channel(index);
-    Some(conductor_exact::with(
-        index.map(|(n, _)| n),
-        index.map(|(_, k)| k),
-    ))
+    Some(conductor_exact::with(each_channel(index)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_the_reflectivity_whatever_the_tint() {
@@ -164,7 +135,7 @@ mod tests {
             &METHOD,
             0.5,
             &[0.04, 0.0],
-            crate::physics::optics::dielectric(1.5, 0.5).unpolarised(),
+            optics::dielectric(1.5, 0.5).unpolarised(),
         );
     }
 }

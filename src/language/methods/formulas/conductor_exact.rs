@@ -12,15 +12,10 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9 (from 3e9 on 4n²k² overflows); k = 0 is the dielectric; n = 1, k = 0 gives 0.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
-use std::collections::BTreeMap;
+use super::*;
 
-use crate::language::ir::{Expr, USED_TWICE};
-use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
-use crate::language::methods::formulas::dielectric_exact;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over, Values};
-use crate::physics::num::Precision;
+use super::conductor_textbook::GLASSNER_1995;
+use crate::language::ir::USED_TWICE;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -31,28 +26,15 @@ pub static METHOD: Method = Method {
         "R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, s^2 = 1 - c^2, F = R_s x / (x + u s^2)",
     ],
     source: GLASSNER_1995,
-    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n = k = 3e9 on it overflows",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0,
-                at_degrees: 0.0,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0,
-                at_degrees: 0.0,
-            },
+            Claim::exact(MediaSet::Dielectrics),
+            Claim::exact(MediaSet::Metals),
         ],
         code_ulp: 7.5,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within_but(0.0015, "for n below 1 with k near 0 see dielectric_exact")
         .ending(&[("n", 180.0), ("k", 180.0)]),
@@ -78,12 +60,10 @@ const SMALLEST: f64 = 1e-37;
 fn clear(values: &Values) -> Option<(&'static Method, Values)> {
     let (n, k) = (values["n"], values["k"]);
     let is_clear = |i: usize| k[i] == 0.0 || k[i] <= CLEAR && n[i] >= WELL_ABOVE;
-    (0..3).all(is_clear).then(|| {
-        (
-            &dielectric_exact::METHOD,
-            BTreeMap::from([("eta".to_owned(), values["n"])]),
-        )
-    })
+    let eta = || Values::from([("eta".to_owned(), n)]);
+    (0..3)
+        .all(is_clear)
+        .then(|| (&dielectric_exact::METHOD, eta()))
 }
 
 /// With constants folded in, the general law is as cheap, and right for any k.
@@ -91,12 +71,11 @@ pub(super) fn as_it_is(values: &Values) -> Option<(&'static Method, Values)> {
     Some((&METHOD, values.clone()))
 }
 
-/// This method with these constants.
-pub(super) fn with(n: [f64; 3], k: [f64; 3]) -> (&'static Method, Values) {
-    (
-        &METHOD,
-        BTreeMap::from([("n".to_owned(), n), ("k".to_owned(), k)]),
-    )
+/// This method with n and k of each channel.
+pub(super) fn with(index: [(f64, f64); 3]) -> (&'static Method, Values) {
+    let (n, k) = (index.map(|(n, _)| n), index.map(|(_, k)| k));
+    let values = [("n".to_owned(), n), ("k".to_owned(), k)];
+    (&METHOD, Values::from(values))
 }
 
 /// The exact law, for methods that compute n and k themselves.
@@ -228,8 +207,7 @@ fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {
@@ -241,7 +219,7 @@ mod tests {
 
     #[test]
     fn without_absorption_it_is_the_dielectric() {
-        use crate::language::methods::formulas::dielectric_exact::METHOD as DIELECTRIC;
+        use dielectric_exact::METHOD as DIELECTRIC;
         for (c, eta) in [(0.3, 1.5), (0.01, 2.4), (0.9, 0.7), (0.5, 0.7), (0.0, 1.0)] {
             check(&METHOD, c, &[eta, 0.0], value(&DIELECTRIC, c, &[eta]));
         }

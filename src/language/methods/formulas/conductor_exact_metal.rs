@@ -9,12 +9,8 @@
 //! semiconductors and glass take `conductor_exact`.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::conductor_exact;
-use crate::language::methods::formulas::conductor_textbook::GLASSNER_1995;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use super::conductor_textbook::GLASSNER_1995;
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -25,21 +21,14 @@ pub static METHOD: Method = Method {
         "R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, F = R_s x / (x + u s^2)",
     ],
     source: GLASSNER_1995,
-    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
-    forms: Forms::Colour,
     class: Class::Metal,
     domain: "k of n / 4 and more; with less it loses digits, and near k = 0 it is wrong: there conductor_exact serves",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Metals,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Metals)],
         code_ulp: 0.0,
-        code_over: Over::Metals,
-        colours: None,
-        by_class: &[],
+        code_over: MediaSet::Metals,
+        ..Claims::NONE
     },
     half: InHalf::Specialised("t squared overflows for k of 16 and more"),
     build,
@@ -69,8 +58,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::{METHOD, conductor_exact};
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {

@@ -12,18 +12,8 @@
 //! worst (F0 .905, F82 .74, an index that no material has).
 //! Specialised to a material, n and k are solved in f64, without this error.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::conductor_exact::{
-    self, conductor, least_squared, root_or_zero,
-};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs, Range};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over, Values,
-};
-use crate::physics::cite::Citation;
-use crate::physics::num::each_channel;
-use crate::physics::optics::index_from_f0_f82;
+use super::conductor_exact::{conductor, least_squared, root_or_zero};
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -43,45 +33,23 @@ pub static METHOD: Method = Method {
     },
     origin: Origin::Ours("all n and k of one F0"),
     inputs: &[Input::F0, Input::F82],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0000347,
-                at_degrees: 82.2,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.000384,
-                at_degrees: 72.5,
-            },
+            Claim::dielectrics(0.0000347, 82.2),
+            Claim::metals(0.000384, 72.5),
         ],
         code_ulp: 10.5,
-        code_over: Over::Metals,
-        colours: Some(Colours {
+        code_over: MediaSet::Metals,
+        colours: Some(ColourClaim {
             max_abs: 5e-4,
             ends: &[
-                (
-                    "f0",
-                    Range {
-                        least: 0.05,
-                        most: 1.0,
-                    },
-                ),
-                (
-                    "f82",
-                    Range {
-                        least: 0.0,
-                        most: 0.99,
-                    },
-                ),
+                ("f0", Range::new(0.05, 1.0)),
+                ("f82", Range::new(0.0, 0.99)),
             ],
             beyond: "of other pairs f32 may be off by 0.3",
         }),
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::Specialised(
         "n is solved from what F0 and F82 lack of 1, differences of which half precision leaves no digits",
@@ -180,17 +148,16 @@ fn deficit<'b>(circle: &Circle<'b>, n: Expr<'b>, tiny: f64) -> Expr<'b> {
 fn solved(values: &Values) -> Option<(&'static Method, Values)> {
     let colour = |name: &str| values.get(name).copied().unwrap_or([0.0; 3]);
     let (f0, f82) = (colour("f0"), colour("f82"));
-    let index = each_channel(|i| index_from_f0_f82(f0[i], f82[i]));
-    Some(conductor_exact::with(
-        index.map(|index| index.n),
-        index.map(|index| index.k),
-    ))
+    let index = |i: usize| {
+        let index = optics::index_from_f0_f82(f0[i], f82[i]);
+        (index.n, index.k)
+    };
+    Some(conductor_exact::with(each_channel(index)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_f0_and_one() {
@@ -211,9 +178,9 @@ mod tests {
     #[test]
     fn its_stated_worst_is_its_worst() {
         let (f0, f82) = (0.905, 0.74);
-        let index = crate::physics::optics::index_from_f0_f82(f0, f82);
+        let index = optics::index_from_f0_f82(f0, f82);
         let error = |c: f64| {
-            let exact = crate::physics::optics::conductor(index.n, index.k, c).unpolarised();
+            let exact = optics::conductor(index.n, index.k, c).unpolarised();
             (value(&METHOD, c, &[f0, f82]) - exact).abs()
         };
         let worst = (0..=100)
@@ -229,7 +196,7 @@ mod tests {
             &METHOD,
             0.5,
             &[0.04, 0.0],
-            crate::physics::optics::dielectric(1.5, 0.5).unpolarised(),
+            optics::dielectric(1.5, 0.5).unpolarised(),
         );
     }
 }

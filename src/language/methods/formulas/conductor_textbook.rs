@@ -8,13 +8,7 @@
 //! Domain: k > 0, 0 < cos θ ≤ 1. Error: none in the model, but the code loses thousands of ulp where k is small. It is NaN at
 //! exactly 90 degrees, where tan θ is infinite, and for cos θ of 1 + 1 ulp, where sin²θ is negative.
 
-use crate::language::ir::Expr;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Contract, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::*;
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {
@@ -36,21 +30,12 @@ pub static METHOD: Method = Method {
         "F = (F_s + F_p) / 2",
     ],
     source: GLASSNER_1995,
-    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "k > 0 and 0 < cos_theta <= 1",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Metals,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Metals)],
         code_ulp: 7000.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     contract: Contract::Exempt(
         "NaN at exactly 90 degrees and for cos_theta above 1; thousands of ulp where k is small; no clamp",
@@ -86,8 +71,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_normal_incidence() {

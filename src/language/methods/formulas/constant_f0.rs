@@ -5,14 +5,7 @@
 //! reflectance, since F stays close to it at most angles; Schlick's formula without its angular term.
 //! Domain: F0 ≥ 0; above 1 it is returned unchanged. Error: 1 - F0 at 90 degrees; see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::Affine;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -26,28 +19,14 @@ pub static METHOD: Method = Method {
         year: 2013,
         link: "https://blog.selfshadow.com/publications/s2013-shading-course/",
     },
-    origin: Origin::Published,
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "the result is f0, also above 1 and at 90 degrees, where the law reflects everything",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.983,
-                at_degrees: 90.0,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.714,
-                at_degrees: 90.0,
-            },
-        ],
+        model: &[Claim::dielectrics(0.983, 90.0), Claim::metals(0.714, 90.0)],
         code_ulp: 0.0,
-        code_over: Over::Wide,
-        colours: Colours::within(0.0),
-        by_class: &[],
+        colours: ColourClaim::within(0.0),
+        ..Claims::NONE
     },
     half: InHalf::within(0.0),
     build,
@@ -65,8 +44,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_is_f0_at_every_angle() {

@@ -14,13 +14,7 @@
 //! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::FittedAverage;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
-use crate::physics::cite::Citation;
-use crate::physics::num::Precision;
+use super::*;
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {
@@ -44,7 +38,6 @@ pub static METHOD: Method = Method {
         "F = min((c^2 g^2 + s2^2) q^2, 1), q = t / (c (eta^2 (g + c) + g) + g^2)",
     ],
     source: COOK_TORRANCE_1982,
-    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
@@ -52,15 +45,9 @@ pub static METHOD: Method = Method {
              cosine, where rounding decides: 0.99 or more for eta from 0.25 on. Before it the law is steep: f32 may be off by 0.01 for \
              eta from 0.25 to 0.999",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Dielectrics,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Dielectrics)],
         code_ulp: 10.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within_but(0.0015, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
@@ -239,11 +226,10 @@ fn average<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
+    use super::*;
     use crate::language::ir::{Value, evaluate};
-    use crate::language::methods::limits::check;
-    use crate::physics::num::{Legendre, Precision};
-    use crate::physics::optics::dielectric;
+    use crate::physics::num::Legendre;
+    use optics::dielectric;
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {

@@ -4,11 +4,8 @@
 //! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1, except at the number next to it; 0 at
 //! Brewster's angle (tan θ = η). Error: none in the model; at Brewster's zero only an absolute bound makes sense.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Light, Method, Origin, Over};
+use super::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -19,7 +16,6 @@ pub static METHOD: Method = Method {
         "F = (r_s (c u - 1) / (c t / u + 1))^2; 1 where t + c^2 < 0",
     ],
     source: COOK_TORRANCE_1982,
-    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
@@ -27,15 +23,9 @@ pub static METHOD: Method = Method {
     domain: "on both sides of 1; 0 at Brewster's angle. Past the critical angle exactly 1, but for the number next to its cosine, where rounding \
              decides: 0.98 or more for eta from 0.25 on",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Dielectrics,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Dielectrics)],
         code_ulp: 14.5,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within_but(0.0022, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
@@ -49,8 +39,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn brewsters_angle_reflects_nothing() {

@@ -4,11 +4,8 @@
 //! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1, except at the number next to it.
 //! Error: none in the model.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Light, Method, Origin, Over};
+use super::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -18,22 +15,15 @@ pub static METHOD: Method = Method {
         "t = (eta - 1)(eta + 1), u = sqrt(t + c^2) + c, F = (t / u^2)^2; 1 where t + c^2 < 0",
     ],
     source: COOK_TORRANCE_1982,
-    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::S,
     domain: "on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for the number next to its cosine, where rounding decides: 0.998 or more",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Dielectrics,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Dielectrics)],
         code_ulp: 0.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),
     build,
@@ -47,8 +37,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_its_limits() {

@@ -6,13 +6,7 @@
 //! Domain: n > 1, 0 ≤ cos θ ≤ 1. Error: none in the model, but the code loses thousands of ulp as n tends
 //! to 1, and gives NaN past the critical angle.
 
-use crate::language::ir::Expr;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Contract, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::*;
 
 /// Physically Based Rendering, second edition.
 pub const PBRT_2010: Citation = Citation {
@@ -33,21 +27,14 @@ pub static METHOD: Method = Method {
         "F = (R_s + R_p) / 2",
     ],
     source: PBRT_2010,
-    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     domain: "eta > 1 and 0 <= cos_theta <= 1",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Dielectrics,
-            max_abs: 0.0,
-            at_degrees: 0.0,
-        }],
+        model: &[Claim::exact(MediaSet::Dielectrics)],
         code_ulp: 11000.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     contract: Contract::Exempt(
         "NaN past the critical angle; thousands of ulp as eta tends to 1; no clamp; NaN, not 0, at eta = 1 and 90 degrees",
@@ -74,8 +61,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_its_limits() {

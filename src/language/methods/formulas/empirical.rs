@@ -6,14 +6,7 @@
 //! numbers are tuned by hand, or derived from a material as bias = F0, scale = 1 - F0 and the power that matches the exact law
 //! at 60 degrees. Error: [`METHOD`]'s claims, with parameters derived from the material.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::{COS_60, mean};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{
-    Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
-};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
-use crate::physics::cite::Citation;
+use super::*;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -67,28 +60,13 @@ pub static METHOD: Method = Method {
         year: 2003,
         link: "https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html",
     },
-    origin: Origin::Published,
     inputs: &[Input::BIAS, Input::SCALE, Input::POWER],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "the arguments are numbers: the three channels get the same reflectance",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.113,
-                at_degrees: 83.6,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.42,
-                at_degrees: 0.0,
-            },
-        ],
+        model: &[Claim::dielectrics(0.113, 83.6), Claim::metals(0.42, 0.0)],
         code_ulp: 15.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within(0.0017),
     build,
@@ -103,8 +81,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_bias_and_bias_plus_scale() {

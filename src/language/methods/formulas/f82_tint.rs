@@ -7,16 +7,9 @@
 //! Domain: F0, tint ≥ 0. For tints below .52 the bare formula turns negative (to -.127). For tints above 1 it can exceed
 //! 1. The result is clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::{Affine, each};
-use crate::language::methods::formulas::hoffman_f82::{WEIGHT_82, affine_weights, dip};
-use crate::language::methods::formulas::schlick::grazing_weight;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::hoffman_f82::{WEIGHT_82, affine_weights, dip};
+use super::schlick::grazing_weight;
+use super::*;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -24,7 +17,7 @@ impl Input {
         "tint",
         "reflectance at 81.79 degrees over Schlick's value there",
         [0.0, 2.0],
-        InputSource::Material(|known| each(|i| known.f82[i] / schlick_82(known.f0[i]))),
+        InputSource::Material(|known| each_channel(|i| known.f82[i] / schlick_82(known.f0[i]))),
     )
     .tried(&[1.0, 0.0, 0.4, 1.4])
     .scanned(&[
@@ -55,28 +48,16 @@ pub static METHOD: Method = Method {
         year: 2021,
         link: "https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html",
     },
-    origin: Origin::Published,
     inputs: &[Input::F0, Input::TINT],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0341,
-                at_degrees: 67.8,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0837,
-                at_degrees: 87.3,
-            },
+            Claim::dielectrics(0.0341, 67.8),
+            Claim::metals(0.0837, 87.3),
         ],
         code_ulp: 6.0,
-        code_over: Over::Wide,
-        colours: Colours::within(6e-7),
-        by_class: &[],
+        colours: ColourClaim::within(6e-7),
+        ..Claims::NONE
     },
     half: InHalf::within(0.0016),
     build,
@@ -133,8 +114,7 @@ fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_f0_the_tint_and_one() {

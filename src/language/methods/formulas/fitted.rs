@@ -8,14 +8,7 @@
 //! the others compensate (`fit --precision f16`), and the formula loses at most what is promised.
 //! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
-};
-use crate::language::methods::shape::{Factor, Shape};
-use crate::physics::cite::Citation;
+use super::*;
 
 /// The source of the exchange algorithm that finds the coefficients of all fitted methods.
 pub const STIEFEL_1959: Citation = Citation {
@@ -24,6 +17,16 @@ pub const STIEFEL_1959: Citation = Citation {
     place: "Numerische Mathematik 1, 1-28",
     year: 1959,
     link: "https://doi.org/10.1007/BF01386369",
+};
+
+/// What methods of fitted coefficients have in common.
+pub(super) const FITTED: Method = Method {
+    source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    domain: "limited to [0, 1]",
+    ..Method::BASE
 };
 
 /// What half precision requires of callers of fitted methods, and where it fails.
@@ -39,48 +42,29 @@ pub static METHOD: Method = Method {
     name: "fitted",
     summary: "four coefficients fitted to a metal or semiconductor",
     formula: &["F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]"],
-    source: STIEFEL_1959,
-    origin: Origin::Ours("algorithm of the fit"),
-    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
-    forms: Forms::ColourAndScalar,
-    class: Class::Any,
-    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0038,
-                at_degrees: 53.9,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0085,
-                at_degrees: 81.5,
-            },
+            Claim::dielectrics(0.0038, 53.9),
+            Claim::metals(0.0085, 81.5),
         ],
         code_ulp: 0.0,
-        code_over: Over::Metals,
-        colours: None,
+        code_over: MediaSet::Metals,
         by_class: &[
             ByClass::of_class("metal", [0.0020, 0.0030], [0.0019, 0.0118], 0.0032),
             ByClass::of_class("semiconductor", [0.0040, 0.0052], [0.0036, 0.0066], 0.0064),
             ByClass::of_class("dielectric", [0.0036, 0.0038], [0.0030, 0.0037], 0.0038),
         ],
+        ..Claims::NONE
     },
-    half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
-    build,
+    half: InHalf::within_over(0.0013, MediaSet::Metals, FLOOR),
+    build: |x| SHAPE.build(x),
     shape: Some(SHAPE),
-    ..Method::BASE
+    ..FITTED
 };
-
-fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    SHAPE.build(x)
-}
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_is_the_sum_at_grazing_and_limited() {

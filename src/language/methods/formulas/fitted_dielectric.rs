@@ -6,14 +6,8 @@
 //! glasses; 0, 3, 7 and 13: .0010).
 //! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
-};
-use crate::language::methods::shape::{Factor, Shape};
+use super::fitted::{FITTED, FLOOR};
+use super::*;
 
 /// The shape.
 const SHAPE: Shape = Shape {
@@ -25,42 +19,28 @@ pub static METHOD: Method = Method {
     name: "fitted_dielectric",
     summary: "four coefficients fitted to a dielectric of n 1.2 or more",
     formula: &["F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]"],
-    source: STIEFEL_1959,
-    origin: Origin::Ours("algorithm of the fit"),
-    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
-    forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    domain: "limited to [0, 1]",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Dielectrics,
-            max_abs: 0.0012,
-            at_degrees: 48.4,
-        }],
+        model: &[Claim::dielectrics(0.0012, 48.4)],
         code_ulp: 7.5,
-        code_over: Over::Dielectrics,
-        colours: None,
+        code_over: MediaSet::Dielectrics,
         by_class: &[ByClass::of_class(
             "dielectric",
             [0.0007, 0.0011],
             [0.0011, 0.0012],
             0.0012,
         )],
+        ..Claims::NONE
     },
-    half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),
-    build,
+    half: InHalf::within_over(0.0015, MediaSet::Dielectrics, FLOOR),
+    build: |x| SHAPE.build(x),
     shape: Some(SHAPE),
-    ..Method::BASE
+    ..FITTED
 };
-
-fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    SHAPE.build(x)
-}
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_begins_at_c0_and_ends_at_the_sum() {

@@ -10,14 +10,8 @@
 //! .0210, where no pair of curves has less than .0122 and .0213 together. With 8/3 the weight of white begins flat.
 //! Domain: any F0 and F82; clamped to [0, 1]. It serves dielectrics too. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::Affine;
-use crate::language::methods::formulas::hoffman_f82::{HOFFMAN_2019, between};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    ByClass, Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
+use super::hoffman_f82::{HOFFMAN_2019, between};
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -31,29 +25,20 @@ pub static METHOD: Method = Method {
     origin: Origin::Ours("the two colours that it takes"),
     inputs: &[Input::F0, Input::F82],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0088,
-                at_degrees: 71.6,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0504,
-                at_degrees: 87.3,
-            },
+            Claim::dielectrics(0.0088, 71.6),
+            Claim::metals(0.0504, 87.3),
         ],
         code_ulp: 0.0,
-        code_over: Over::Wide,
-        colours: Colours::within(6e-7),
+        colours: ColourClaim::within(6e-7),
         by_class: &[
             ByClass::of_class("metal", [0.0138, 0.0210], [0.0129, 0.0573], 0.0211),
             ByClass::of_class("semiconductor", [0.0161, 0.0217], [0.0139, 0.0293], 0.0285),
             ByClass::of_class("dielectric", [0.0055, 0.0083], [0.0078, 0.0085], 0.0084),
         ],
+        ..Claims::NONE
     },
     half: InHalf::within(0.0015),
     build,
@@ -108,8 +93,7 @@ fn affine_weights(c: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_f0_f82_and_one() {

@@ -10,13 +10,8 @@
 //! once a light.
 //! Domain: any F0 and F82; clamped to [0, 1]. White stays white. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::hoffman_f82::HOFFMAN_2019;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    ByClass, Claim, Claims, Class, CoefficientsFromInputs, Colours, Forms, Method, Origin, Over,
-};
+use super::hoffman_f82::HOFFMAN_2019;
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -29,18 +24,12 @@ pub static METHOD: Method = Method {
     source: HOFFMAN_2019,
     origin: Origin::Ours("the two colours that it takes"),
     inputs: &[Input::F0, Input::F82],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "the result is limited to [0, 1]; for metals and semiconductors: of water it errs by 0.04",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Metals,
-            max_abs: 0.0452,
-            at_degrees: 87.5,
-        }],
+        model: &[Claim::metals(0.0452, 87.5)],
         code_ulp: 16.0,
-        code_over: Over::Metals,
-        colours: Colours::within(8.5e-6),
+        code_over: MediaSet::Metals,
+        colours: ColourClaim::within(8.5e-6),
         by_class: &[
             ByClass::of_class("metal", [0.0042, 0.0100], [0.0047, 0.0430], 0.0141),
             ByClass::of_class("semiconductor", [0.0066, 0.0074], [0.0065, 0.0096], 0.0094),
@@ -95,8 +84,7 @@ fn coefficients<'b>(x: &Inputs<'b>) -> [Expr<'b>; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::{CENTRE, METHOD, QUADRATICS};
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     /// As `tests/fit-f82` finds them: the coefficients of 1, y, y², x, x y and x² with x = F0 - .75 and y = F82 - .65. Rounding them
     /// to four digits changes no page's error by more than 5e-5.

@@ -6,14 +6,8 @@
 //! precision has enough digits for that, half precision has not.
 //! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
-};
-use crate::language::methods::shape::{Factor, Shape};
+use super::fitted::{FITTED, FLOOR};
+use super::*;
 
 /// The shape.
 const SHAPE: Shape = Shape {
@@ -33,48 +27,30 @@ pub static METHOD: Method = Method {
         "F = c0 + b (c1 + q (c2 + b (c3 + c c4))), limited to [0, 1]",
         "b = 2^(-11 c), q = c^2 + 0.094",
     ],
-    source: STIEFEL_1959,
-    origin: Origin::Ours("algorithm of the fit"),
     inputs: &Input::COEFFICIENTS,
-    forms: Forms::ColourAndScalar,
-    class: Class::Any,
-    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0016,
-                at_degrees: 74.4,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0023,
-                at_degrees: 23.8,
-            },
+            Claim::dielectrics(0.0016, 74.4),
+            Claim::metals(0.0023, 23.8),
         ],
         code_ulp: 8.0,
-        code_over: Over::Metals,
-        colours: None,
+        code_over: MediaSet::Metals,
         by_class: &[
             ByClass::of_class("metal", [0.0006, 0.0011], [0.0006, 0.0071], 0.0012),
             ByClass::of_class("semiconductor", [0.0005, 0.0005], [0.0006, 0.0008], 0.0008),
             ByClass::of_class("dielectric", [0.0015, 0.0015], [0.0013, 0.0015], 0.0015),
         ],
+        ..Claims::NONE
     },
-    half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(0.0026),
-    build,
+    half: InHalf::within_over(0.0028, MediaSet::Metals, FLOOR).materials_within(0.0026),
+    build: |x| SHAPE.build(x),
     shape: Some(SHAPE),
-    ..Method::BASE
+    ..FITTED
 };
-
-fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    SHAPE.build(x)
-}
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_begins_near_c0_and_ends_at_a_sum() {

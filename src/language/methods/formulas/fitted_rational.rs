@@ -7,14 +7,8 @@
 //! [`fitted`](crate::language::methods::formulas::fitted) is cheaper, and no worse.
 //! Domain: any coefficients; the result is clamped to [0, 1]. Error: see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::fitted::{FLOOR, STIEFEL_1959};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    ByClass, Claim, Claims, Class, Forms, Method, Origin, Over,
-};
-use crate::language::methods::shape::{Factor, Shape};
+use super::fitted::{FITTED, FLOOR};
+use super::*;
 
 /// The shape.
 const SHAPE: Shape = Shape {
@@ -33,48 +27,29 @@ pub static METHOD: Method = Method {
         "F = c0 + a (c1 + r (c2 + q c3)), limited to [0, 1]",
         "r = 1 / (c + 0.144), q = sqrt(r), a = 1 / (c^2 + 0.112) - q",
     ],
-    source: STIEFEL_1959,
-    origin: Origin::Ours("algorithm of the fit"),
-    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
-    forms: Forms::ColourAndScalar,
-    class: Class::Any,
-    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0034,
-                at_degrees: 48.4,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0098,
-                at_degrees: 64.8,
-            },
+            Claim::dielectrics(0.0034, 48.4),
+            Claim::metals(0.0098, 64.8),
         ],
         code_ulp: 8.5,
-        code_over: Over::Metals,
-        colours: None,
+        code_over: MediaSet::Metals,
         by_class: &[
             ByClass::of_class("metal", [0.0022, 0.0036], [0.0023, 0.0100], 0.0037),
             ByClass::of_class("semiconductor", [0.0027, 0.0039], [0.0026, 0.0056], 0.0054),
             ByClass::of_class("dielectric", [0.0030, 0.0033], [0.0030, 0.0033], 0.0033),
         ],
+        ..Claims::NONE
     },
-    half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(0.003),
-    build,
+    half: InHalf::within_over(0.0025, MediaSet::Metals, FLOOR).materials_within(0.003),
+    build: |x| SHAPE.build(x),
     shape: Some(SHAPE),
-    ..Method::BASE
+    ..FITTED
 };
-
-fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    SHAPE.build(x)
-}
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_is_c0_and_what_its_factors_add() {

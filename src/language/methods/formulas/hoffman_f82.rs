@@ -6,15 +6,8 @@
 //! 1 / (1/7 (6/7)⁶) = 7⁷/6⁶ and F_S(1/7) = F0 + (1 - F0) (6/7)⁵, both exact.
 //! Domain: F0, F82 ≥ 0; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::Affine;
-use crate::language::methods::formulas::schlick::{grazing_power, grazing_weight};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::schlick::{grazing_power, grazing_weight};
+use super::*;
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
 const PEAK: f64 = 823_543.0 / 46_656.0;
@@ -39,28 +32,16 @@ pub static METHOD: Method = Method {
         "b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)",
     ],
     source: HOFFMAN_2019,
-    origin: Origin::Published,
     inputs: &[Input::F0, Input::F82],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0341,
-                at_degrees: 67.8,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.0837,
-                at_degrees: 87.3,
-            },
+            Claim::dielectrics(0.0341, 67.8),
+            Claim::metals(0.0837, 87.3),
         ],
         code_ulp: 6.0,
-        code_over: Over::Wide,
-        colours: Colours::within(5e-7),
-        by_class: &[],
+        colours: ColourClaim::within(5e-7),
+        ..Claims::NONE
     },
     half: InHalf::within(0.0017),
     build,
@@ -118,8 +99,7 @@ pub(super) fn affine_weights(c: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_f0_f82_and_one() {

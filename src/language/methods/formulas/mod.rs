@@ -1,6 +1,24 @@
 //! The formulas, one file each. To add one, write its file and run `tests/lists`, which writes the list below.
+//! Each file begins with `use super::*`, which brings the words that a formula is written with.
 
-use super::Method;
+use super::affine::Affine;
+use super::claims::{ByClass, Claim, Claims, ColourClaim};
+use super::half::InHalf;
+use super::input::{
+    Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, Range, SHARES, SHARES_AND_BEYOND,
+};
+#[cfg(test)]
+use super::limits::{check, value};
+use super::media::{Class, MediaSet};
+use super::method::{
+    CoefficientsFromInputs, Contract, FittedAverage, Forms, Light, Method, Origin, Values,
+};
+use super::shape::{Factor, Shape};
+use super::surface::{BELCOUR_COSINES, COS_60, KnownSurface, mean};
+use crate::language::ir::Expr;
+use crate::physics::cite::Citation;
+use crate::physics::num::{Precision, each_channel};
+use crate::physics::optics;
 
 // BEGIN list (written by tests/lists)
 mod belcour_decomposition;
@@ -103,7 +121,6 @@ impl Method {
 }
 // END list
 
-pub use belcour_decomposition::BELCOUR_COSINES;
 pub use f82_tint::schlick_82;
 pub use schlick_corrected::lambda;
 pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};

@@ -5,14 +5,7 @@
 //! Domain: F0 ≥ 0; above 1 the result lies between 1 and F0. It rises monotonically, so it misses the dip that
 //! metals have near 80 degrees. Error: see [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::Affine;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::*;
 
 /// Schlick 1994.
 pub const SCHLICK_1994: Citation = Citation {
@@ -29,28 +22,14 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation from F0",
     formula: &["F = F0 + (1 - F0) (1 - cos_theta)^5"],
     source: SCHLICK_1994,
-    origin: Origin::Published,
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "f0 above 1 is taken as it is: the result then lies in [0, max(1, f0)]. Misses the minimum of metals near 80 degrees",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0841,
-                at_degrees: 84.5,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.278,
-                at_degrees: 84.5,
-            },
-        ],
+        model: &[Claim::dielectrics(0.0841, 84.5), Claim::metals(0.278, 84.5)],
         code_ulp: 5.0,
-        code_over: Over::Wide,
-        colours: Colours::within(3e-7),
-        by_class: &[],
+        colours: ColourClaim::within(3e-7),
+        ..Claims::NONE
     },
     half: InHalf::within(0.0013),
     build,
@@ -106,8 +85,7 @@ pub(super) fn grazing_power(c: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_f0_and_one() {

@@ -9,14 +9,8 @@
 //! cos θ = 0.15). Where no λ does, as in gold's green, the term is dropped, which λ ≤ 0 stands for.
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::KnownSurface;
-use crate::language::methods::formulas::schlick_rescaled::{LAZANYI_2005, rescaled};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
-use crate::physics::num::each_channel;
-use crate::physics::optics;
+use super::schlick_rescaled::{LAZANYI_2005, rescaled};
+use super::*;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -66,19 +60,11 @@ pub static METHOD: Method = Method {
     source: LAZANYI_2005,
     origin: Origin::Adapted("a = 2 n and the matched exponent are the thesis's"),
     inputs: &[Input::N, Input::K, Input::LAMBDA],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "clamped to [0, 1]; lambda <= 0 drops the correction",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Metals,
-            max_abs: 0.0872,
-            at_degrees: 75.8,
-        }],
+        model: &[Claim::metals(0.0872, 75.8)],
         code_ulp: 16.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
@@ -102,8 +88,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {
@@ -118,7 +103,7 @@ mod tests {
 
     #[test]
     fn without_lambda_it_is_the_rescaled_schlick() {
-        use crate::language::methods::formulas::schlick_rescaled::METHOD as RESCALED;
+        use schlick_rescaled::METHOD as RESCALED;
         check(
             &METHOD,
             0.2,

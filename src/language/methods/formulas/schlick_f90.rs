@@ -5,15 +5,8 @@
 //! Domain: F0 ≥ 0, F90 in [0, 1]; engines lower F90 as occlusion for surfaces with an F0 below that of any material.
 //! Error: that of `schlick` where F90 = 1.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::Affine;
-use crate::language::methods::formulas::schlick::{affine_weights, grazing_weight};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::schlick::{affine_weights, grazing_weight};
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -27,28 +20,14 @@ pub static METHOD: Method = Method {
         year: 2014,
         link: "https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/",
     },
-    origin: Origin::Published,
     inputs: &[Input::F0, Input::F90],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0841,
-                at_degrees: 84.5,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.278,
-                at_degrees: 84.5,
-            },
-        ],
+        model: &[Claim::dielectrics(0.0841, 84.5), Claim::metals(0.278, 84.5)],
         code_ulp: 5.0,
-        code_over: Over::Wide,
-        colours: Colours::within(3e-7),
-        by_class: &[],
+        colours: ColourClaim::within(3e-7),
+        ..Claims::NONE
     },
     half: InHalf::within(0.0013),
     build,
@@ -83,8 +62,7 @@ fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_f0_and_f90() {

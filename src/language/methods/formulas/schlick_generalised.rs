@@ -7,12 +7,8 @@
 //! Domain: F0 ≥ 0, F90 in [0, 1], exponent ≥ 0.2 (below, 2^(-126 exponent) shows at normal incidence). Error: that of `schlick`
 //! at exponent 5 and F90 = 1. The real power is computed by exp2 and log2, whose error is part of the code error.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::schlick_f90::to_f90;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
-use crate::physics::cite::Citation;
+use super::schlick_f90::to_f90;
+use super::*;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -38,28 +34,13 @@ pub static METHOD: Method = Method {
         year: 2017,
         link: "https://blog.selfshadow.com/publications/s2017-shading-course/",
     },
-    origin: Origin::Published,
     inputs: &[Input::F0, Input::F90, Input::EXPONENT],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0841,
-                at_degrees: 84.5,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.278,
-                at_degrees: 84.5,
-            },
-        ],
+        model: &[Claim::dielectrics(0.0841, 84.5), Claim::metals(0.278, 84.5)],
         code_ulp: 0.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within(0.0017),
     build,
@@ -84,8 +65,7 @@ fn weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_f0_and_f90() {

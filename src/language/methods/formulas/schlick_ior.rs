@@ -4,12 +4,9 @@
 //! <https://doi.org/10.1111/1467-8659.1330233>; eq. 7 of the thesis.
 //! Domain: η from 0.001 to 1e12. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::schlick::{SCHLICK_1994, grazing_weight, to_white};
-use crate::language::methods::formulas::schlick_rescaled::from_least;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
+use super::schlick::{SCHLICK_1994, grazing_weight, to_white};
+use super::schlick_rescaled::from_least;
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -17,21 +14,14 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation from the index of refraction",
     formula: &["F = ((eta - 1)^2 + 4 eta (1 - cos_theta)^5) / (eta + 1)^2"],
     source: SCHLICK_1994,
-    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     domain: "off by at most 0.059 for eta from 1.4 to 2.2; below 1 it misses total reflection",
     claims: Claims {
-        model: &[Claim {
-            over: Over::Dielectrics,
-            max_abs: 0.0841,
-            at_degrees: 84.5,
-        }],
+        model: &[Claim::dielectrics(0.0841, 84.5)],
         code_ulp: 7.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within(0.0014).ending(&[("eta", 65504.0)]),
     build,
@@ -54,9 +44,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::formulas::dielectric_exact;
-    use crate::language::methods::limits::{check, value};
+    use super::*;
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {

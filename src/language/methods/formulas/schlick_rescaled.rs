@@ -4,12 +4,8 @@
 //! <https://hdl.handle.net/11025/11214>; eq. 14 of the thesis.
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::formulas::schlick::{grazing_rest, grazing_weight};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
-use crate::physics::cite::Citation;
+use super::schlick::{grazing_rest, grazing_weight};
+use super::*;
 
 /// Lazányi and Szirmay-Kalos 2005.
 pub const LAZANYI_2005: Citation = Citation {
@@ -26,28 +22,12 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation rescaled to n and k",
     formula: &["F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)"],
     source: LAZANYI_2005,
-    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "misses the minimum of metals",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0841,
-                at_degrees: 84.5,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.278,
-                at_degrees: 84.5,
-            },
-        ],
+        model: &[Claim::dielectrics(0.0841, 84.5), Claim::metals(0.278, 84.5)],
         code_ulp: 8.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
@@ -85,8 +65,7 @@ fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {

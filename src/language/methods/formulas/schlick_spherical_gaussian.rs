@@ -5,15 +5,8 @@
 //! The two constants are as published. The weight they give is off by .0038 at 86.8 degrees, and by 1.7e-4 at
 //! normal incidence, where F is not quite F0. Domain: F0 ≥ 0. Error: [`METHOD`]'s claims.
 
-use crate::language::ir::Expr;
-use crate::language::methods::affine::Affine;
-use crate::language::methods::formulas::schlick::to_white;
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, Inputs};
-use crate::language::methods::method::{
-    Claim, Claims, Class, Colours, Forms, Method, Origin, Over,
-};
-use crate::physics::cite::Citation;
+use super::schlick::to_white;
+use super::*;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -27,28 +20,14 @@ pub static METHOD: Method = Method {
         year: 2013,
         link: "https://blog.selfshadow.com/publications/s2013-shading-course/",
     },
-    origin: Origin::Published,
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
-    class: Class::Any,
     domain: "f0 above 1 is taken as it is: the result then lies in [0, max(1, f0)]; at normal incidence the result is f0 + 1.7e-4 (1 - f0)",
     claims: Claims {
-        model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.0864,
-                at_degrees: 84.6,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.279,
-                at_degrees: 84.5,
-            },
-        ],
+        model: &[Claim::dielectrics(0.0864, 84.6), Claim::metals(0.279, 84.5)],
         code_ulp: 0.0,
-        code_over: Over::Wide,
-        colours: Colours::within(3e-7),
-        by_class: &[],
+        colours: ColourClaim::within(3e-7),
+        ..Claims::NONE
     },
     half: InHalf::within(0.0008),
     build,
@@ -78,8 +57,7 @@ fn affine_weights(c: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
-    use crate::language::methods::limits::check;
+    use super::*;
 
     #[test]
     fn it_meets_one_at_grazing_and_nearly_f0_at_normal_incidence() {

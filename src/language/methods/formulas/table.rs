@@ -7,11 +7,8 @@
 //! Domain: a texture of one mip level, filtered linearly and clamped to the edge. Error: that of the table, and 1/256 of
 //! the difference of two neighbouring texels for the sampler's weights.
 
-use crate::language::ir::{Expr, Ty};
-use crate::language::methods::half::InHalf;
-use crate::language::methods::input::{Input, InputSource, Inputs};
-use crate::language::methods::method::{Claim, Claims, Class, Forms, Method, Origin, Over};
-use crate::physics::cite::Citation;
+use super::*;
+use crate::language::ir::Ty;
 use crate::physics::num::Num;
 
 /// The default number of texels of a table. With it, the rounding of texels is the largest error in half precision. More
@@ -94,27 +91,15 @@ pub static METHOD: Method = Method {
         Input::ROW,
         Input::TABLE_SCALE,
     ],
-    forms: Forms::Colour,
-    class: Class::Any,
     domain: "a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first. The errors below are \
              those of 64 texels and warp 4",
     claims: Claims {
         model: &[
-            Claim {
-                over: Over::Dielectrics,
-                max_abs: 0.00027,
-                at_degrees: 84.3,
-            },
-            Claim {
-                over: Over::Metals,
-                max_abs: 0.00045,
-                at_degrees: 15.2,
-            },
+            Claim::dielectrics(0.00027, 84.3),
+            Claim::metals(0.00045, 15.2),
         ],
         code_ulp: 0.0,
-        code_over: Over::Wide,
-        colours: None,
-        by_class: &[],
+        ..Claims::NONE
     },
     half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),
     build,
@@ -159,7 +144,7 @@ pub fn unwarped(warp: f64, w: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::METHOD;
+    use super::*;
     use crate::language::ir::{Texels, Value, evaluate};
 
     #[test]

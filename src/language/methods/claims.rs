@@ -1,0 +1,159 @@
+//! What methods promise ([`Claims`]): model error, code error, and for fitted methods how well they follow classes of materials
+//! ([`ByClass`]): metals, semiconductors, and dielectrics of n 1.2 or more, in air.
+//!
+//! The figure of a class is the largest error over all angles and channels of each material, as median and 90th percentile: over
+//! the pages of the catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The figures
+//! stand in the methods' own files. The test `fits::classes_are_followed_as_promised` checks that each is neither exceeded nor
+//! slack.
+
+use super::input::{Input, Range};
+use super::media::MediaSet;
+
+/// What a method promises. Tests check each figure in both directions: not exceeded, and not slack.
+#[derive(Clone, Copy, Debug)]
+pub struct Claims {
+    /// Model error: maximum absolute difference to the exact law, over stated sets of media and all angles.
+    pub model: &'static [Claim],
+    /// Code error: the largest difference in ulp between unfused f32 and f64 at the same inputs, over these media and all
+    /// angles. Differences within 2⁻²² do not count. 0 for a method that reads a texture, where the sampler decides.
+    pub code_ulp: f64,
+    /// The media that the code error is stated over.
+    pub code_over: MediaSet,
+    /// The code error over all colours that artists may enter, where a method takes colours.
+    pub colours: Option<ColourClaim>,
+    /// How well a fitted method follows classes of materials.
+    pub by_class: &'static [ByClass],
+}
+
+impl Claims {
+    /// No promise.
+    pub(super) const NONE: Claims = Claims {
+        model: &[],
+        code_ulp: 0.0,
+        code_over: MediaSet::Wide,
+        colours: None,
+        by_class: &[],
+    };
+
+    /// The promise for a class of materials, if there is one.
+    pub fn for_class(&self, class: &str) -> Option<&'static ByClass> {
+        self.by_class.iter().find(|row| row.class == class)
+    }
+}
+
+/// A promised code error of a method whose inputs artists enter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColourClaim {
+    /// The largest difference between f32, unfused or fused, and f64 at the same inputs, over every argument from 0 to 1 and
+    /// every angle.
+    pub max_abs: f64,
+    /// Arguments for which it holds over another range than 0 to 1.
+    pub ends: &'static [(&'static str, Range)],
+    /// The weaker promise beyond these; may be empty.
+    pub beyond: &'static str,
+}
+
+impl ColourClaim {
+    /// An error of at most this, over arguments from 0 to 1.
+    pub const fn within(max_abs: f64) -> Option<ColourClaim> {
+        Some(ColourClaim {
+            max_abs,
+            ends: &[],
+            beyond: "",
+        })
+    }
+
+    /// Where the promise holds.
+    pub fn range(&self, input: &Input) -> Range {
+        let own = self.ends.iter().find(|(name, _)| *name == input.name);
+        own.map_or(Range::new(0.0, 1.0), |(_, range)| *range)
+    }
+}
+
+/// A promised model error.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim {
+    /// The media that it is stated over.
+    pub over: MediaSet,
+    /// The promise; 0 where the method is the exact law.
+    pub max_abs: f64,
+    /// The angle, in degrees, at which it is worst.
+    pub at_degrees: f64,
+}
+
+impl Claim {
+    /// The method is the exact law there.
+    pub(super) const fn exact(over: MediaSet) -> Claim {
+        Claim {
+            over,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }
+    }
+
+    /// At most this error over [`MediaSet::Dielectrics`], worst at this angle.
+    pub(super) const fn dielectrics(max_abs: f64, at_degrees: f64) -> Claim {
+        Claim {
+            over: MediaSet::Dielectrics,
+            max_abs,
+            at_degrees,
+        }
+    }
+
+    /// At most this error over [`MediaSet::Metals`], worst at this angle.
+    pub(super) const fn metals(max_abs: f64, at_degrees: f64) -> Claim {
+        Claim {
+            over: MediaSet::Metals,
+            max_abs,
+            at_degrees,
+        }
+    }
+}
+
+/// Median and 90th percentile of the largest errors of some materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Half of the materials err no more.
+    pub median: f64,
+    /// The 90th percentile: nine of ten err no more.
+    pub percentile_90: f64,
+}
+
+impl Spread {
+    const fn new([median, percentile_90]: [f64; 2]) -> Spread {
+        Spread {
+            median,
+            percentile_90,
+        }
+    }
+}
+
+/// What a fitted method promises for a class of materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ByClass {
+    /// `metal`, `semiconductor` or `dielectric`.
+    pub class: &'static str,
+    /// Over the catalogue.
+    pub catalogue: Spread,
+    /// Over pages that are not in the catalogue.
+    pub outside: Spread,
+    /// The 90th percentile over both together. A fit that errs more misses its class.
+    pub limit: f64,
+}
+
+impl ByClass {
+    /// A promise for a class: median and 90th percentile over the catalogue and outside it, and the 90th percentile over both.
+    pub(super) const fn of_class(
+        class: &'static str,
+        catalogue: [f64; 2],
+        outside: [f64; 2],
+        limit: f64,
+    ) -> ByClass {
+        ByClass {
+            class,
+            catalogue: Spread::new(catalogue),
+            outside: Spread::new(outside),
+            limit,
+        }
+    }
+}
