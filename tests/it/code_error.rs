@@ -6,13 +6,13 @@ use fresnel_gen::lab::verify::{
     ABSOLUTE_FLOOR, CodeError, HalfError, HalfTrial, Random, Trial, cosines, halves, nearest_half,
 };
 use fresnel_gen::language::ir::{Checked, Ty};
-use fresnel_gen::language::methods::{self, Class, Contract, Method, Over};
+use fresnel_gen::language::methods::{self, Class, Contract, Method, MediaSet};
 use fresnel_gen::physics::materials::Channels;
 use fresnel_gen::physics::num::Precision;
 
 /// The seed of the random media.
 const SEED: u64 = 1;
-/// The share of metals among the media of [`Over::Wide`].
+/// The share of metals among the media of [`MediaSet::Wide`].
 const METALS: f64 = 0.3;
 /// The share of media without absorption among the rest.
 const CLEAR: f64 = 0.1;
@@ -108,7 +108,7 @@ fn library_half_error_at(method: &Method, channels: &Channels, cosines: &[f32]) 
 }
 
 /// Three random media of a set.
-fn random_channels(method: &Method, over: Over, random: &mut Random) -> Channels {
+fn random_channels(method: &Method, over: MediaSet, random: &mut Random) -> Channels {
     let [a, b, c] = [0; 3].map(|_| random_medium(method, over, random));
     Channels {
         n: [a.0, b.0, c.0],
@@ -117,10 +117,10 @@ fn random_channels(method: &Method, over: Over, random: &mut Random) -> Channels
 }
 
 /// n and k of a random medium of a set. In the wide sets some are metals, and some absorb nothing.
-pub fn random_medium(method: &Method, over: Over, random: &mut Random) -> (f64, f64) {
+pub fn random_medium(method: &Method, over: MediaSet, random: &mut Random) -> (f64, f64) {
     let glass = method.class == Class::Dielectric;
-    if over == Over::Metals || !glass && random.unit() < METALS {
-        return Over::Metals.medium(random.unit(), random.unit());
+    if over == MediaSet::Metals || !glass && random.unit() < METALS {
+        return MediaSet::Metals.medium(random.unit(), random.unit());
     }
     let n_share = random.unit();
     let k_share = if glass {
