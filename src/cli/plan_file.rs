@@ -12,9 +12,10 @@ use crate::generator::request::source::{self, load};
 use crate::generator::request::{Materials, Methods, Request};
 use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
-use crate::physics::materials::{self, FileFault};
+use crate::physics::materials;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
+use crate::physics::user_text::FileFault;
 use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
 
 /// The first word of a plan's command.

@@ -28,9 +28,10 @@ use crate::lab::raster::{
 use crate::language::ir::Checked;
 use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
-use crate::physics::materials::{FileFault, ViewingConditions};
+use crate::physics::materials::ViewingConditions;
 use crate::physics::num::in_parallel;
 use crate::physics::spectra::{Space, srgb_byte};
+use crate::physics::user_text::FileFault;
 use crate::pictures::png::rgb_png;
 use crate::pictures::table::{short_number, text_table};
 

@@ -11,6 +11,7 @@ use crate::language::methods::Method;
 use crate::physics::foreign::{self, Foreign, one_line};
 use crate::physics::materials;
 use crate::physics::names::UnknownName;
+use crate::physics::user_text::FileFault;
 
 /// An error of a run: of its request, of what it generates, or of the output folder.
 #[derive(Debug, Error)]
@@ -41,7 +42,7 @@ pub enum Error {
     },
     /// A material file with a fault.
     #[error(transparent)]
-    Material(#[from] materials::FileFault),
+    Material(#[from] FileFault),
     /// Emission failed.
     #[error(transparent)]
     Emit(#[from] emit::Error),

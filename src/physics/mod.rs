@@ -4,7 +4,7 @@
 //! materials. It imports nothing else of this crate.
 //! Start with [`optics`], the laws on one page, and with [`materials::Surface`], a material under viewing conditions.
 
-// Rooms: foreign < num, cite, names, records, digest < optics < spectra < materials
+// Rooms: foreign < num, cite, names, records, digest < optics, user_text < spectra < materials
 
 pub mod cite;
 pub mod digest;
@@ -15,3 +15,4 @@ pub mod num;
 pub mod optics;
 pub mod records;
 pub mod spectra;
+pub mod user_text;

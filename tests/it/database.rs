@@ -10,9 +10,10 @@ use std::sync::OnceLock;
 use fresnel_gen::generator::fit::{PageOutcome, survey_page};
 use fresnel_gen::generator::request::source;
 use fresnel_gen::physics::materials::{
-    DispersionCurve, Extrapolate, FileFault, Material, Page, ViewingConditions,
+    DispersionCurve, Extrapolate, Material, Page, ViewingConditions,
 };
 use fresnel_gen::physics::spectra::Gamut;
+use fresnel_gen::physics::user_text::FileFault;
 
 /// A page by its path from its shelf on, and what became of it.
 struct Read {

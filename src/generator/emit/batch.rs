@@ -82,7 +82,7 @@ fn value(batch: &Batch, spelling: &Spelling, texture: &str, emitted: &EmittedFun
                 matrix.replace("{columns}", &columns.join(", "))
             }
             Ty::Vec4 => place(at),
-            Ty::Rgb => place(at) + ".xyz",
+            Ty::Vec3 => place(at) + ".xyz",
             Ty::Vec2 => place(at) + ".xy",
             Ty::Scalar | Ty::Bool => place(at) + ".x",
         }

@@ -429,7 +429,11 @@ fn uniforms(emitted: &EmittedFunction) -> Vec<UniformDetail> {
     let numbers = params.iter().filter(|param| is_number(param));
     let row = |(param, offset): (&Param, usize)| UniformDetail {
         name: param.name.clone(),
-        ty: if param.ty == Ty::Rgb { "vec3" } else { "float" },
+        ty: if param.ty == Ty::Vec3 {
+            "vec3"
+        } else {
+            "float"
+        },
         offset,
     };
     numbers.zip(uniform_offsets(params)).map(row).collect()

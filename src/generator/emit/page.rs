@@ -172,7 +172,7 @@ pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
     let mut end = 0usize;
     let numbers = params.iter().filter(|param| is_number(param));
     let place = |param: &Param| {
-        let (size, align) = if param.ty == Ty::Rgb {
+        let (size, align) = if param.ty == Ty::Vec3 {
             (12, 16)
         } else {
             (4, 4)

@@ -10,7 +10,7 @@ use crate::generator::fit::{
 };
 use crate::generator::reference::{LEAST_FITTED_N, MaterialInMedium};
 use crate::language::ir::Checked;
-use crate::language::methods::{self, ALL, Method, Values, by_class};
+use crate::language::methods::{self, ALL, Method, Values};
 use crate::physics::num::Precision;
 
 /// A method's formula with a material's constants folded in, in the form that is written.

@@ -127,7 +127,7 @@ impl InputSearch<'_> {
     /// The numbers of one channel, or those that channels share.
     fn free(&self, channel: Option<usize>) -> Vec<Free> {
         let ty = match channel {
-            Some(_) => Ty::Rgb,
+            Some(_) => Ty::Vec3,
             None => Ty::Scalar,
         };
         let free = |input: &Input| Free {

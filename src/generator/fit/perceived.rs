@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
 use crate::language::ir::Value;
-use crate::physics::spectra::{Lab, Space, ciede2000};
+use crate::physics::spectra::{Lab, Space, ciede2000, xyz_to_lab};
 
 /// The stride over the angles: errors are smooth, so not every angle is needed.
 const EVERY: usize = 8;
@@ -56,7 +56,7 @@ impl Perceived {
 
 /// Three channels as a colour beside the white of their space.
 pub(super) fn lab(rgb: DVec3, space: Space) -> Lab {
-    Lab::from_xyz(space.rgb_to_xyz() * rgb, space.white())
+    xyz_to_lab(space.rgb_to_xyz() * rgb, space.white())
 }
 
 #[cfg(test)]

@@ -106,7 +106,7 @@ mod tests {
             let function = lookup(TableAxis::Rational, 64, scale, rows).unwrap();
             let names: Vec<&str> = function.params.iter().map(|p| p.name.as_str()).collect();
             assert_eq!(names, want);
-            assert_eq!((function.ty(), function.fetches()), (Ty::Rgb, 1));
+            assert_eq!((function.ty(), function.fetches()), (Ty::Vec3, 1));
         }
     }
 

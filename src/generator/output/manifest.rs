@@ -15,7 +15,7 @@ use crate::generator::error::Error;
 use crate::generator::output::artifact::{Scope, check_path};
 use crate::generator::output::ours::{could_be_written, listed_hash};
 use crate::physics::num::Precision;
-use crate::physics::spectra::without_mark;
+use crate::physics::user_text::without_mark;
 
 /// The manifest's name in the output folder.
 pub const FILE: &str = "manifest.json";

@@ -11,8 +11,8 @@ use crate::generator::output::folder::{self, is_below};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::Source;
 use crate::physics::foreign::{self, one_line};
-use crate::physics::materials::{self, ConstantIndex, FileFault, Material, SurfaceError};
-use crate::physics::spectra::{TextFault, mesh_text, user_text};
+use crate::physics::materials::{self, ConstantIndex, Material, SurfaceError};
+use crate::physics::user_text::{FileFault, TextFault, mesh_text, user_text};
 
 /// The largest material file in bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;

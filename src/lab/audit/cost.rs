@@ -164,7 +164,7 @@ fn empty(
     evaluations: usize,
 ) -> Result<MeasuredShader, String> {
     let (language, is_scalar) = (program.language, program.is_scalar);
-    let result = if is_scalar { Ty::Scalar } else { Ty::Rgb };
+    let result = if is_scalar { Ty::Scalar } else { Ty::Vec3 };
     let probe = Probe::empty(Ty::Scalar, result, Precision::F32);
     let none = [Param {
         name: "cos_theta".to_owned(),

@@ -93,7 +93,7 @@ impl Language {
 
     /// Its name for a type of one number or three.
     pub fn ty(self, ty: Ty) -> &'static str {
-        match (self, ty == Ty::Rgb) {
+        match (self, ty == Ty::Vec3) {
             (Language::Wgsl, false) => "f32",
             (Language::Wgsl, true) => "vec3<f32>",
             (Language::Gles | Language::Glsl, false) => "highp float",

@@ -82,7 +82,7 @@ impl AuditProgram {
         let mut params = vec![param("cos_theta", Ty::Scalar)];
         let ty = |argument: &BoundArgument| {
             if argument.is_rgb || argument.is_split() {
-                Ty::Rgb
+                Ty::Vec3
             } else {
                 Ty::Scalar
             }
@@ -141,7 +141,7 @@ impl AuditProgram {
         each.map(|(param, value)| Uniform {
             name: named.replace("{name}", &param.name),
             value: match param.ty {
-                Ty::Rgb => Value::Rgb(*value),
+                Ty::Vec3 => Value::Rgb(*value),
                 _ => Value::Scalar(value[0]),
             },
         })
@@ -216,7 +216,7 @@ fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
 /// As [`one_channel`], but it returns three numbers.
 fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
     let list = declared(language, params);
-    let rgb = language.ty(Ty::Rgb);
+    let rgb = language.ty(Ty::Vec3);
     let constructor = bare_type(rgb);
     let (before, value) = if bound.is_per_channel() {
         let calls = ["x", "y", "z"].map(|channel| called(language, bound, channel));
@@ -333,7 +333,7 @@ fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
     before += &format!("{} {kept}; {name}({}); ", out.ty, all.join(", "));
     let ty = match function.result {
         NumberShape::Scalar => Ty::Scalar,
-        _ => Ty::Rgb,
+        _ => Ty::Vec3,
     };
     let value = format!("{}({kept})", bare_type(language.ty(ty)));
     CallText { before, value }

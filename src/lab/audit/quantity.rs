@@ -244,7 +244,7 @@ impl Quantity {
     /// How many numbers of a material it takes.
     pub fn numbers(&self) -> usize {
         match self.input.ty {
-            Ty::Rgb => 3,
+            Ty::Vec3 => 3,
             _ => 1,
         }
     }

@@ -11,6 +11,7 @@ use crate::lab::cost::CostAndError;
 use crate::language::methods::Light;
 use crate::physics::materials::{self, Material, Surface, ViewingConditions};
 use crate::physics::num::each_channel;
+use crate::physics::user_text::FileFault;
 
 /// A function that could be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,7 +158,7 @@ pub enum Error {
     Function(#[from] emit::Error),
     /// A material of the catalogue has a fault.
     #[error(transparent)]
-    Material(materials::FileFault),
+    Material(FileFault),
 }
 
 /// A material without a function within the budget.

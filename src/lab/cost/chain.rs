@@ -112,10 +112,10 @@ impl Chain<'_> {
                     &format!("{r}.x * {r}.y - {r}.z + {prefix}w.z"),
                 ),
             };
-            let ty = if self.is_scalar { Ty::Scalar } else { Ty::Rgb };
+            let ty = if self.is_scalar { Ty::Scalar } else { Ty::Vec3 };
             cosine + &local(ty, format!("r{i}"), &self.call(language, i))
         };
-        let weights = input(Ty::Rgb, "w", "fg_in.xyz");
+        let weights = input(Ty::Vec3, "w", "fg_in.xyz");
         weights + &(0..self.evaluations).map(step).collect::<String>()
     }
 
@@ -125,12 +125,12 @@ impl Chain<'_> {
             _ => language
                 .argument
                 .replace("{i}", &i.to_string())
-                .replace("{parts}", if param.ty == Ty::Rgb { "xyz" } else { "x" })
+                .replace("{parts}", if param.ty == Ty::Vec3 { "xyz" } else { "x" })
                 .replace("{name}", &param.name),
         };
         let prefix = language.prefix;
         let first = match self.params.first().map_or(Ty::Scalar, |param| param.ty) {
-            Ty::Rgb => format!("{prefix}w * {prefix}c{i}"),
+            Ty::Vec3 => format!("{prefix}w * {prefix}c{i}"),
             Ty::Vec2 => format!("{prefix}w.xy * {prefix}c{i}"),
             _ => format!("{prefix}c{i}"),
         };

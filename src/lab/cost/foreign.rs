@@ -112,7 +112,7 @@ mod tests {
         };
         let params = [
             param("cos_theta", Ty::Scalar),
-            param("a0", Ty::Rgb),
+            param("a0", Ty::Vec3),
             param("a1", Ty::Scalar),
         ];
         let function = |text, params| ForeignFunction {

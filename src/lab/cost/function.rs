@@ -159,7 +159,7 @@ impl CostedFunction {
 /// texture.
 pub fn input_numbers(method: &Method) -> usize {
     let numbers = |ty| match ty {
-        Ty::Rgb => 3,
+        Ty::Vec3 => 3,
         Ty::Scalar => 1,
         _ => 0,
     };

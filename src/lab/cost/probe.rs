@@ -75,9 +75,9 @@ impl Probe {
             let spelling = target.spelling_in(precision);
             let ty = spelling.ty(result);
             let value = match (first, result) {
-                (Ty::Rgb, Ty::Rgb) => "c".to_owned(),
-                (Ty::Vec2, Ty::Rgb) => "c.xyx".to_owned(),
-                (Ty::Rgb | Ty::Vec2, _) => "c.x".to_owned(),
+                (Ty::Vec3, Ty::Vec3) => "c".to_owned(),
+                (Ty::Vec2, Ty::Vec3) => "c.xyx".to_owned(),
+                (Ty::Vec3 | Ty::Vec2, _) => "c.x".to_owned(),
                 _ => format!("{ty}(c)"),
             };
             let param = spelling.param.replace("{type}", spelling.ty(first));

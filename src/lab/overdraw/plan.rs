@@ -127,7 +127,7 @@ impl DrawingPlan {
             let probe = Probe::empty(Ty::Scalar, result, precision);
             drawing(&probe, precision, evaluations)
         };
-        let mut drawings = vec![heavy, empty(Ty::Rgb, Precision::F32, 1)];
+        let mut drawings = vec![heavy, empty(Ty::Vec3, Precision::F32, 1)];
         let mut add = |evaluations: usize, of: &dyn Fn(usize) -> Drawing| {
             drawings.extend([of(evaluations), of(2 * evaluations)]);
             DrawnChain {
@@ -142,7 +142,7 @@ impl DrawingPlan {
         let precisions = if has_half { 2 } else { 1 };
         let mut empties = Vec::new();
         for precision in Precision::ALL.into_iter().take(precisions) {
-            for result in [Ty::Rgb, Ty::Scalar] {
+            for result in [Ty::Vec3, Ty::Scalar] {
                 let evaluations = half_chain(operations, 0, 0, result == Ty::Scalar);
                 empties.push(add(evaluations, &|n| empty(result, precision, n)));
             }
@@ -211,7 +211,7 @@ fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {
 fn uniforms(probe: &Probe, values: &Values, precision: Precision, evaluations: usize) -> Vec<u8> {
     let member = |param: &Param| {
         let value = values.get(&param.name).copied().unwrap_or_default();
-        let channels = if param.ty == Ty::Rgb { 3 } else { 1 };
+        let channels = if param.ty == Ty::Vec3 { 3 } else { 1 };
         let number = |value: &f64| match precision {
             Precision::F32 => (*value as f32).to_ne_bytes().to_vec(),
             Precision::F16 => f16::from_f64(*value).to_ne_bytes().to_vec(),

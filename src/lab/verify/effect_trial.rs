@@ -171,7 +171,7 @@ impl EffectTrial {
         let argument = |(place, param): (usize, &Param)| match param.ty {
             Ty::Texture => Value::Texture(Some(flat(&self.texels))),
             Ty::Cube => Value::Cube(Some(cube(&self.texels))),
-            Ty::Rgb => Value::Rgb([0, 1, 2].map(|component| column(place, component))),
+            Ty::Vec3 => Value::Rgb([0, 1, 2].map(|component| column(place, component))),
             Ty::Scalar | Ty::Bool => Value::Scalar(column(place, 0)),
             ty => Value::Many((0..ty.channels()).map(|c| column(place, c)).collect()),
         };

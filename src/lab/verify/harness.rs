@@ -42,7 +42,7 @@ impl Call<'_> {
     }
 
     fn ty(&self) -> Ty {
-        if self.is_scalar { Ty::Scalar } else { Ty::Rgb }
+        if self.is_scalar { Ty::Scalar } else { Ty::Vec3 }
     }
 
     /// Whether it reads a texture.
@@ -144,7 +144,7 @@ pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
             .and_then(|i| values.get(i))
             .copied()
             .unwrap_or_default();
-        if param.ty == Ty::Rgb {
+        if param.ty == Ty::Vec3 {
             format!("vec3<f32>({r:?}f, {g:?}f, {b:?}f)")
         } else {
             format!("{r:?}f")

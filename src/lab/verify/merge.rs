@@ -13,7 +13,7 @@ use crate::lab::verify::VerifyRow;
 use crate::lab::verify::row::Error;
 use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardReport};
 use crate::physics::foreign::{self, Foreign, one_line};
-use crate::physics::materials::FileFault;
+use crate::physics::user_text::FileFault;
 
 /// The beginning of the command of a verification.
 const COMMAND: &str = "verify";

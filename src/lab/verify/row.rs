@@ -14,8 +14,8 @@ use super::{CodeError, HalfError};
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::ModelError;
 use crate::lab::fault::Fault;
-use crate::physics::materials::FileFault;
 use crate::physics::num::Precision;
+use crate::physics::user_text::FileFault;
 
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";

@@ -310,7 +310,7 @@ fn uniforms(params: &[Param], trial: &Trial, target: &Target) -> Vec<Uniform> {
         .filter(|param| param.ty != Ty::Texture && !param.is_cosine());
     let uniform = |(param, value): (&Param, &[f32; 3])| Uniform {
         name: name.replace("{name}", &param.name),
-        value: if param.ty == Ty::Rgb {
+        value: if param.ty == Ty::Vec3 {
             Argument::Rgb(*value)
         } else {
             Argument::Scalar(value[0])

@@ -182,7 +182,7 @@ pub(super) fn arguments<N: Num>(
     let mut values = values.iter().map(|value| value.map(f64::from));
     let mut value = |param: &Param| match param.ty {
         Ty::Texture => Value::Texture(table.cloned()),
-        Ty::Rgb => Value::rgb(values.next().unwrap_or_default()),
+        Ty::Vec3 => Value::rgb(values.next().unwrap_or_default()),
         _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
         _ => Value::scalar(values.next().unwrap_or_default()[0]),
     };

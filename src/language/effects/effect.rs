@@ -127,12 +127,12 @@ impl Argument {
         meaning: &'static str,
         [least, most]: [f64; 2],
     ) -> Argument {
-        Argument::new(name, meaning, Ty::Rgb, Domain::Within(least, most))
+        Argument::new(name, meaning, Ty::Vec3, Domain::Within(least, most))
     }
 
     /// A direction.
     pub const fn direction(name: &'static str, meaning: &'static str) -> Argument {
-        Argument::new(name, meaning, Ty::Rgb, Domain::UnitLength)
+        Argument::new(name, meaning, Ty::Vec3, Domain::UnitLength)
     }
 
     /// Two numbers between `least` and `most`.

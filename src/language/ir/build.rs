@@ -280,7 +280,7 @@ impl<'b> Expr<'b> {
 
     /// This value as a colour: a scalar goes into each channel.
     pub fn rgb(self) -> Expr<'b> {
-        if self.ty() == Ty::Rgb {
+        if self.ty() == Ty::Vec3 {
             self
         } else {
             self.unary(Op::Splat)
@@ -295,7 +295,7 @@ impl<'b> Expr<'b> {
         }
         let pick = |index: usize| {
             let [value, bound, yes, no] = parts.map(|part| {
-                if part.ty() == Ty::Rgb {
+                if part.ty() == Ty::Vec3 {
                     part.channel(index)
                 } else {
                     part

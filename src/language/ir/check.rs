@@ -163,7 +163,7 @@ fn check_whole(function: &Function) -> Result<(), Broken> {
         7,
         || "an argument is a Bool".to_owned(),
     )?;
-    let is_number = matches!(function.ty(), Ty::Scalar | Ty::Rgb);
+    let is_number = matches!(function.ty(), Ty::Scalar | Ty::Vec3);
     ensure(is_number, 7, || {
         format!("the result is a {}", function.ty().name())
     })?;

@@ -8,7 +8,7 @@ pub enum Ty {
     /// One number.
     Scalar,
     /// Three channels: a colour, or a point or a direction in space.
-    Rgb,
+    Vec3,
     /// The answer to a comparison.
     Bool,
     /// A texture with the sampler that filters it: an argument only.
@@ -27,7 +27,7 @@ impl Ty {
     /// How many channels a value of this type has.
     pub fn channels(self) -> usize {
         match self {
-            Ty::Rgb => 3,
+            Ty::Vec3 => 3,
             Ty::Vec2 => 2,
             Ty::Vec4 => 4,
             Ty::Mat4 => 16,
@@ -44,7 +44,7 @@ impl Ty {
     pub fn name(self) -> &'static str {
         match self {
             Ty::Scalar => "scalar",
-            Ty::Rgb => "rgb",
+            Ty::Vec3 => "rgb",
             Ty::Bool => "bool",
             Ty::Texture => "texture",
             Ty::Cube => "cube",
@@ -69,7 +69,7 @@ impl Letters {
     /// The letter of a channel of this type.
     pub fn letter(self, ty: Ty, channel: usize) -> &'static str {
         let letters = match (self, ty) {
-            (Letters::Rgb, Ty::Rgb) => ["r", "g", "b", "a"],
+            (Letters::Rgb, Ty::Vec3) => ["r", "g", "b", "a"],
             _ => ["x", "y", "z", "w"],
         };
         letters[channel]

@@ -3,7 +3,7 @@
 //! # Rules of evaluation
 //! 1. A [`Function`] is a list of [`Node`]s; a node's arguments stand before it. There is no control flow, no
 //!    loop, no array, no memory and no call: every node is evaluated once, in order, for every input.
-//! 2. Values are a `Scalar`, an `Rgb` (three channels that mix only in `channel`, `compose`, `dot` and `transform`) or a
+//! 2. Values are a `Scalar`, a `Vec3` (three channels that mix only in `channel`, `compose`, `dot` and `transform`) or a
 //!    `Bool`. Textures, cubes, vectors of two or four numbers and matrices are arguments only. `add`, `sub`, `mul` and
 //!    `div` accept a scalar beside a colour and apply it to each channel; `min` and `max` want equal types.
 //! 3. A choice is a scalar `select`: both sides are evaluated, one is taken. It is never a blend, because a blend

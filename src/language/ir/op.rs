@@ -106,23 +106,23 @@ impl Signature {
     /// The result type for these argument types, or nothing where they do not match. A parameter's type is not
     /// known here and is returned as a scalar.
     pub fn result(self, arguments: &[Ty]) -> Option<Ty> {
-        use Ty::{Bool, Cube, Mat4, Rgb, Scalar, Texture, Vec2, Vec4};
+        use Ty::{Bool, Cube, Mat4, Scalar, Texture, Vec2, Vec3, Vec4};
         match (self, arguments) {
             (Signature::Number | Signature::Param, []) => Some(Scalar),
-            (Signature::Splat, [Scalar]) => Some(Rgb),
-            (Signature::Compose, [Scalar, Scalar, Scalar]) => Some(Rgb),
-            (Signature::Channel, [Rgb | Vec2 | Vec4]) => Some(Scalar),
-            (Signature::Unary, [t @ (Scalar | Rgb)]) => Some(*t),
-            (Signature::Alike, [a @ (Scalar | Rgb), b]) if a == b => Some(*a),
+            (Signature::Splat, [Scalar]) => Some(Vec3),
+            (Signature::Compose, [Scalar, Scalar, Scalar]) => Some(Vec3),
+            (Signature::Channel, [Vec3 | Vec2 | Vec4]) => Some(Scalar),
+            (Signature::Unary, [t @ (Scalar | Vec3)]) => Some(*t),
+            (Signature::Alike, [a @ (Scalar | Vec3), b]) if a == b => Some(*a),
             (Signature::Mixed, [Scalar, Scalar]) => Some(Scalar),
-            (Signature::Mixed, [Scalar | Rgb, Scalar | Rgb]) => Some(Rgb),
+            (Signature::Mixed, [Scalar | Vec3, Scalar | Vec3]) => Some(Vec3),
             (Signature::Compare, [Scalar, Scalar]) => Some(Bool),
             (Signature::Choose, [Bool, Scalar, Scalar]) => Some(Scalar),
-            (Signature::Dot, [Rgb, Rgb]) => Some(Scalar),
-            (Signature::Transform, [Mat4, Rgb]) => Some(Scalar),
-            (Signature::Fetch, [Texture, Scalar, Scalar]) => Some(Rgb),
+            (Signature::Dot, [Vec3, Vec3]) => Some(Scalar),
+            (Signature::Transform, [Mat4, Vec3]) => Some(Scalar),
+            (Signature::Fetch, [Texture, Scalar, Scalar]) => Some(Vec3),
             (Signature::FetchAlpha, [Texture, Scalar, Scalar]) => Some(Scalar),
-            (Signature::FetchCube, [Cube, Rgb]) => Some(Rgb),
+            (Signature::FetchCube, [Cube, Vec3]) => Some(Vec3),
             _ => None,
         }
     }
@@ -214,12 +214,12 @@ mod tests {
 
     #[test]
     fn signatures_accept_their_types_and_no_others() {
-        use Ty::{Bool, Rgb, Scalar};
-        assert_eq!(Signature::Mixed.result(&[Scalar, Rgb]), Some(Rgb));
-        assert_eq!(Signature::Mixed.result(&[Bool, Rgb]), None);
-        assert_eq!(Signature::Alike.result(&[Scalar, Rgb]), None);
+        use Ty::{Bool, Scalar, Vec3};
+        assert_eq!(Signature::Mixed.result(&[Scalar, Vec3]), Some(Vec3));
+        assert_eq!(Signature::Mixed.result(&[Bool, Vec3]), None);
+        assert_eq!(Signature::Alike.result(&[Scalar, Vec3]), None);
         assert_eq!(
-            Signature::Choose.result(&[Bool, Rgb, Rgb]),
+            Signature::Choose.result(&[Bool, Vec3, Vec3]),
             None,
             "a choice is scalar"
         );

@@ -55,7 +55,7 @@ pub fn print(function: &Function) -> String {
 /// The name of a type. Three numbers that are not a colour are a `vec3`.
 fn type_name(letters: Letters, ty: Ty) -> &'static str {
     match (letters, ty) {
-        (Letters::Xyz, Ty::Rgb) => "vec3",
+        (Letters::Xyz, Ty::Vec3) => "vec3",
         _ => ty.name(),
     }
 }

@@ -83,7 +83,7 @@ impl Input {
     ) -> Input {
         Input {
             name,
-            ty: Ty::Rgb,
+            ty: Ty::Vec3,
             meaning,
             range: Range::new(least, most),
             source,
@@ -240,7 +240,7 @@ fn declared<'b>(
     scalar_form: bool,
 ) -> Vec<(&'static str, Expr<'b>)> {
     let ty = |input: &Input| match input.ty {
-        Ty::Rgb if scalar_form => Ty::Scalar,
+        Ty::Vec3 if scalar_form => Ty::Scalar,
         ty => ty,
     };
     let declared = |input: &Input| (input.name, builder.param(input.name, ty(input)));

@@ -324,7 +324,7 @@ impl Method {
     /// without a value is a bug.
     pub fn arguments<N: Num>(&self, values: &Values, table: Option<&Texels>) -> Vec<Value<N>> {
         let argument = |input: &Input| match input.ty {
-            Ty::Rgb => Value::rgb(values[input.name]),
+            Ty::Vec3 => Value::rgb(values[input.name]),
             Ty::Texture => Value::Texture(table.cloned()),
             _ => Value::scalar(values[input.name][0]),
         };

@@ -111,7 +111,7 @@ impl Spelling {
     /// The name of a type.
     pub fn ty(&self, ty: Ty) -> &'static str {
         match ty {
-            Ty::Rgb => self.rgb,
+            Ty::Vec3 => self.rgb,
             Ty::Vec2 => self.vec2,
             Ty::Vec4 => self.vec4,
             Ty::Mat4 => self.mat4,
@@ -198,32 +198,17 @@ mod tests {
 
     #[test]
     fn numbers_round_trip_and_have_a_point() {
-        let cases = [
-            0.0,
-            -0.0,
-            1.0,
-            1e-7,
-            1e16,
-            0.1,
-            1e-37,
-            f64::from(f32::MIN_POSITIVE),
-            16_777_217.0,
-            -5.55473,
-        ];
+        let (least, odd) = (f64::from(f32::MIN_POSITIVE), 16_777_217.0);
+        let cases = [0.0, -0.0, 1.0, 1e-7, 1e16, 0.1, 1e-37, least, odd, -5.55473];
         for target in ALL {
             for value in cases {
                 let text = target.spelling.number(value);
-                let digits = text
-                    .strip_suffix(target.spelling.suffix)
-                    .expect("the suffix is there");
+                let digits = text.strip_suffix(target.spelling.suffix);
+                let digits = digits.expect("the suffix is there");
                 assert!(digits.contains('.'), "{}: {text}", target.name);
                 let back: f32 = digits.parse().expect("it parses");
-                assert_eq!(
-                    back.to_bits(),
-                    (value as f32).to_bits(),
-                    "{}: {text}",
-                    target.name
-                );
+                let is_same = back.to_bits() == (value as f32).to_bits();
+                assert!(is_same, "{}: {text}", target.name);
             }
         }
     }

@@ -7,7 +7,7 @@ use include_dir::{Dir, include_dir};
 
 use super::Page;
 use super::material::Material;
-use crate::physics::spectra::FileFault;
+use crate::physics::user_text::FileFault;
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 

@@ -13,10 +13,10 @@
 //! `Wavelength (nm)` is read as `wavelength_nm`. The `.txt` and `.tsv` tables of Filmetrics and others have this form.
 
 use super::decimal::{Unit, clipped};
-use super::file::FileFault;
 use super::page::{Page, check_text};
 use super::rows::{Columns, TableReader};
 use crate::physics::spectra::is_separator;
+use crate::physics::user_text::FileFault;
 
 const ALLOWED: &str =
     "allowed are wavelength_nm, wavelength_um, nm, um or wl (um), and then n, k or n,k";

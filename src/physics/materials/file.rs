@@ -31,9 +31,8 @@ use super::decimal::short;
 use super::formula::{DispersionCurve, Formula, NUMBERS};
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
 use crate::physics::foreign::is_hidden;
-use crate::physics::names::{identifier_fault, nearest_names, offered};
-
-pub use crate::physics::spectra::FileFault;
+use crate::physics::names::identifier_fault;
+use crate::physics::user_text::{FileFault, FileText};
 
 type RawRow = Spanned<Vec<Spanned<f64>>>;
 type RawRows = Spanned<Vec<RawRow>>;
@@ -364,40 +363,6 @@ impl FileText<'_> {
             what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         }
         self.fault(error.span().map_or(0, |span| span.start), what)
-    }
-}
-
-/// A text and its file's name, so that every check can report a fault with its place.
-pub struct FileText<'a> {
-    /// The file, for messages.
-    pub file: &'a str,
-    /// What the file holds.
-    pub text: &'a str,
-}
-
-impl FileText<'_> {
-    /// A fault at an offset in bytes.
-    pub fn fault(&self, offset: usize, what: String) -> FileFault {
-        FileFault::at(self.file, self.text, offset, what)
-    }
-
-    /// The TOML parser's error, with the nearest allowed key for an unknown one.
-    pub fn toml_fault(&self, error: &toml::de::Error) -> FileFault {
-        let mut what = error.message().trim().replace('\n', "; ");
-        if what.starts_with("unknown field `") {
-            let mut quoted = what.split('`').skip(1).step_by(2);
-            let unknown = quoted.next().unwrap_or("");
-            let known: Vec<&str> = quoted.collect();
-            what += &offered(&nearest_names(unknown, &known));
-        }
-        let at = error.span().map_or(0, |span| span.start);
-        // `"C:\\mine\\x.toml"`: the place is the backslash, or the letter after it.
-        let near = self.text.get(at.saturating_sub(1)..).unwrap_or("");
-        let is_escape = what.contains("escape") && near.chars().take(2).any(|c| c == '\\');
-        if is_escape {
-            what += "; in a path write `/`, or put it in single quotes: '...'";
-        }
-        self.fault(at, what)
     }
 }
 

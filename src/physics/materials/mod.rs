@@ -15,9 +15,8 @@ mod rows;
 mod surface;
 
 pub use crate::physics::foreign::{escaped, is_hidden};
-pub use crate::physics::spectra::FileFault;
 pub use catalogue::{find, list, names, page, source};
-pub use file::{FileText, name_fault};
+pub use file::name_fault;
 pub use formula::{DispersionCurve, Extrapolate, Formula};
 pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;

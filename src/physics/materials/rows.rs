@@ -228,11 +228,7 @@ mod tests {
         let mut rows = TableReader::new(columns, Unit::Nm);
         for line in text.split(';') {
             let fault = rows.push(line.split_whitespace()).err();
-            assert!(
-                fault.is_none(),
-                "{}",
-                fault.map_or(String::new(), |f| f.what)
-            );
+            assert_eq!(fault.map(|fault| fault.what), None);
         }
         let mut said = Vec::new();
         let (got_n, got_k) = rows.curves(&mut said);
@@ -247,43 +243,21 @@ mod tests {
     #[test]
     fn what_is_done_to_rows_is_said() {
         use Columns::{K, N, Nk};
-        check(N, "400 1; 500 2", &[(400.0, 1.0), (500.0, 2.0)], &[], &[]);
-        check(Nk, "400 1 2", &[(400.0, 1.0)], &[(400.0, 2.0)], &[]);
+        let one = |value: f64| [(400.0, value)];
+        let two = |first: f64, second: f64| [(400.0, first), (500.0, second)];
+        check(N, "400 1; 500 2", &two(1.0, 2.0), &[], &[]);
+        check(Nk, "400 1 2", &one(1.0), &one(2.0), &[]);
         let sorted = "rows were not in order of wavelength: sorted";
-        check(
-            N,
-            "500 2; 400 1",
-            &[(400.0, 1.0), (500.0, 2.0)],
-            &[],
-            &[sorted],
-        );
-        check(N, "400 1; 400 1", &[(400.0, 1.0)], &[], &[]);
+        check(N, "500 2; 400 1", &two(1.0, 2.0), &[], &[sorted]);
+        check(N, "400 1; 400 1", &one(1.0), &[], &[]);
         let mean =
             "1 wavelength had several rows that differ, the first at 400 nm: their mean was taken";
-        check(N, "400 1; 400 2; 400 2", &[(400.0, 1.5)], &[], &[mean]);
-        check(
-            Nk,
-            "400 1 0; 400 1 1",
-            &[(400.0, 1.0)],
-            &[(400.0, 0.5)],
-            &[mean],
-        );
-        check(
-            N,
-            "400 1e308; 400 1.5e308",
-            &[(400.0, 1.25e308)],
-            &[],
-            &[mean],
-        );
+        check(N, "400 1; 400 2; 400 2", &one(1.5), &[], &[mean]);
+        check(Nk, "400 1 0; 400 1 1", &one(1.0), &one(0.5), &[mean]);
+        check(N, "400 1e308; 400 1.5e308", &one(1.25e308), &[], &[mean]);
         let noise = "k was below 0 in 2 rows, at worst -0.2: taken as 0";
-        check(
-            K,
-            "400 -0.1; 500 -0.2",
-            &[],
-            &[(400.0, 0.0), (500.0, 0.0)],
-            &[noise],
-        );
-        check(N, "400 -0.1", &[(400.0, -0.1)], &[], &[]);
+        check(K, "400 -0.1; 500 -0.2", &[], &two(0.0, 0.0), &[noise]);
+        check(N, "400 -0.1", &one(-0.1), &[], &[]);
     }
 
     #[track_caller]
@@ -296,20 +270,14 @@ mod tests {
     #[test]
     fn a_row_that_is_none_is_refused() {
         use Columns::{K, N, Nk};
-        refused(N, "400", 0, "a row of 1 numbers; it wants wavelength, n");
-        refused(
-            N,
-            "400 1 2",
-            0,
-            "a row of 3 numbers; it wants wavelength, n",
-        );
-        refused(
-            Nk,
-            "400 1",
-            0,
-            "a row of 2 numbers; it wants wavelength, n, k",
-        );
-        refused(K, "", 0, "a row of 0 numbers; it wants wavelength, k");
+        for (columns, row, says) in [
+            (N, "400", "a row of 1 numbers; it wants wavelength, n"),
+            (N, "400 1 2", "a row of 3 numbers; it wants wavelength, n"),
+            (Nk, "400 1", "a row of 2 numbers; it wants wavelength, n, k"),
+            (K, "", "a row of 0 numbers; it wants wavelength, k"),
+        ] {
+            refused(columns, row, 0, says);
+        }
         refused(Nk, "400 nan 0", 1, "`nan` is not a finite number");
         refused(K, "400 x", 1, "`x` is no number");
         refused(

@@ -98,16 +98,13 @@ impl Surface {
         };
         let index = |nm: &f64| {
             let own = material.index(*nm, viewing.beyond)?;
-            let around = medium
-                .map(|medium| medium.index(*nm, viewing.beyond))
-                .transpose()?;
-            Ok(around.map_or(own, |around| own.relative_to(around)))
+            Ok(match medium {
+                Some(medium) => own.relative_to(medium.index(*nm, viewing.beyond)?),
+                None => own,
+            })
         };
-        let indices = integrator
-            .wavelengths
-            .iter()
-            .map(index)
-            .collect::<Result<_, String>>();
+        let wavelengths = integrator.wavelengths.iter();
+        let indices = wavelengths.map(index).collect::<Result<_, String>>();
         let extrapolated_nm = extrapolated_beyond(material, medium, &integrator.wavelengths);
         let gamut = if three.is_some() {
             Gamut::Keep

@@ -37,31 +37,14 @@ use super::illuminant::Illuminant;
 use super::integrator::{Integration, weighted_sum, xyz_weights};
 use super::space::bradford;
 
-/// A colour in CIELAB.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lab {
-    /// Lightness, 0 for black, 100 for white.
-    pub l: f64,
-    /// Green to red.
-    pub a: f64,
-    /// Blue to yellow.
-    pub b: f64,
-}
+/// A colour in CIELAB: lightness, 0 for black and 100 for white, green to red, blue to yellow.
+pub type Lab = palette::Lab<E, f64>;
 
-impl Lab {
-    /// The colour `xyz` relative to a white. Both have the same unit, and the white is above 0 in each of X, Y and Z.
-    pub fn from_xyz(xyz: DVec3, white: DVec3) -> Lab {
-        // `palette`'s white `E` is (1, 1, 1), so we divide by the white ourselves.
-        let relative = xyz / white;
-        let lab = palette::Lab::<E, f64>::from_color_unclamped(palette::Xyz::new(
-            relative.x, relative.y, relative.z,
-        ));
-        Lab {
-            l: lab.l,
-            a: lab.a,
-            b: lab.b,
-        }
-    }
+/// The colour `xyz` relative to a white. Both have the same unit, and the white is above 0 in each of X, Y and Z.
+pub fn xyz_to_lab(xyz: DVec3, white: DVec3) -> Lab {
+    // `palette`'s white `E` is (1, 1, 1), so we divide by the white ourselves.
+    let relative = xyz / white;
+    Lab::from_color_unclamped(palette::Xyz::new(relative.x, relative.y, relative.z))
 }
 
 /// The difference ΔE₀₀ of two colours.
@@ -69,12 +52,11 @@ impl Lab {
 /// ```
 /// use fresnel_gen::physics::spectra::{Lab, ciede2000};
 ///
-/// let grey = Lab { l: 50.0, a: 0.0, b: 0.0 };
+/// let grey = Lab::new(50.0, 0.0, 0.0);
 /// assert_eq!(ciede2000(grey, grey), 0.0);
 /// ```
 pub fn ciede2000(one: Lab, other: Lab) -> f64 {
-    let [one, other] = [one, other].map(|lab| palette::Lab::<E, f64>::new(lab.l, lab.a, lab.b));
-    Ciede2000::difference(one, other)
+    one.difference(other)
 }
 
 /// The colour error, as ΔE₀₀, of a reflectance under the light `other` after some bounces (1 to 3 are useful; 0 is no
@@ -100,7 +82,7 @@ pub fn colour_error(
     let reference = weighted_sum(&weights, reflectance.iter().map(|share| bounced(*share)));
     let rendered = space.rgb_to_xyz() * (space.xyz_to_rgb() * light * rgb.map(bounced));
     let adapt = bradford(light, space.white());
-    let seen = |xyz| Lab::from_xyz(adapt * xyz, space.white());
+    let seen = |xyz| xyz_to_lab(adapt * xyz, space.white());
     ciede2000(seen(reference), seen(rendered))
 }
 
@@ -154,8 +136,7 @@ mod tests {
     fn the_published_pairs_come_out_both_ways() {
         assert_eq!(PAIRS.len(), 34);
         for [l1, a1, b1, l2, a2, b2, wanted] in PAIRS {
-            let lab = |l, a, b| Lab { l, a, b };
-            let (one, other) = (lab(l1, a1, b1), lab(l2, a2, b2));
+            let (one, other) = (Lab::new(l1, a1, b1), Lab::new(l2, a2, b2));
             for got in [ciede2000(one, other), ciede2000(other, one)] {
                 assert!((got - wanted).abs() < 1e-4, "{one:?} {other:?}");
             }
@@ -167,7 +148,7 @@ mod tests {
     fn lab_of_white_grey_and_black() {
         let white = DVec3::new(0.95, 1.0, 1.09);
         let check = |share: f64, l: f64| {
-            let lab = Lab::from_xyz(white * share, white);
+            let lab = xyz_to_lab(white * share, white);
             assert!(
                 (lab.l - l).abs() < 1e-12 && lab.a.abs() < 1e-12 && lab.b.abs() < 1e-12,
                 "{lab:?}"

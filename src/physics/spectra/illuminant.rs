@@ -12,7 +12,8 @@ use std::sync::LazyLock;
 
 use super::spectrum::Spectrum;
 use super::table::{SpectrumRow, rows};
-use super::wavelength::{FIRST_NM, FileFault, LAST_NM, Step};
+use super::wavelength::{FIRST_NM, LAST_NM, Step};
+use crate::physics::user_text::FileFault;
 
 /// A light.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -198,27 +198,14 @@ mod tests {
         assert_eq!(all.len(), 160);
         for choices in all {
             let integrator = Integrator::new(&choices).expect("a named light has a white");
-            let count = integrator.wavelengths.len();
-            assert_eq!(
-                integrator.colour(&vec![1.0; count]),
-                DVec3::ONE,
-                "{choices:?}"
-            );
-            assert_eq!(
-                integrator.colour(&vec![0.0; count]),
-                DVec3::ZERO,
-                "{choices:?}"
-            );
-            let grey = integrator.colour(&vec![0.3; count]);
-            assert!(
-                grey.abs_diff_eq(DVec3::splat(0.3), 1e-14),
-                "{choices:?} {grey}"
-            );
+            let flat = |share: f64| integrator.colour(&vec![share; integrator.wavelengths.len()]);
+            assert_eq!(flat(1.0), DVec3::ONE, "{choices:?}");
+            assert_eq!(flat(0.0), DVec3::ZERO, "{choices:?}");
+            let is_grey = flat(0.3).abs_diff_eq(DVec3::splat(0.3), 1e-14);
+            assert!(is_grey, "{choices:?} {}", flat(0.3));
             if choices.adaptation == Adaptation::Bradford && choices.observer == Observer::Cie1931 {
-                assert!(
-                    integrator.mirror.abs_diff_eq(DVec3::ONE, 1e-13),
-                    "{choices:?}"
-                );
+                let is_white = integrator.mirror.abs_diff_eq(DVec3::ONE, 1e-13);
+                assert!(is_white, "{choices:?}");
             }
         }
     }
@@ -244,13 +231,13 @@ mod tests {
     #[test]
     fn the_step_hardly_matters() {
         let colour = |step| {
-            let integrator = Integrator::new(&Integration {
+            let choices = Integration {
                 step,
                 ..Integration::default()
-            })
-            .unwrap();
-            let reflectance: Vec<f64> = integrator.wavelengths.iter().map(|nm| edge(*nm)).collect();
-            integrator.colour(&reflectance)
+            };
+            let integrator = Integrator::new(&choices).unwrap();
+            let reflectance = integrator.wavelengths.iter().map(|nm| edge(*nm));
+            integrator.colour(&reflectance.collect::<Vec<f64>>())
         };
         let (coarse, fine) = (colour(Step::Nm5), colour(Step::Nm1));
         assert!(coarse.abs_diff_eq(fine, 2e-4), "{coarse} {fine}");
@@ -271,25 +258,20 @@ mod tests {
 
     #[test]
     fn a_light_of_one_wavelength_has_no_white() {
-        let text = "380,0\n519,0\n520,1\n521,0\n780,0\n";
-        let laser = Illuminant::parse("laser.csv", text).expect("it is a light");
-        let choices = Integration {
-            illuminant: laser,
-            ..Integration::default()
+        let under = |text: &str| {
+            Integrator::new(&Integration {
+                illuminant: Illuminant::parse("laser.csv", text).expect("it is a light"),
+                ..Integration::default()
+            })
         };
-        let error = Integrator::new(&choices).expect_err("no white").to_string();
+        let error = under("380,0\n519,0\n520,1\n521,0\n780,0\n").expect_err("no white");
+        let error = error.to_string();
         assert!(
             error.contains("`laser.csv`") && error.contains("linear sRGB"),
             "{error}"
         );
         // The light's only line lies between the wavelengths of the sum, where there is nothing to divide by.
-        let text = "380,0\n521,0\n522,1\n523,0\n780,0\n";
-        let unseen = Illuminant::parse("unseen.csv", text).expect("it is a light");
-        let choices = Integration {
-            illuminant: unseen,
-            ..Integration::default()
-        };
-        assert!(Integrator::new(&choices).is_err());
+        assert!(under("380,0\n521,0\n522,1\n523,0\n780,0\n").is_err());
     }
 
     fn white(light: &Illuminant, step: Step) -> DVec3 {

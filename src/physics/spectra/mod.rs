@@ -15,15 +15,13 @@ mod observer;
 mod space;
 mod spectrum;
 mod table;
-mod user_text;
 mod wavelength;
 
-pub use difference::{Lab, ciede2000, colour_error};
+pub use difference::{Lab, ciede2000, colour_error, xyz_to_lab};
 pub use illuminant::Illuminant;
 pub use integrator::{Integration, Integrator, NoWhite, weighted_sum, xyz_weights};
 pub use observer::Observer;
 pub use space::{Adaptation, Gamut, Space, bradford, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
 pub use spectrum::Spectrum;
 pub use table::is_separator;
-pub use user_text::{TextFault, mesh_text, user_text, without_mark};
-pub use wavelength::{FIRST_NM, FileFault, LAST_NM, OBSERVED_NM, Step};
+pub use wavelength::{FIRST_NM, LAST_NM, OBSERVED_NM, Step};

@@ -9,7 +9,7 @@
 //! Numbers are separated by semicolons, by commas, or by spaces and tabs: by the first of the three that occurs in
 //! the line, so that a decimal comma beside semicolons is found and reported.
 
-use super::wavelength::FileFault;
+use crate::physics::user_text::FileFault;
 
 /// The wavelengths that a table may hold, in nm: 1 nm to 1 mm covers all of optics.
 const LEAST_NM: f64 = 1.0;

@@ -1,9 +1,7 @@
-//! The wavelengths that a spectrum is summed over, 380 to 780 nm with both ends, and faults in users' files ([`FileFault`]).
+//! The wavelengths that a spectrum is summed over: 380 to 780 nm with both ends.
 //!
 //! The eye sees little beyond them. Summing 400 to 700 nm instead changes the colour of no measured metal by more than 9e-4,
 //! and 380 to 780 nm holds all but 5 parts in a million of the sum of ȳ.
-
-use crate::physics::foreign::{Foreign, one_line};
 
 /// The first wavelength of a sum, in nm.
 pub const FIRST_NM: f64 = 380.0;
@@ -50,40 +48,6 @@ impl Step {
             .map(|index: u16| FIRST_NM + f64::from(index * self.nm()))
             .take_while(|nm| *nm <= LAST_NM)
             .collect()
-    }
-}
-
-/// A fault in a file, as `file:line:column: what`.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
-pub struct FileFault {
-    /// The file, as the user named it.
-    pub file: String,
-    /// The line number, from 1.
-    pub line: usize,
-    /// The column from 1, in characters.
-    pub column: usize,
-    /// What was found, and what is allowed.
-    pub what: String,
-}
-
-impl FileFault {
-    /// A fault at a line and a column, both from 1.
-    pub fn new(file: &str, line: usize, column: usize, what: String) -> FileFault {
-        FileFault {
-            file: file.to_owned(),
-            line,
-            column,
-            what,
-        }
-    }
-
-    /// A fault at a byte offset of a text, from which line and column are counted.
-    pub fn at(file: &str, text: &str, offset: usize, what: String) -> FileFault {
-        let before = text.get(..offset).unwrap_or("");
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        FileFault::new(file, line, column, what)
     }
 }
 

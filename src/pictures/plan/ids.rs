@@ -15,7 +15,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::MappedMaterial;
-use crate::physics::materials::{FileFault, FileText, is_hidden};
+use crate::physics::materials::is_hidden;
+use crate::physics::user_text::{FileFault, FileText};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -16,7 +16,7 @@
 use glam::{DMat3, DVec3};
 
 use super::curve::{Curve, PixelPlace};
-use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte};
+use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte, xyz_to_lab};
 use crate::pictures::scene::Display;
 
 /// A measure of visible difference.
@@ -117,7 +117,7 @@ impl Screen {
     pub fn place(&self, shown: DVec3) -> DVec3 {
         match self.metric {
             Metric::De2000 => {
-                let lab = Lab::from_xyz(self.to_xyz * shown, self.white);
+                let lab = xyz_to_lab(self.to_xyz * shown, self.white);
                 DVec3::new(lab.l, lab.a, lab.b)
             }
             Metric::Code8 => DVec3::from_array(shown.to_array().map(|x| f64::from(srgb_byte(x)))),
@@ -128,11 +128,7 @@ impl Screen {
 
     /// The difference between two places.
     pub fn difference(&self, one: DVec3, other: DVec3) -> f64 {
-        let lab = |place: DVec3| Lab {
-            l: place.x,
-            a: place.y,
-            b: place.z,
-        };
+        let lab = |place: DVec3| Lab::new(place.x, place.y, place.z);
         match self.metric {
             Metric::De2000 => ciede2000(lab(one), lab(other)),
             Metric::Code8 | Metric::Linear => (one - other).abs().max_element(),

@@ -18,7 +18,7 @@ use super::text::RowText;
 use super::trace::{Things, trace};
 use crate::lab::fault::Fault;
 use crate::lab::gpu::Device;
-use crate::physics::spectra::{Lab, Space, ciede2000};
+use crate::physics::spectra::{Space, ciede2000, xyz_to_lab};
 
 /// What is asked of a picture.
 #[derive(Clone, Copy, Debug)]
@@ -263,7 +263,7 @@ fn compare(
 ) -> (Vec<f64>, Difference) {
     let lab = |radiance: &DVec3| {
         let shown = display.shown(*radiance);
-        Lab::from_xyz(Space::Srgb.rgb_to_xyz() * shown, Space::Srgb.white())
+        xyz_to_lab(Space::Srgb.rgb_to_xyz() * shown, Space::Srgb.white())
     };
     let pairs = one.iter().zip(other);
     let map: Vec<f64> = pairs.map(|(a, b)| ciede2000(lab(a), lab(b))).collect();

@@ -56,7 +56,7 @@ fn arguments<N: Num>(method: &Method, set: &[f32], cosines: &[f32]) -> Vec<Value
     let number = |c: &f32| N::from_f64(f64::from(*c));
     let cosines = Value::each(cosines.iter().map(number).collect());
     let value = |(input, x): (&Input, &f32)| match input.ty {
-        Ty::Rgb => Value::rgb([f64::from(*x); 3]),
+        Ty::Vec3 => Value::rgb([f64::from(*x); 3]),
         _ => Value::scalar(f64::from(*x)),
     };
     [cosines]

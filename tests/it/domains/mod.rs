@@ -36,7 +36,7 @@ pub fn arguments<N: Num>(method: &Method, sets: &[Vec<f32>; 3], cosines: &[f32])
     let value = |(i, input): (usize, &Input)| {
         let colour = [0, 1, 2].map(|channel| f64::from(sets[channel][i]));
         match input.ty {
-            Ty::Rgb => Value::rgb(colour),
+            Ty::Vec3 => Value::rgb(colour),
             _ => Value::scalar(colour[0]),
         }
     };
@@ -94,7 +94,7 @@ fn faults<const KIND: u8>(
 ) -> (Vec<String>, f64) {
     let function = library(method, Precision::F32);
     let (mut faults, mut off) = (Vec::new(), 0.0f64);
-    let scalars = method.inputs.iter().any(|input| input.ty != Ty::Rgb);
+    let scalars = method.inputs.iter().any(|input| input.ty != Ty::Vec3);
     for chunk in sets.chunks(if scalars { 1 } else { 3 }) {
         let three = [0, 1, 2].map(|i| chunk[i.min(chunk.len() - 1)].clone());
         let got = evaluate::<Fast<KIND>>(&function, &arguments(method, &three, cosines));

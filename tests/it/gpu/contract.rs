@@ -203,7 +203,7 @@ fn inputs<'a>(
     numbers
         .zip(row)
         .map(|(param, value)| {
-            let place = if param.ty == Ty::Rgb { channel } else { 0 };
+            let place = if param.ty == Ty::Vec3 { channel } else { 0 };
             (param.name.as_str(), value[place])
         })
         .collect()

@@ -41,7 +41,7 @@ fn each_point_of_many_is_what_it_is_alone() {
     for function in all_functions() {
         let values = |param: &fresnel_gen::language::ir::Param| match param.ty {
             Ty::Scalar => Value::scalar(0.4),
-            Ty::Rgb => Value::rgb([0.3, 0.7, 1.2]),
+            Ty::Vec3 => Value::rgb([0.3, 0.7, 1.2]),
             _ => Value::Texture(None),
         };
         let mut arguments: Vec<Value<f64>> = function.params.iter().map(values).collect();
@@ -188,7 +188,7 @@ fn run<N: Num>(function: &Checked, cos_theta: f64) -> f64 {
         .map(|param| match (param.name.as_str(), param.ty) {
             ("cos_theta", _) => Value::scalar(cos_theta),
             (_, Ty::Texture) => Value::Texture(Some(fit::texels(|c| [1.0 - 0.9 * c; 3]))),
-            (name, Ty::Rgb) => Value::rgb([value(name); 3]),
+            (name, Ty::Vec3) => Value::rgb([value(name); 3]),
             (name, _) => Value::scalar(value(name)),
         });
     evaluate::<N>(function, &arguments.collect::<Vec<_>>()).at(0)[0].to_f64()

@@ -99,7 +99,7 @@ fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>, Ty), Parse
     let number = |name: &str| {
         let arguments = [
             Ty::Scalar,
-            Ty::Rgb,
+            Ty::Vec3,
             Ty::Texture,
             Ty::Cube,
             Ty::Vec2,
@@ -108,7 +108,7 @@ fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>, Ty), Parse
         ];
         let mut types = arguments.into_iter();
         match name.trim() {
-            "vec3" => Some(Ty::Rgb),
+            "vec3" => Some(Ty::Vec3),
             name => types.find(|ty| ty.name() == name),
         }
     };

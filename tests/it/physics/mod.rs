@@ -51,7 +51,7 @@ pub fn run_in<N: Num>(function: &Checked, cos_theta: N, arguments: &[f64]) -> N 
     for (param, argument) in function.params.iter().skip(1).zip(arguments) {
         let wide = *argument;
         values.push(match param.ty {
-            Ty::Rgb => Value::rgb([wide; 3]),
+            Ty::Vec3 => Value::rgb([wide; 3]),
             Ty::Texture => Value::Texture(Some(texels(|c| {
                 [optics::conductor(1.5, 0.0, c).unpolarised(); 3]
             }))),

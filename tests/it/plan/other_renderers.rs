@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
 use crate::{bless, not_checked, subjects};
-use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::physics::spectra::{Space, ciede2000, xyz_to_lab};
 use fresnel_gen::pictures::plan::{FramePixels, MaterialIds, ScenePixel, read_gbuffer};
 
 /// The version of three.js that drew the committed files.
@@ -177,7 +177,7 @@ impl Scene {
 fn difference(one: DVec3, other: DVec3) -> f64 {
     let lab = |colour: DVec3| {
         let shown = colour.clamp(DVec3::ZERO, DVec3::ONE);
-        Lab::from_xyz(Space::Srgb.rgb_to_xyz() * shown, Space::Srgb.white())
+        xyz_to_lab(Space::Srgb.rgb_to_xyz() * shown, Space::Srgb.white())
     };
     ciede2000(lab(one), lab(other))
 }

@@ -16,7 +16,7 @@ body = \"sphere\"
 material = \"gold\"
 ";
 
-fn read(text: &str) -> Result<SceneFile, fresnel_gen::physics::materials::FileFault> {
+fn read(text: &str) -> Result<SceneFile, fresnel_gen::physics::user_text::FileFault> {
     SceneFile::parse("s.toml", text)
 }
 

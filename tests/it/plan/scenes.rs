@@ -12,7 +12,7 @@ use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::language::ir::{Value, evaluate};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::in_parallel;
-use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::physics::spectra::{Lab, Space, ciede2000, xyz_to_lab};
 use fresnel_gen::pictures::plan::{FramePixels, SceneFile, ScenePixel};
 
 /// Cosines at which the reference is computed; linear between them it is right to 1e-6.
@@ -41,7 +41,7 @@ fn shown(pixel: &ScenePixel, reflectance: [f64; 3]) -> Lab {
         (reflectance[i] * light + (1.0 - reflectance[i]) * other).clamp(0.0, 1.0)
     });
     let xyz = Space::Srgb.rgb_to_xyz() * DVec3::from_array(linear);
-    Lab::from_xyz(xyz, Space::Srgb.white())
+    xyz_to_lab(xyz, Space::Srgb.white())
 }
 
 /// The difference that 99.9 % of the pixels do not exceed: by nearest rank, or the largest of fewer than 1000.

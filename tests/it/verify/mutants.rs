@@ -117,7 +117,7 @@ fn changed(original: &Function, id: NodeId, wrong: Wrong) -> Option<Function> {
         (Wrong::Factor, Op::Mul, _) if original.nodes[node.args[0]].ty == node.ty => {
             replace(&mut function, id, node.args[0]);
         }
-        (Wrong::Channels, _, _) if id == original.result && node.ty == Ty::Rgb => {
+        (Wrong::Channels, _, _) if id == original.result && node.ty == Ty::Vec3 => {
             swap(&mut function)
         }
         (Wrong::Inverted, Op::Param, Payload::Index(index)) => {
@@ -165,7 +165,7 @@ fn swap(function: &mut Function) {
     let all = [next, next + 1, next + 2];
     function
         .nodes
-        .push(node(Op::Compose, &all, Payload::None, Ty::Rgb));
+        .push(node(Op::Compose, &all, Payload::None, Ty::Vec3));
     function.result = next + 3;
 }
 

@@ -10,7 +10,13 @@ use crate::physics::num::each_channel;
 /// The identities that constants make trivial.
 pub fn identity<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<Expr<'b>> {
     let is = |i: usize, wanted: f64| args.get(i).and_then(|arg| uniform_of(*arg)) == Some(wanted);
-    let shaped = |expr: Expr<'b>| if node.ty == Ty::Rgb { expr.rgb() } else { expr };
+    let shaped = |expr: Expr<'b>| {
+        if node.ty == Ty::Vec3 {
+            expr.rgb()
+        } else {
+            expr
+        }
+    };
     match node.op {
         Op::Add if is(0, 0.0) => Some(shaped(args[1])),
         Op::Add | Op::Sub if is(1, 0.0) => Some(shaped(args[0])),

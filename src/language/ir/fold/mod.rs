@@ -42,7 +42,7 @@ pub fn specialise_in(
         .params
         .iter()
         .map(|param| match (constants.get(&param.name), param.ty) {
-            (Some(value), Ty::Rgb) => builder.colour(*value),
+            (Some(value), Ty::Vec3) => builder.colour(*value),
             (Some(value), _) => builder.number(value[0]),
             (None, ty) => builder.param(&param.name, ty),
         })
@@ -199,7 +199,7 @@ fn constant<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<
     if !channels.iter().all(|channel| channel.is_finite()) {
         return None;
     }
-    Some(if node.ty == Ty::Rgb {
+    Some(if node.ty == Ty::Vec3 {
         builder.colour(channels)
     } else {
         builder.number(channels[0])

@@ -18,7 +18,7 @@ const PIECES: usize = 64;
 /// into pieces, so that an expression that uses it twice (`r c² + (1-c²)²`) keeps a narrow range in each.
 pub fn ranges(function: &Function) -> Vec<Value<Interval>> {
     let whole = |ty: Ty| match ty {
-        Ty::Rgb => Value::Rgb(each_channel(|_| Column::Same(Interval::EVERYTHING))),
+        Ty::Vec3 => Value::Rgb(each_channel(|_| Column::Same(Interval::EVERYTHING))),
         Ty::Texture => Value::Texture(None),
         Ty::Cube => Value::Cube(None),
         Ty::Vec2 | Ty::Vec4 | Ty::Mat4 => {

@@ -133,8 +133,12 @@ fn curves_at(c: f64) -> [f64; 3] {
 
 fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
     let f0 = x.get(Input::F0);
-    let [second, third] = [Input::B2_WEIGHT, Input::B3_WEIGHT].map(|weight| x.get(weight));
-    vec![f0, 1.0 - f0, second, third]
+    vec![
+        f0,
+        1.0 - f0,
+        x.get(Input::B2_WEIGHT),
+        x.get(Input::B3_WEIGHT),
+    ]
 }
 
 /// The weights of the affine numbers, in f64.

@@ -131,11 +131,7 @@ mod tests {
 
     #[test]
     fn an_edge_tint_of_zero_is_a_dielectric() {
-        check(
-            &METHOD,
-            0.5,
-            &[0.04, 0.0],
-            optics::dielectric(1.5, 0.5).unpolarised(),
-        );
+        let glass = optics::dielectric(1.5, 0.5).unpolarised();
+        check(&METHOD, 0.5, &[0.04, 0.0], glass);
     }
 }

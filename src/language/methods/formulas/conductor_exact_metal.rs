@@ -71,12 +71,8 @@ mod tests {
     fn it_is_the_law_for_conductors() {
         for (n, k) in [(0.13, 3.2), (2.3, 4.1), (3.5, 2.7), (4.0, 1.0)] {
             for c in [0.0, 0.02, 0.3, 0.7, 1.0] {
-                check(
-                    &METHOD,
-                    c,
-                    &[n, k],
-                    value(&conductor_exact::METHOD, c, &[n, k]),
-                );
+                let law = value(&conductor_exact::METHOD, c, &[n, k]);
+                check(&METHOD, c, &[n, k], law);
             }
         }
     }

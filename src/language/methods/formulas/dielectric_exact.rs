@@ -113,15 +113,8 @@ pub(super) struct Steps<'b> {
     /// The amplitude ratio of s-polarised light.
     r_s: Expr<'b>,
     /// The amplitude ratio of p-polarised light.
-    p: P<'b>,
-}
-
-/// The amplitude ratio of p-polarised light.
-enum P<'b> {
-    /// r_p / r_s: both tend to 0 near η = 1, and their ratio does not.
-    OverS(Expr<'b>),
-    /// r_p itself: in half precision only the absolute error counts.
-    Itself(Expr<'b>),
+    r_p: Expr<'b>,
+    is_half: bool,
 }
 
 impl<'b> Steps<'b> {
@@ -132,10 +125,7 @@ impl<'b> Steps<'b> {
 
     /// The reflectance of p-polarised light.
     pub fn p(&self) -> Expr<'b> {
-        match self.p {
-            P::OverS(ratio) => (self.r_s * ratio).named("r_p", "").squared(),
-            P::Itself(r_p) => r_p.squared(),
-        }
+        self.r_p.squared()
     }
 
     /// The mean of both: unpolarised light.
@@ -145,10 +135,10 @@ impl<'b> Steps<'b> {
 
     /// `reflectance`, but 1 past the critical angle, and never above 1.
     pub fn reflected(&self, reflectance: Expr<'b>) -> Expr<'b> {
-        let builder = self.g2.builder();
-        if let P::Itself(_) = self.p {
+        if self.is_half {
             return self.reflected_in_half(reflectance);
         }
+        let builder = self.g2.builder();
         let inside = reflectance
             .at_most(1.0)
             .named("f", "rounding near the critical angle must not exceed 1");
@@ -182,12 +172,15 @@ pub(super) fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
     let u = (g2.at_least(1e-37).sqrt() + c).named("u", "");
     let r_s =
         (tau / (tau + 2.0 * c * u).at_least(1e-37)).named("r_s", "(g - c) / (g + c), as tau / u^2");
+    // Both tend to 0 near η = 1, and their ratio does not.
     let ratio = (c * u - 1.0) / (c * tau / u + 1.0);
+    let r_p = (r_s * ratio.named("r_ps", "r_p / r_s")).named("r_p", "");
     Steps {
         tau,
         g2,
         r_s,
-        p: P::OverS(ratio.named("r_ps", "r_p / r_s")),
+        r_p,
+        is_half: false,
     }
 }
 
@@ -196,12 +189,14 @@ fn half_steps<'b>(c: Expr<'b>, eta: Expr<'b>, tau: Expr<'b>, g2: Expr<'b>) -> St
     let g = g2.at_least(0.0).sqrt().named("g", "eta cos theta_t");
     let r_s = (1.0 - 2.0 * c / (g + c).at_least(tiny)).named("r_s", "(g - c) / (g + c)");
     let dense = (eta.squared() * c).named("eta2_c", "");
+    // Only the absolute error counts.
     let r_p = 1.0 - 2.0 * dense / (dense + g).at_least(tiny);
     Steps {
         tau,
         g2,
         r_s,
-        p: P::Itself(r_p.named("r_p", "(g - eta^2 c) / (g + eta^2 c)")),
+        r_p: r_p.named("r_p", "(g - eta^2 c) / (g + eta^2 c)"),
+        is_half: true,
     }
 }
 

@@ -121,12 +121,8 @@ mod tests {
         let c = 1.0 / 7.0;
         check(&METHOD, 1.0, &[0.6, 0.8], 0.6);
         check(&METHOD, 0.0, &[0.6, 0.8], 1.0);
-        check(
-            &METHOD,
-            c,
-            &[0.6, 0.8],
-            0.8 * value(&METHOD, c, &[0.6, 1.0]),
-        );
+        let schlick = value(&METHOD, c, &[0.6, 1.0]);
+        check(&METHOD, c, &[0.6, 0.8], 0.8 * schlick);
     }
 
     #[test]

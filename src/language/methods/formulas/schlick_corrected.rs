@@ -92,23 +92,14 @@ mod tests {
 
     #[test]
     fn it_meets_normal_incidence_and_grazing() {
-        check(
-            &METHOD,
-            1.0,
-            &[2.49, 4.44, 7.0],
-            value(&METHOD, 1.0, &[2.49, 4.44, 0.0]),
-        );
+        let bare = value(&METHOD, 1.0, &[2.49, 4.44, 0.0]);
+        check(&METHOD, 1.0, &[2.49, 4.44, 7.0], bare);
         check(&METHOD, 0.0, &[2.49, 4.44, 7.0], 1.0);
     }
 
     #[test]
     fn without_lambda_it_is_the_rescaled_schlick() {
-        use schlick_rescaled::METHOD as RESCALED;
-        check(
-            &METHOD,
-            0.2,
-            &[0.57, 2.18, -1.0],
-            value(&RESCALED, 0.2, &[0.57, 2.18]),
-        );
+        let rescaled = value(&schlick_rescaled::METHOD, 0.2, &[0.57, 2.18]);
+        check(&METHOD, 0.2, &[0.57, 2.18, -1.0], rescaled);
     }
 }

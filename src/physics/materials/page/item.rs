@@ -4,12 +4,12 @@ use serde_saphyr::{Location, Spanned};
 
 use super::material::GUESS_NM;
 use super::yaml::{self, RawItem};
-use crate::physics::materials::FileFault;
 use crate::physics::materials::decimal::{self, Unit, clipped};
 use crate::physics::materials::file::MOST_COEFFICIENTS;
 use crate::physics::materials::formula::{DispersionCurve, Formula, NUMBERS};
 use crate::physics::materials::material::{GREATEST, LEAST_N};
 use crate::physics::materials::rows::{Columns, RowFault, TableReader};
+use crate::physics::user_text::FileFault;
 
 /// The curves that an item gives, and remarks.
 #[derive(Default)]

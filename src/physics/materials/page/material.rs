@@ -5,7 +5,8 @@ use crate::physics::foreign::is_hidden;
 use crate::physics::materials::decimal::short;
 use crate::physics::materials::formula::{DispersionCurve, Extrapolate};
 use crate::physics::materials::print::NOT_GIVEN;
-use crate::physics::materials::{FileFault, Index, Material, MaterialKind, name_fault};
+use crate::physics::materials::{Index, Material, MaterialKind, name_fault};
+use crate::physics::user_text::FileFault;
 
 /// The wavelength at which the class is guessed: near the middle of the visible range.
 pub(super) const GUESS_NM: f64 = 580.0;

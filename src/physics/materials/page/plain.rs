@@ -12,7 +12,7 @@ const DEEPEST: u8 = 4;
 /// One line of text, without tags and marks, and with entities resolved. A superscript keeps a `^`: 10<sup>15</sup> is not 1015.
 pub fn line(text: &str) -> String {
     let plain = |line| unmarked(&untagged(line), DEEPEST);
-    let lines: Vec<String> = clipped(text).lines().map(plain).collect();
+    let lines: Vec<String> = first(text, LONGEST_TEXT).lines().map(plain).collect();
     let whole = resolved(&lines.join(" "));
     let legal: String = whole
         .chars()
@@ -23,7 +23,7 @@ pub fn line(text: &str) -> String {
 
 /// The first DOI as a link, or else the first link, or else nothing.
 pub fn link(text: &str) -> String {
-    let links = || links(clipped(text));
+    let links = || links(first(text, LONGEST_TEXT));
     links()
         .find_map(doi)
         .or_else(|| links().next())
@@ -134,7 +134,7 @@ fn unmarked(text: &str, depth: u8) -> String {
 
 /// The text of `[text](link)`, and the length of the whole in bytes.
 fn linked(rest: &str) -> Option<(&str, usize)> {
-    let middle = near(rest).find("](")?;
+    let middle = first(rest, LONGEST).find("](")?;
     let link = link_at(rest, middle + 2).unwrap_or_default();
     let end = middle + 2 + link.len();
     let is_link =
@@ -150,7 +150,7 @@ fn emphasised(rest: &str, mark: char) -> Option<(&str, usize)> {
     if run > 3 || inside.starts_with(char::is_whitespace) {
         return None;
     }
-    let length = near(inside).find(marks)?;
+    let length = first(inside, LONGEST).find(marks)?;
     let after = &inside[length + run..];
     let closes = length > 0
         && !inside[..length].ends_with(char::is_whitespace)
@@ -158,16 +158,7 @@ fn emphasised(rest: &str, mark: char) -> Option<(&str, usize)> {
     closes.then_some((&inside[..length], length + 2 * run))
 }
 
-/// The part of a text that is searched.
-fn near(text: &str) -> &str {
-    first(text, LONGEST)
-}
-
-/// The part of a text that is read.
-fn clipped(text: &str) -> &str {
-    first(text, LONGEST_TEXT)
-}
-
+/// The first characters of a text.
 fn first(text: &str, count: usize) -> &str {
     let end = text.char_indices().nth(count);
     end.map_or(text, |(at, _)| &text[..at])

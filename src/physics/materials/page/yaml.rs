@@ -1,5 +1,6 @@
 //! The YAML of a page: its fields as texts with their places. Aliases, and nesting deeper than any page's, are refused.
 
+use crate::physics::user_text::FileFault;
 use std::fmt;
 
 use serde::Deserialize;
@@ -8,7 +9,6 @@ use serde_saphyr::budget::BudgetBreach;
 use serde_saphyr::{Error, Location, Options, Spanned};
 
 use super::MOST_BYTES;
-use crate::physics::materials::FileFault;
 
 #[derive(Deserialize)]
 pub struct Raw {

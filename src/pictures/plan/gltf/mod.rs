@@ -28,7 +28,7 @@ use super::scene_file::ReadFile;
 use super::sky::SceneLight;
 use crate::lab::raster::{Camera, Mesh};
 use crate::physics::foreign::Foreign;
-use crate::physics::spectra::without_mark;
+use crate::physics::user_text::without_mark;
 use accessor::Buffers;
 use container::{Container, Place};
 use materials::Looks;

@@ -10,8 +10,9 @@ use super::super::metric::MappedMaterial;
 use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
 use super::{Light, MOST_FRAMES, Object, SIDES, Shape};
 use crate::lab::raster::{Body, Camera, Lens, rotated};
-use crate::physics::materials::{self, FileFault, FileText};
+use crate::physics::materials;
 use crate::physics::names::UnknownName;
+use crate::physics::user_text::{FileFault, FileText};
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 
 /// The largest coordinate along each axis, and the largest size, in metres.

@@ -1,6 +1,10 @@
-//! Decodes the bytes of a user's file to text: the only place that knows byte order marks and other encodings.
+//! Decodes the bytes of a user's file to text: the only place that knows byte order marks and other encodings. Faults in such a
+//! text have their place ([`FileFault`]).
 //!
 //! A UTF-8 byte order mark (EF BB BF) before a text is not part of it. Source: The Unicode Standard 17.0, section 23.8.
+
+use crate::physics::foreign::{Foreign, one_line};
+use crate::physics::names::{nearest_names, offered};
 
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
@@ -80,6 +84,74 @@ fn check_encoding(bytes: &[u8]) -> Result<(), TextFault> {
             "the file is UTF-16, and not UTF-8 text; save it as UTF-8",
         )),
         _ => Ok(()),
+    }
+}
+
+/// A fault in a file, as `file:line:column: what`.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
+pub struct FileFault {
+    /// The file, as the user named it.
+    pub file: String,
+    /// The line number, from 1.
+    pub line: usize,
+    /// The column from 1, in characters.
+    pub column: usize,
+    /// What was found, and what is allowed.
+    pub what: String,
+}
+
+impl FileFault {
+    /// A fault at a line and a column, both from 1.
+    pub fn new(file: &str, line: usize, column: usize, what: String) -> FileFault {
+        FileFault {
+            file: file.to_owned(),
+            line,
+            column,
+            what,
+        }
+    }
+
+    /// A fault at a byte offset of a text, from which line and column are counted.
+    pub fn at(file: &str, text: &str, offset: usize, what: String) -> FileFault {
+        let before = text.get(..offset).unwrap_or("");
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        FileFault::new(file, line, column, what)
+    }
+}
+
+/// A text and its file's name, so that every check can report a fault with its place.
+pub struct FileText<'a> {
+    /// The file, for messages.
+    pub file: &'a str,
+    /// What the file holds.
+    pub text: &'a str,
+}
+
+impl FileText<'_> {
+    /// A fault at an offset in bytes.
+    pub fn fault(&self, offset: usize, what: String) -> FileFault {
+        FileFault::at(self.file, self.text, offset, what)
+    }
+
+    /// The TOML parser's error, with the nearest allowed key for an unknown one.
+    pub fn toml_fault(&self, error: &toml::de::Error) -> FileFault {
+        let mut what = error.message().trim().replace('\n', "; ");
+        if what.starts_with("unknown field `") {
+            let mut quoted = what.split('`').skip(1).step_by(2);
+            let unknown = quoted.next().unwrap_or("");
+            let known: Vec<&str> = quoted.collect();
+            what += &offered(&nearest_names(unknown, &known));
+        }
+        let at = error.span().map_or(0, |span| span.start);
+        // `"C:\\mine\\x.toml"`: the place is the backslash, or the letter after it.
+        let near = self.text.get(at.saturating_sub(1)..).unwrap_or("");
+        let is_escape = what.contains("escape") && near.chars().take(2).any(|c| c == '\\');
+        if is_escape {
+            what += "; in a path write `/`, or put it in single quotes: '...'";
+        }
+        self.fault(at, what)
     }
 }
 
