@@ -3,7 +3,7 @@
 use fresnel_gen::generator::fit::{ModelError, difference, texels, values};
 use fresnel_gen::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
 use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods::{Method, MediaSet};
+use fresnel_gen::language::methods::{MediaSet, Method};
 use fresnel_gen::physics::materials::{Channels, Surface};
 use fresnel_gen::physics::num::each_channel;
 
