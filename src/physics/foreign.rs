@@ -115,11 +115,8 @@ fn behind_margin(text: &str) -> String {
     let mut rest = text.trim_end().lines();
     for line in rest.by_ref().take(LINES) {
         let line = one_line(&line.replace('\t', "    "));
-        lines.push(
-            format!("{MARGIN}{}", beginning(&line, WIDTH))
-                .trim_end()
-                .to_owned(),
-        );
+        let shown = format!("{MARGIN}{}", beginning(&line, WIDTH));
+        lines.push(shown.trim_end().to_owned());
     }
     let left = rest.count();
     if left > 0 {
@@ -129,9 +126,8 @@ fn behind_margin(text: &str) -> String {
 }
 
 fn beginning(text: &str, most: usize) -> &str {
-    text.char_indices()
-        .nth(most)
-        .map_or(text, |(end, _)| &text[..end])
+    let end = text.char_indices().nth(most);
+    end.map_or(text, |(end, _)| &text[..end])
 }
 
 fn clipped(text: &str, [first, last]: [usize; 2]) -> String {
@@ -139,11 +135,8 @@ fn clipped(text: &str, [first, last]: [usize; 2]) -> String {
     if count <= first + last {
         return text.to_owned();
     }
-    let end = text
-        .char_indices()
-        .nth(count - last)
-        .map_or("", |(start, _)| &text[start..]);
-    format!("{}…{end}", beginning(text, first))
+    let start = beginning(text, count - last).len();
+    format!("{}…{}", beginning(text, first), &text[start..])
 }
 
 #[cfg(test)]

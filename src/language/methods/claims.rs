@@ -82,31 +82,27 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// The method is the exact law there.
-    pub(super) const fn exact(over: MediaSet) -> Claim {
+    const fn new(over: MediaSet, max_abs: f64, at_degrees: f64) -> Claim {
         Claim {
             over,
-            max_abs: 0.0,
-            at_degrees: 0.0,
+            max_abs,
+            at_degrees,
         }
+    }
+
+    /// The method is the exact law there.
+    pub(super) const fn exact(over: MediaSet) -> Claim {
+        Claim::new(over, 0.0, 0.0)
     }
 
     /// At most this error over [`MediaSet::Dielectrics`], worst at this angle.
     pub(super) const fn dielectrics(max_abs: f64, at_degrees: f64) -> Claim {
-        Claim {
-            over: MediaSet::Dielectrics,
-            max_abs,
-            at_degrees,
-        }
+        Claim::new(MediaSet::Dielectrics, max_abs, at_degrees)
     }
 
     /// At most this error over [`MediaSet::Metals`], worst at this angle.
     pub(super) const fn metals(max_abs: f64, at_degrees: f64) -> Claim {
-        Claim {
-            over: MediaSet::Metals,
-            max_abs,
-            at_degrees,
-        }
+        Claim::new(MediaSet::Metals, max_abs, at_degrees)
     }
 }
 

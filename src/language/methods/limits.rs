@@ -10,19 +10,12 @@ pub fn value(method: &Method, cos_theta: f64, arguments: &[f64]) -> f64 {
     let function = function.unwrap_or_else(|fault| panic!("{fault}"));
     let mut values = vec![Value::<f64>::scalar(cos_theta)];
     for (param, argument) in function.params.iter().skip(1).zip(arguments) {
-        let colour = param.ty.channels() == 3;
-        values.push(if colour {
-            Value::rgb([*argument; 3])
-        } else {
-            Value::scalar(*argument)
+        values.push(match param.ty.channels() {
+            3 => Value::rgb([*argument; 3]),
+            _ => Value::scalar(*argument),
         });
     }
-    assert_eq!(
-        values.len(),
-        function.params.len(),
-        "{}: arguments",
-        method.name
-    );
+    assert_eq!(values.len(), function.params.len(), "{}", method.name);
     evaluate(&function, &values).at(0)[0]
 }
 

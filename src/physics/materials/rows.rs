@@ -172,12 +172,9 @@ fn each_wavelength_once(rows: Vec<WavelengthRow>, remarks: &mut Vec<String>) -> 
 
 /// The mean of rows of one wavelength. Each is divided before they are added, so that the sum is finite.
 fn mean(same: &[WavelengthRow]) -> WavelengthRow {
-    let mean = |at: usize| match same {
-        [one] => one.values[at],
-        _ => {
-            let share = |row: &WavelengthRow| row.values[at] / same.len() as f64;
-            same.iter().map(share).sum()
-        }
+    let mean = |at: usize| {
+        let share = |row: &WavelengthRow| row.values[at] / same.len() as f64;
+        same.iter().map(share).sum()
     };
     WavelengthRow {
         nm: same[0].nm,

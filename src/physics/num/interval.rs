@@ -145,9 +145,15 @@ fn root(x: f64) -> End {
     End::new(root, (-root).mul_add(root, x))
 }
 
-/// The interval between the least and the largest of four results.
+/// The interval between the least and the largest result of two ends.
 #[inline]
-fn hull(ends: [End; 4]) -> Interval {
+fn hull(a: Interval, b: Interval, of: impl Fn(f64, f64) -> End) -> Interval {
+    let ends = [
+        of(a.lo, b.lo),
+        of(a.lo, b.hi),
+        of(a.hi, b.lo),
+        of(a.hi, b.hi),
+    ];
     Interval {
         lo: ends
             .map(End::lower)
@@ -197,12 +203,7 @@ impl Mul for Interval {
 
     #[inline]
     fn mul(self, other: Interval) -> Interval {
-        hull([
-            product(self.lo, other.lo),
-            product(self.lo, other.hi),
-            product(self.hi, other.lo),
-            product(self.hi, other.hi),
-        ])
+        hull(self, other, product)
     }
 }
 
@@ -215,12 +216,7 @@ impl Div for Interval {
         if other.contains(0.0) {
             return Interval::EVERYTHING;
         }
-        hull([
-            quotient(self.lo, other.lo),
-            quotient(self.lo, other.hi),
-            quotient(self.hi, other.lo),
-            quotient(self.hi, other.hi),
-        ])
+        hull(self, other, quotient)
     }
 }
 

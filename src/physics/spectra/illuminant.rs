@@ -111,17 +111,15 @@ impl Illuminant {
     /// Its relative power at each wavelength of a sum in equal steps (nm, ascending). Where a user's table has rows between them,
     /// such as a lamp's lines, the mean about each wavelength is taken ([`Spectrum::mean_about`]), so that no line is lost.
     pub fn powers(&self, wavelengths: &[f64]) -> Vec<f64> {
-        let (Illuminant::Table { power, .. }, [first, second, ..]) = (self, wavelengths) else {
-            return wavelengths.iter().map(|nm| self.power(*nm)).collect();
-        };
-        let last = wavelengths[wavelengths.len() - 1];
-        let mut rows = power.points().iter().map(|point| point.0);
-        let stands_between = |nm: f64| (*first..=last).contains(&nm) && !wavelengths.contains(&nm);
-        if !rows.any(stands_between) {
-            return wavelengths.iter().map(|nm| self.power(*nm)).collect();
+        if let (Illuminant::Table { power, .. }, [first, second, ..]) = (self, wavelengths) {
+            let range = *first..=wavelengths[wavelengths.len() - 1];
+            let mut rows = power.points().iter().map(|point| point.0);
+            if rows.any(|nm| range.contains(&nm) && !wavelengths.contains(&nm)) {
+                let about = |nm: &f64| power.mean_about(*nm, second - first).unwrap_or(0.0);
+                return wavelengths.iter().map(about).collect();
+            }
         }
-        let about = |nm: &f64| power.mean_about(*nm, second - first).unwrap_or(0.0);
-        wavelengths.iter().map(about).collect()
+        wavelengths.iter().map(|nm| self.power(*nm)).collect()
     }
 
     /// Its relative power at a wavelength in nm; 0 outside its table.

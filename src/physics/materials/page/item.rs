@@ -113,15 +113,11 @@ impl Source<'_> {
         number: &str,
         raw: &RawItem,
     ) -> Result<Item, FileFault> {
-        let Some(number) = number
-            .parse()
-            .ok()
-            .filter(|number| NUMBERS.contains(number))
-        else {
+        let number = number.parse().ok();
+        let Some(number) = number.filter(|number| NUMBERS.contains(number)) else {
             return Err(self.unknown(kind));
         };
-        let range = raw.wavelength_range.as_ref();
-        let (from_nm, to_nm) = self.range(kind, range)?;
+        let (from_nm, to_nm) = self.range(kind, raw.wavelength_range.as_ref())?;
         let field = raw.coefficients.as_ref();
         let coefficients = self.coefficients(kind, field)?;
         let remarks = unused(number, coefficients.len());

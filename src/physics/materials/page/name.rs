@@ -45,13 +45,10 @@ impl Page {
         let title = cut(&snake(&title), LONGEST - 2).to_owned();
         let book = snake(&book);
         let book = cut(&book, (LONGEST - 3).saturating_sub(title.len())).to_owned();
-        let parts: Vec<String> = [book, title]
-            .into_iter()
-            .filter(|part| !part.is_empty())
-            .collect();
-        let name = parts.join("_");
-        if name_fault(&name).is_none() {
-            name
+        let name = format!("{book}_{title}");
+        let name = name.trim_matches('_');
+        if name_fault(name).is_none() {
+            name.to_owned()
         } else {
             format!("m_{name}").trim_end_matches('_').to_owned()
         }

@@ -69,20 +69,31 @@ fn doi(link: String) -> Option<String> {
 }
 
 fn untagged(text: &str) -> String {
+    replaced(text, '<', |rest| {
+        let length = tag_length(rest)?;
+        let begins = |tag: &str| rest.starts_with(tag);
+        let meant = if begins("<sup") {
+            "^"
+        } else if begins("<br") || begins("</br") {
+            " "
+        } else {
+            ""
+        };
+        Some((meant.to_owned(), length))
+    })
+}
+
+/// A text in which `meant` says what stands for the rest of it from each `mark` on, and how many bytes that replaces. Where it
+/// says nothing, the mark stays.
+fn replaced(text: &str, mark: char, meant: impl Fn(&str) -> Option<(String, usize)>) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some(at) = rest.find('<') {
+    while let Some(at) = rest.find(mark) {
         plain.push_str(&rest[..at]);
         rest = &rest[at..];
-        let length = tag_length(rest);
-        let (tag, after) = rest.split_at(length.unwrap_or(1));
-        match length {
-            None => plain.push_str(tag),
-            Some(_) if tag.starts_with("<sup") => plain.push('^'),
-            Some(_) if tag.starts_with("<br") || tag.starts_with("</br") => plain.push(' '),
-            Some(_) => {}
-        }
-        rest = after;
+        let (meant, length) = meant(rest).unwrap_or((mark.to_string(), mark.len_utf8()));
+        plain.push_str(&meant);
+        rest = &rest[length..];
     }
     plain + rest
 }
@@ -185,16 +196,7 @@ const ENTITIES: [(&str, &str); 16] = [
 ];
 
 fn resolved(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(at) = rest.find('&') {
-        plain.push_str(&rest[..at]);
-        rest = &rest[at..];
-        let (meant, length) = entity(rest).unwrap_or(("&".to_owned(), 1));
-        plain.push_str(&meant);
-        rest = &rest[length..];
-    }
-    plain + rest
+    replaced(text, '&', entity)
 }
 
 /// The meaning of the entity at the start of a text, and its length in bytes.
