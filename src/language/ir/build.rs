@@ -98,10 +98,7 @@ impl Builder {
         let mut state = self.state.borrow_mut();
         let key = (op, args.to_vec(), bits);
         if let Some(id) = state.known.get(&key) {
-            return Expr {
-                builder: self,
-                id: *id,
-            };
+            return self.expr(*id);
         }
         let ty = state.result_type(op, args, payload);
         state.nodes.push(Node {
@@ -113,7 +110,7 @@ impl Builder {
         });
         let id = state.nodes.len() - 1;
         state.known.insert(key, id);
-        Expr { builder: self, id }
+        self.expr(id)
     }
 
     pub(super) fn node(&self, id: NodeId) -> Node {

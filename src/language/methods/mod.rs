@@ -71,14 +71,10 @@ mod tests {
     #[test]
     fn every_form_of_every_method_is_well_formed() {
         for method in ALL {
-            let forms: &[bool] = if method.has_scalar_form() {
-                &[false, true]
-            } else {
-                &[false]
-            };
-            for &scalar_form in forms {
-                for precision in Precision::ALL {
-                    method.function_in(precision, scalar_form).unwrap();
+            for precision in Precision::ALL {
+                method.function_in(precision, false).unwrap();
+                if method.has_scalar_form() {
+                    method.function_in(precision, true).unwrap();
                 }
             }
         }
@@ -111,16 +107,13 @@ mod tests {
             }
             for other in ALL {
                 let place =
-                    |input: &&Input| other.inputs.iter().position(|own| own.name == input.name);
-                let places: Vec<usize> = method
-                    .inputs
-                    .iter()
-                    .filter_map(|input| place(&input))
-                    .collect();
+                    |input: &Input| other.inputs.iter().position(|own| own.name == input.name);
+                let places = method.inputs.iter().filter_map(place);
                 assert!(places.is_sorted(), "{} and {}", method.name, other.name);
             }
         }
     }
+
     #[test]
     fn every_fitted_method_promises_something_of_a_class() {
         for method in ALL {

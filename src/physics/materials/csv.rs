@@ -268,9 +268,6 @@ mod tests {
         assert_eq!(page.n, table(&[(400.0, 1.0)]));
         assert_eq!(page.remarks, ["n is given twice: the first was taken"]);
         let material = page.material(None).expect("it has n");
-        assert_eq!(
-            (material.name.as_str(), material.page.as_str()),
-            ("gold", "")
-        );
+        assert_eq!([material.name, material.page], ["gold", ""]);
     }
 }

@@ -274,10 +274,8 @@ mod tests {
         assert_eq!(material.limits_fault(), None);
         for nm in [1.0, 380.0, 589.3, 830.0, 1e6] {
             let n = argument.parse().expect("a number");
-            assert_eq!(
-                material.index(nm, Extrapolate::Refuse),
-                Ok(Index { n, k: 0.0 })
-            );
+            let index = material.index(nm, Extrapolate::Refuse);
+            assert_eq!(index, Ok(Index { n, k: 0.0 }));
         }
     }
 

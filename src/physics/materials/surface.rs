@@ -149,14 +149,11 @@ impl Surface {
 
     /// The reflectance of each channel in both polarisations, without gamut mapping.
     pub fn reflectance(&self, cos_theta: f64) -> Reflectance<DVec3> {
-        let each = self
-            .indices
-            .iter()
-            .map(|index| optics::conductor(index.n, index.k, cos_theta));
-        let both: Vec<Reflectance<f64>> = each.collect();
+        let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta);
+        let both: Vec<Reflectance<f64>> = self.indices.iter().map(law).collect();
         let colour = |part: fn(&Reflectance<f64>) -> f64| {
-            self.integrator
-                .colour(&both.iter().map(part).collect::<Vec<f64>>())
+            let spectrum: Vec<f64> = both.iter().map(part).collect();
+            self.integrator.colour(&spectrum)
         };
         Reflectance {
             s: colour(|r| r.s),
@@ -167,8 +164,8 @@ impl Surface {
     /// The reflectance of each channel for unpolarised light, without gamut mapping.
     pub fn unpolarised(&self, cos_theta: f64) -> DVec3 {
         let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
-        self.integrator
-            .colour(&self.indices.iter().map(law).collect::<Vec<f64>>())
+        let spectrum: Vec<f64> = self.indices.iter().map(law).collect();
+        self.integrator.colour(&spectrum)
     }
 
     /// The wavelengths at which the index is extrapolated, in words; none if there are none.

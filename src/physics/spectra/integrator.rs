@@ -217,10 +217,8 @@ mod tests {
             ..Integration::default()
         };
         let mirror = Integrator::new(&choices).unwrap().mirror;
-        assert!(
-            mirror.abs_diff_eq(DVec3::new(1.00012, 1.00001, 0.99952), 5e-6),
-            "{mirror}"
-        );
+        let wanted = DVec3::new(1.00012, 1.00001, 0.99952);
+        assert!(mirror.abs_diff_eq(wanted, 5e-6), "{mirror}");
     }
 
     /// A smooth edge at 520 nm, much like gold's.
@@ -248,10 +246,8 @@ mod tests {
     fn three_wavelengths_are_three_channels() {
         let integrator = Integrator::three_wavelengths([685.0, 535.0, 475.0]);
         assert_eq!(integrator.wavelengths, [685.0, 535.0, 475.0]);
-        assert_eq!(
-            integrator.colour(&[0.9, 0.5, 0.1]),
-            DVec3::new(0.9, 0.5, 0.1)
-        );
+        let colour = integrator.colour(&[0.9, 0.5, 0.1]);
+        assert_eq!(colour, DVec3::new(0.9, 0.5, 0.1));
         assert_eq!(integrator.colour(&[1.0; 3]), DVec3::ONE);
         assert!(integrator.colour(&[1.0; 4]).is_nan());
     }
@@ -266,10 +262,8 @@ mod tests {
         };
         let error = under("380,0\n519,0\n520,1\n521,0\n780,0\n").expect_err("no white");
         let error = error.to_string();
-        assert!(
-            error.contains("`laser.csv`") && error.contains("linear sRGB"),
-            "{error}"
-        );
+        let names_both = error.contains("`laser.csv`") && error.contains("linear sRGB");
+        assert!(names_both, "{error}");
         // The light's only line lies between the wavelengths of the sum, where there is nothing to divide by.
         assert!(under("380,0\n521,0\n522,1\n523,0\n780,0\n").is_err());
     }
@@ -285,10 +279,8 @@ mod tests {
         // D65 in steps of 1 nm, computed independently by another program. Then x and y as CIE publishes them, for sums over a
         // longer range: D65, E, A and F11 in CIE 15:2004, LED-B3 in CIE 015:2018.
         let d65 = white(&Illuminant::D65, Step::Nm1);
-        assert!(
-            d65.abs_diff_eq(DVec3::new(0.950423, 1.0, 1.088610), 5e-7),
-            "{d65}"
-        );
+        let computed = DVec3::new(0.950423, 1.0, 1.088610);
+        assert!(d65.abs_diff_eq(computed, 5e-7), "{d65}");
         for (light, x, y) in [
             (Illuminant::D65, 0.31272, 0.32903),
             (Illuminant::E, 0.33333, 0.33333),
@@ -306,10 +298,8 @@ mod tests {
     #[test]
     fn without_adaptation_a_mirror_under_e_is_not_white() {
         let rgb = Space::Srgb.xyz_to_rgb() * white(&Illuminant::E, Step::Nm1);
-        assert!(
-            rgb.abs_diff_eq(DVec3::new(1.205, 0.948, 0.909), 5e-4),
-            "{rgb}"
-        );
+        let wanted = DVec3::new(1.205, 0.948, 0.909);
+        assert!(rgb.abs_diff_eq(wanted, 5e-4), "{rgb}");
     }
 
     #[test]

@@ -67,14 +67,10 @@ mod tests {
 
     #[test]
     fn the_tables_are_whole() {
-        assert_eq!(
-            (CIE_1931.range(), CIE_1931.points().len()),
-            ((360.0, 830.0), 471)
-        );
-        assert_eq!(
-            (CIE_2015.range(), CIE_2015.points().len()),
-            ((390.0, 830.0), 441)
-        );
+        for (table, first, count) in [(&CIE_1931, 360.0, 471), (&CIE_2015, 390.0, 441)] {
+            assert_eq!(table.range(), (first, 830.0));
+            assert_eq!(table.points().len(), count);
+        }
     }
 
     #[test]
@@ -85,16 +81,11 @@ mod tests {
                 .map(|nm| Observer::Cie1931.at(nm.into()).y)
                 .sum()
         };
-        assert!((sum(360, 830) - 106.8569).abs() < 5e-5, "{}", sum(360, 830));
-        assert!(
-            (sum(380, 780) - 106.856_426).abs() < 1e-6,
-            "{}",
-            sum(380, 780)
-        );
-        assert_eq!(
-            Observer::Cie1931.at(555.0),
-            DVec3::new(0.5120501, 1.0, 0.005_749_999)
-        );
+        let (whole, summed) = (sum(360, 830), sum(380, 780));
+        assert!((whole - 106.8569).abs() < 5e-5, "{whole}");
+        assert!((summed - 106.856_426).abs() < 1e-6, "{summed}");
+        let peak = DVec3::new(0.5120501, 1.0, 0.005_749_999);
+        assert_eq!(Observer::Cie1931.at(555.0), peak);
         let between = Observer::Cie1931.at(555.5);
         assert!(between.y < 1.0 && between.y > Observer::Cie1931.at(556.0).y);
         assert_eq!(Observer::Cie2015.at(389.0), DVec3::ZERO);

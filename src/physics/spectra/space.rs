@@ -265,14 +265,12 @@ mod tests {
     #[test]
     fn white_is_one_one_one() {
         for space in Space::ALL {
-            assert!(
-                (space.rgb_to_xyz() * DVec3::ONE).abs_diff_eq(space.white(), 1e-15),
-                "{space:?}"
+            let (white, one) = (
+                space.rgb_to_xyz() * DVec3::ONE,
+                space.xyz_to_rgb() * space.white(),
             );
-            assert!(
-                (space.xyz_to_rgb() * space.white()).abs_diff_eq(DVec3::ONE, 1e-14),
-                "{space:?}"
-            );
+            assert!(white.abs_diff_eq(space.white(), 1e-15), "{space:?}");
+            assert!(one.abs_diff_eq(DVec3::ONE, 1e-14), "{space:?}");
         }
     }
 
@@ -309,11 +307,8 @@ mod tests {
             ),
         ] {
             let wanted = DMat3::from_cols_array_2d(&rows).transpose();
-            assert!(
-                space.rgb_to_xyz().abs_diff_eq(wanted, digits),
-                "{space:?} {}",
-                space.rgb_to_xyz()
-            );
+            let got = space.rgb_to_xyz();
+            assert!(got.abs_diff_eq(wanted, digits), "{space:?} {got}");
         }
     }
 
@@ -343,11 +338,9 @@ mod tests {
             let weights = xyz_weights(Observer::Cie1931, &light, &wavelengths);
             let from = weighted_sum(&weights, wavelengths.iter().map(|_| 1.0));
             for to in Space::ALL.map(Space::white) {
-                assert!(
-                    (bradford(from, to) * from).abs_diff_eq(to, 1e-14),
-                    "{light:?}"
-                );
-                let back = bradford(to, from) * bradford(from, to);
+                let there = bradford(from, to);
+                assert!((there * from).abs_diff_eq(to, 1e-14), "{light:?}");
+                let back = bradford(to, from) * there;
                 assert!(back.abs_diff_eq(DMat3::IDENTITY, 1e-14), "{light:?}");
             }
         }

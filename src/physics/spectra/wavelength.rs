@@ -60,10 +60,8 @@ mod tests {
         for (step, count) in [(Step::Nm5, 81), (Step::Nm1, 401)] {
             let wavelengths = step.wavelengths();
             assert_eq!(wavelengths.len(), count);
-            assert_eq!(
-                (wavelengths[0], wavelengths[count - 1]),
-                (FIRST_NM, LAST_NM)
-            );
+            assert_eq!(wavelengths[0], FIRST_NM);
+            assert_eq!(wavelengths[count - 1], LAST_NM);
         }
     }
 }

@@ -482,10 +482,7 @@ PROPERTIES:
             "{fault}"
         );
         let named = read(GOOD).material(Some("gold")).expect("a name");
-        assert_eq!(
-            (named.name.as_str(), named.substance.as_str()),
-            ("gold", "gold")
-        );
+        assert_eq!([named.name, named.substance], ["gold", "gold"]);
         let bare = Page::parse("x.yml", "DATA:\n- type: tabulated n\n  data: 0.4 1\n");
         let bare = bare.expect("it has data").material(None).expect("it has n");
         let texts = [&bare.reference, &bare.link, &bare.summary, &bare.page];

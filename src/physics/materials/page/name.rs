@@ -89,10 +89,7 @@ mod tests {
             file: file.to_owned(),
             ..Page::default()
         };
-        assert_eq!(
-            (page.path().as_str(), page.default_name().as_str()),
-            (path, name)
-        );
+        assert_eq!([page.path(), page.default_name()], [path, name]);
         assert_eq!(name_fault(name), None);
     }
 
