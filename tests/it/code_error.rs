@@ -6,7 +6,7 @@ use fresnel_gen::lab::verify::{
     ABSOLUTE_FLOOR, CodeError, HalfError, HalfTrial, Random, Trial, cosines, halves, nearest_half,
 };
 use fresnel_gen::language::ir::{Checked, Ty};
-use fresnel_gen::language::methods::{self, Class, Contract, Method, MediaSet};
+use fresnel_gen::language::methods::{self, Class, Contract, MediaSet, Method};
 use fresnel_gen::physics::materials::Channels;
 use fresnel_gen::physics::num::Precision;
 

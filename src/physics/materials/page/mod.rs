@@ -399,7 +399,7 @@ PROPERTIES:
             ("1 1.8-2", "did you mean 1.8e-2?"),
             ("1 inf", "not a finite number"),
             ("\"\"", "0 of them; a formula has 1 to 64"),
-            (&"1 ".repeat(65), "65 of them"),
+            ("1 ".repeat(65).as_str(), "65 of them"),
         ] {
             refused(&formula("1", "0.3 2.5", coefficients), [5, 17], says);
         }
