@@ -24,12 +24,7 @@ pub struct TextFault {
 /// # Errors
 /// They are not UTF-8.
 pub fn user_text(bytes: Vec<u8>) -> Result<String, TextFault> {
-    check_encoding(&bytes)?;
-    let bytes = match bytes.strip_prefix(MARK) {
-        Some(text) => text.to_vec(),
-        None => bytes,
-    };
-    let text = String::from_utf8(bytes);
+    let text = String::from_utf8(without_mark(&bytes)?.to_vec());
     text.map(with_line_feeds).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         TextFault {
@@ -73,8 +68,11 @@ fn with_line_feeds(text: String) -> String {
 
 impl TextFault {
     fn here(what: &'static str) -> TextFault {
-        let (line, column) = (1, 1);
-        TextFault { line, column, what }
+        TextFault {
+            line: 1,
+            column: 1,
+            what,
+        }
     }
 }
 

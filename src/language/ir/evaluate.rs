@@ -44,19 +44,13 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// Whether this holds at every point.
-    #[inline]
-    pub fn all(&self, holds: impl Fn(T) -> bool) -> bool {
-        match self {
-            Column::Same(value) => holds(*value),
-            Column::Each(values) => values.iter().all(|value| holds(*value)),
-        }
-    }
-
     /// Whether this holds at every point for this and another column.
     #[inline]
     pub fn all_with(&self, other: &Column<T>, holds: impl Fn(T, T) -> bool) -> bool {
-        self.zip(other, &holds).all(|answer| answer)
+        match self.zip(other, &holds) {
+            Column::Same(answer) => answer,
+            Column::Each(answers) => answers.into_iter().all(|answer| answer),
+        }
     }
 
     #[inline]
