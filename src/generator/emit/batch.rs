@@ -4,7 +4,7 @@
 
 use super::function::EmittedFunction;
 use crate::language::ir::{Param, Ty};
-use crate::language::targets::{Batch, Spelling, Target};
+use crate::language::targets::{PointHarness, Spelling, Target, filled};
 
 /// How many slots of four numbers an argument takes.
 fn places_of(ty: Ty) -> usize {
@@ -29,7 +29,7 @@ pub fn batch_program(
     functions: &[&EmittedFunction],
 ) -> Option<String> {
     let harness = target.stack.harness()?;
-    let batch = harness.batch;
+    let batch = harness.points;
     let params = || functions.iter().flat_map(|one| &one.function.params);
     let texture = match params().find(|param| places_of(param.ty) == 0) {
         None => "",
@@ -38,22 +38,22 @@ pub fn batch_program(
     };
     let most = functions.iter().map(|one| places(&one.function.params));
     let inputs: String = (0..most.max().unwrap_or(0))
-        .map(|at| batch.input.replace("{at}", &at.to_string()))
+        .map(|at| filled(batch.input, &[("at", &at.to_string())]))
         .collect();
     let entries: String = functions
         .iter()
         .map(|one| {
             let value = value(batch, &target.spelling, harness.texture_argument, one);
             let value = match one.function.ty() {
-                Ty::Scalar => harness.splat.replace("{value}", &value),
+                Ty::Scalar => filled(harness.splat, &[("value", &value)]),
                 _ => value,
             };
-            let entry = batch.entry.replace("{entry}", &batch_entry(&one.name));
-            entry.replace("{value}", &value)
+            let entry = batch_entry(&one.name);
+            filled(batch.entry, &[("entry", &entry), ("value", &value)])
         })
         .collect();
-    let declarations = batch.declarations.replace("{inputs}", &inputs);
-    let declarations = declarations.replace("{texture}", texture);
+    let holes: &[(&str, &str)] = &[("inputs", &inputs), ("texture", texture)];
+    let declarations = filled(batch.declarations, holes);
     Some(format!("{}{file}{declarations}{entries}", harness.before))
 }
 
@@ -62,12 +62,17 @@ pub fn batch_entry(function: &str) -> String {
     format!("run_{function}")
 }
 
-fn value(batch: &Batch, spelling: &Spelling, texture: &str, emitted: &EmittedFunction) -> String {
+fn value(
+    batch: &PointHarness,
+    spelling: &Spelling,
+    texture: &str,
+    emitted: &EmittedFunction,
+) -> String {
     let params = &emitted.function.params;
     let stride = places(params).to_string();
     let place = |at: usize| {
-        let place = batch.place.replace("{stride}", &stride);
-        place.replace("{at}", &at.to_string())
+        let holes: &[(&str, &str)] = &[("stride", &stride), ("at", &at.to_string())];
+        filled(batch.place, holes)
     };
     let mut next = 0;
     let mut argument = |param: &Param| {
@@ -78,8 +83,9 @@ fn value(batch: &Batch, spelling: &Spelling, texture: &str, emitted: &EmittedFun
             Ty::Cube => batch.cube_argument.to_owned(),
             Ty::Mat4 => {
                 let columns: Vec<String> = (at..at + 4).map(place).collect();
-                let matrix = batch.matrix.replace("{type}", spelling.mat4);
-                matrix.replace("{columns}", &columns.join(", "))
+                let holes: &[(&str, &str)] =
+                    &[("type", spelling.mat4), ("columns", &columns.join(", "))];
+                filled(batch.matrix, holes)
             }
             Ty::Vec4 => place(at),
             Ty::Vec3 => place(at) + ".xyz",

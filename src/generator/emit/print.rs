@@ -5,7 +5,7 @@
 //! not associate.
 
 use crate::language::ir::{Checked, Node, NodeId, Op, Payload, Ty};
-use crate::language::targets::{Form, Spelling, precedence};
+use crate::language::targets::{Form, Spelling, filled, precedence};
 
 /// Longer lines are broken, and their comments then stand above.
 const WIDTH: usize = 110;
@@ -17,10 +17,9 @@ pub fn body(function: &Checked, spelling: &Spelling) -> Vec<String> {
     for (id, node) in function.nodes.iter().enumerate() {
         if let Some(label) = node.label.as_ref().filter(|_| id != function.result) {
             let statement = |value: &str| {
-                let filled = spelling.local.replace("{type}", spelling.ty(node.ty));
-                filled
-                    .replace("{name}", &label.name)
-                    .replace("{value}", value)
+                let (ty, name) = (spelling.ty(node.ty), label.name.as_str());
+                let holes: &[(&str, &str)] = &[("type", ty), ("name", name), ("value", value)];
+                filled(spelling.local, holes)
             };
             push(
                 &mut lines,
@@ -50,16 +49,16 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
                 Ty::Cube => spelling.cube,
                 _ => spelling.param,
             };
-            pattern
-                .replace("{type}", spelling.ty(param.ty))
-                .replace("{name}", &param.name)
+            let holes: &[(&str, &str)] = &[("type", spelling.ty(param.ty)), ("name", &param.name)];
+            filled(pattern, holes)
         })
         .collect();
-    let filled = spelling
-        .head
-        .replace("{name}", name)
-        .replace("{type}", spelling.ty(function.ty()));
-    filled.replace("{params}", &params.join(", "))
+    let holes: &[(&str, &str)] = &[
+        ("name", name),
+        ("type", spelling.ty(function.ty())),
+        ("params", &params.join(", ")),
+    ];
+    filled(spelling.head, holes)
 }
 
 /// A function alone, without comments: the part of its text that a compiler reads.

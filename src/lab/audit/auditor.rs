@@ -19,7 +19,7 @@ use super::ours::{CostedMethods, Ours};
 use super::program::AuditProgram;
 use super::request::Audit;
 use super::row::{AuditRow, Audited, Ran};
-use super::runner::{Runner, Trouble};
+use super::runner::{RunError, Runner};
 use super::slice::{Slice, SlicedText};
 use super::{admission, edges};
 use crate::generator::emit::FunctionForm;
@@ -146,7 +146,7 @@ impl<'a> Auditor<'a> {
     }
 
     /// A process that has compiled the function with these values.
-    fn runner(&self, bound: &Bound) -> Result<Result<Runner, Trouble>, Error> {
+    fn runner(&self, bound: &Bound) -> Result<Result<Runner, RunError>, Error> {
         let (program, run) = self.program(bound);
         // Only text that its compilers accept unchanged gets counters and is run.
         let code = match self.accepted(&program)?.code {
@@ -165,8 +165,8 @@ impl<'a> Auditor<'a> {
                     &self.surroundings,
                 )?)
             }
-            Err(Fault::Absent(why)) => Ok(Err(Trouble::Absent(why))),
-            Err(Fault::Failed(words)) => Ok(Err(Trouble::Refused(String::new(), words))),
+            Err(Fault::Absent(why)) => Ok(Err(RunError::Absent(why))),
+            Err(Fault::Failed(words)) => Ok(Err(RunError::Refused(String::new(), words))),
         }
     }
 
@@ -176,7 +176,7 @@ impl<'a> Auditor<'a> {
         runner: &Runner,
         bound: &Bound,
         subject: &MaterialInMedium,
-    ) -> Result<Result<Ran, Trouble>, Error> {
+    ) -> Result<Result<Ran, RunError>, Error> {
         let mut ran = match self.measured(runner, bound, subject) {
             Ok(ran) => ran,
             Err(trouble) => return Ok(Err(trouble)),
@@ -196,7 +196,7 @@ impl<'a> Auditor<'a> {
         runner: &Runner,
         bound: &Bound,
         subject: &MaterialInMedium,
-    ) -> Result<Ran, Trouble> {
+    ) -> Result<Ran, RunError> {
         let most = most(bound);
         let results = runner.run(&edges::cosines())?;
         let mut edges = edges::judged(&results, most);
@@ -250,20 +250,20 @@ impl<'a> Auditor<'a> {
     }
 
     /// Adds the verdict of the compiler that ran it, and puts the place in the user's file before each message.
-    fn accept(&self, verdicts: &mut Vec<(String, Verdict)>, ran: &Result<Ran, Trouble>) {
+    fn accept(&self, verdicts: &mut Vec<(String, Verdict)>, ran: &Result<Ran, RunError>) {
         let own = match self.audit.language {
             Language::Wgsl => "naga",
             Language::Gles => "the OpenGL ES driver",
             Language::Glsl | Language::Hlsl | Language::Slang => "the Vulkan driver",
         };
         let verdict = match ran {
-            Err(Trouble::Refused(who, _)) if who.is_empty() => None,
-            Err(Trouble::Refused(_, words)) if compiler_message::names_place(words) => {
+            Err(RunError::Refused(who, _)) if who.is_empty() => None,
+            Err(RunError::Refused(_, words)) if compiler_message::names_place(words) => {
                 Some(Err(Fault::Failed(words.clone())))
             }
             // The driver or the machine may be at fault.
-            Err(Trouble::Refused(_, words)) => Some(Err(Fault::Absent(words.clone()))),
-            Err(Trouble::Absent(why) | Trouble::Failed(why)) => {
+            Err(RunError::Refused(_, words)) => Some(Err(Fault::Absent(words.clone()))),
+            Err(RunError::Absent(why) | RunError::Failed(why)) => {
                 Some(Err(Fault::Absent(why.clone())))
             }
             Ok(_) => Some(Ok(())),

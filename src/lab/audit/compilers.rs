@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::language::Language;
 use crate::lab::fault::Fault;
-use crate::lab::verify::compilers::{HlslVersion, Verdict, compiled, hlsl_to_spirv_in};
+use crate::lab::verify::compilers::{HlslVersion, Verdict, compiled, hlsl_to_spirv};
 use crate::lab::verify::harness::ENTRY;
 use crate::language::targets::{Compiler, DXC, GLSLANG, WGSL};
 use crate::physics::num::Precision;
@@ -84,7 +84,7 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
 
 /// The verdict of DXC with both versions of HLSL. A text may be for either one. If both accept it, the older one is run.
 fn hlsl(precision: Precision, program: &str) -> Accepted {
-    let made = |version| hlsl_to_spirv_in(precision, program, ENTRY, version);
+    let made = |version| hlsl_to_spirv(precision, program, ENTRY, version);
     let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
     let verdicts: &[(&str, &Result<Vec<u8>, Fault>)] = match (&old, &new) {
         (Ok(_), Err(Fault::Failed(_))) => &[("dxc -HV 2018 (2021 refuses it)", &old)],

@@ -12,7 +12,7 @@ use super::inputs::Initialised;
 use super::ours::Ours;
 use super::preprocess::Condition;
 use super::request::Audit;
-use super::runner::Trouble;
+use super::runner::RunError;
 use super::slice::Slice;
 use crate::generator::fit::{ModelError, Perceived};
 use crate::generator::reference::MaterialInMedium;
@@ -174,7 +174,7 @@ pub struct Audited<'a> {
     /// What compilers say.
     pub verdicts: &'a [(String, Verdict)],
     /// The result of running it.
-    pub ran: &'a Result<Ran, Trouble>,
+    pub ran: &'a Result<Ran, RunError>,
     /// Its costs.
     pub costs: &'a [AuditCost],
     /// Our methods.
@@ -269,15 +269,15 @@ impl Audited<'_> {
                 let above = self.above_limit(&ran.error);
                 reasons.extend(above.map(|why| format!("{place}: {why}")));
             }
-            Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
-            Err(Trouble::Refused(_, words)) if reasons.is_empty() => {
+            Err(RunError::Failed(why)) => reasons.push(format!("{place}: {why}")),
+            Err(RunError::Refused(_, words)) if reasons.is_empty() => {
                 return (Status::NotChecked, vec![words.clone()]);
             }
-            Err(Trouble::Refused(..)) => {}
-            Err(Trouble::Absent(why)) if reasons.is_empty() => {
+            Err(RunError::Refused(..)) => {}
+            Err(RunError::Absent(why)) if reasons.is_empty() => {
                 return (Status::NotChecked, vec![why.clone()]);
             }
-            Err(Trouble::Absent(_)) => {}
+            Err(RunError::Absent(_)) => {}
         }
         let status = if reasons.is_empty() {
             Status::Pass
@@ -386,7 +386,7 @@ impl Checked {
     /// What was checked of a function.
     pub fn new(
         verdicts: &[(String, Verdict)],
-        ran: &Result<Ran, Trouble>,
+        ran: &Result<Ran, RunError>,
         max_error: Option<f64>,
     ) -> Checked {
         let refuses = |(_, verdict): &(String, Verdict)| matches!(verdict, Err(Fault::Failed(_)));

@@ -20,7 +20,7 @@ pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
 
 /// Why there are no results.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Trouble {
+pub enum RunError {
     /// Something is missing on this machine.
     Absent(String),
     /// A compiler or driver refuses it: its name, and its message.
@@ -41,8 +41,8 @@ pub struct Runner {
     pub points: Cell<usize>,
 }
 
-fn reason(silence: &NoAnswer, limit: Duration) -> Trouble {
-    Trouble::Failed(match silence {
+fn reason(silence: &NoAnswer, limit: Duration) -> RunError {
+    RunError::Failed(match silence {
         NoAnswer::TooLong => format!(
             "it did not end within {} s: a loop without end, or more work than --limit allows",
             limit.as_secs()
@@ -78,7 +78,7 @@ impl Runner {
         form: CosineForm,
         limit: Duration,
         surroundings: &Surroundings,
-    ) -> Result<Result<Runner, Trouble>, Error> {
+    ) -> Result<Result<Runner, RunError>, Error> {
         let mut worker = Worker::new(Launch::new(&["audit", "--worker"], surroundings));
         let uniforms = uniforms.iter().map(UniformBits::new);
         let request = AuditRequest::Prepare(code, uniforms.collect());
@@ -92,21 +92,21 @@ impl Runner {
             }),
             Ok(response) => Err(trouble(response)),
             // The function has not run yet: its compiler, the driver or the machine may be at fault.
-            Err(silence) => Err(Trouble::Absent(unprepared(&silence, limit))),
+            Err(silence) => Err(RunError::Absent(unprepared(&silence, limit))),
         })
     }
 
     /// The results at these cosines.
-    pub fn run(&self, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
+    pub fn run(&self, cosines: &[f32]) -> Result<Vec<[f32; 3]>, RunError> {
         self.run_as(self.form, cosines)
     }
 
     /// The results at these cosines if the function takes them in this form.
-    pub fn run_as(&self, form: CosineForm, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
+    pub fn run_as(&self, form: CosineForm, cosines: &[f32]) -> Result<Vec<[f32; 3]>, RunError> {
         let taken = cosines.iter().map(|c| form.value_at(*c).to_bits());
         let request = AuditRequest::Run(taken.collect());
         let response = self.worker.borrow_mut().ask(&request, self.limit);
-        let response = response.map_err(|error| Trouble::Failed(error.to_string()))?;
+        let response = response.map_err(|error| RunError::Failed(error.to_string()))?;
         match response.map_err(|silence| reason(&silence, self.limit))? {
             AuditResponse::Ran(results) if results.len() == cosines.len() => {
                 self.points.set(self.points.get() + cosines.len());
@@ -118,7 +118,7 @@ impl Runner {
     }
 
     /// The error against the reference. `look` sees every cosine with its result.
-    pub fn error(&self, reference: &ReferenceCurve, look: Look) -> Result<ModelError, Trouble> {
+    pub fn error(&self, reference: &ReferenceCurve, look: Look) -> Result<ModelError, RunError> {
         self.measured(self.form, look, |values| error_of(reference, values))
     }
 
@@ -127,7 +127,7 @@ impl Runner {
         &self,
         form: CosineForm,
         reference: &ReferenceCurve,
-    ) -> Result<ModelError, Trouble> {
+    ) -> Result<ModelError, RunError> {
         self.measured(form, &|_, _| {}, |values| error_of(reference, values))
     }
 
@@ -136,7 +136,7 @@ impl Runner {
         &self,
         reference: &ReferenceCurve,
         space: Space,
-    ) -> Result<Perceived, Trouble> {
+    ) -> Result<Perceived, RunError> {
         self.measured(self.form, &|_, _| {}, |values| {
             perceived(reference, space, values)
         })
@@ -148,8 +148,8 @@ impl Runner {
         form: CosineForm,
         look: Look,
         measure: impl FnOnce(&dyn Fn(&[f64]) -> Value<f64>) -> T,
-    ) -> Result<T, Trouble> {
-        let failed: OnceCell<Trouble> = OnceCell::new();
+    ) -> Result<T, RunError> {
+        let failed: OnceCell<RunError> = OnceCell::new();
         let measured = measure(&|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
             let nothing = || vec![[f32::NAN; 3]; single.len()];
@@ -173,20 +173,20 @@ impl Runner {
 }
 
 /// The results, unless a loop did not end at one of them.
-fn ended(cosines: &[f32], results: Vec<[f32; 3]>) -> Result<Vec<[f32; 3]>, Trouble> {
+fn ended(cosines: &[f32], results: Vec<[f32; 3]>) -> Result<Vec<[f32; 3]>, RunError> {
     let endless = results.iter().position(|rgb| *rgb == [MARK; 3]);
     endless.map_or(Ok(results), |at| {
         let cosine = cosines[at];
-        Err(Trouble::Failed(format!(
+        Err(RunError::Failed(format!(
             "at cos_theta = {cosine:?} its loops have not ended after {TURNS} turns"
         )))
     })
 }
 
-fn trouble(response: AuditResponse) -> Trouble {
+fn trouble(response: AuditResponse) -> RunError {
     match response {
-        AuditResponse::Absent(why) => Trouble::Absent(why),
-        AuditResponse::Refused(who, words) => Trouble::Refused(who, words),
-        _ => Trouble::Failed("it answers another question".to_owned()),
+        AuditResponse::Absent(why) => RunError::Absent(why),
+        AuditResponse::Refused(who, words) => RunError::Refused(who, words),
+        _ => RunError::Failed("it answers another question".to_owned()),
     }
 }

@@ -6,7 +6,7 @@
 //! its first argument is a vector, it is `w * c0`, `w * c1`, and so on.
 
 use crate::language::ir::{Param, Ty};
-use crate::language::targets::Spelling;
+use crate::language::targets::{Spelling, filled};
 
 /// The name of every measured function, so that equal functions have equal shaders.
 pub(super) const MEASURED: &str = "fg_measured";
@@ -53,26 +53,25 @@ impl Chain<'_> {
     /// The shader in a language.
     pub fn shader(&self, language: &ChainLanguage) -> String {
         let last = format!("{}r{}", language.prefix, self.evaluations - 1);
-        let shader = language
-            .shader
-            .replace("{arguments}", &self.declarations(language))
-            .replace("{chain}", &self.chain(language))
-            .replace("{last}", &last);
-        // The function comes last: its text may be a user's.
-        shader.replace("{function}", self.function)
+        let holes: &[(&str, &str)] = &[
+            ("arguments", &self.declarations(language)),
+            ("chain", &self.chain(language)),
+            ("last", &last),
+            ("function", self.function),
+        ];
+        filled(language.shader, holes)
     }
 
     fn declarations(&self, language: &ChainLanguage) -> String {
         let member = |param: &Param| {
             let ty = language.spelling.ty(param.ty);
-            let member = language.member.replace("{type}", ty);
-            member.replace("{name}", &param.name)
+            filled(language.member, &[("type", ty), ("name", &param.name)])
         };
         let members: String = uniforms(self.params).map(member).collect();
         let block = if members.is_empty() {
             members
         } else {
-            language.block.replace("{members}", &members)
+            filled(language.block, &[("members", &members)])
         };
         let reads = |ty| self.params.iter().any(|param| param.ty == ty);
         let texture = match (reads(Ty::Texture), reads(Ty::Cube)) {
@@ -86,16 +85,16 @@ impl Chain<'_> {
     fn chain(&self, language: &ChainLanguage) -> String {
         let prefix = language.prefix;
         let local = |ty: Ty, name: String, value: &str| {
-            let local = language.local.replace("{type}", language.spelling.ty(ty));
-            let local = local.replace("{name}", &format!("{prefix}{name}"));
-            format!("    {}\n", local.replace("{value}", value))
+            let holes: &[(&str, &str)] = &[
+                ("type", language.spelling.ty(ty)),
+                ("name", &format!("{prefix}{name}")),
+                ("value", value),
+            ];
+            format!("    {}\n", filled(language.local, holes))
         };
         let input = |ty: Ty, name: &str, value: &str| {
-            let spelled = language.spelling.ty(ty);
-            let value = language
-                .input
-                .replace("{type}", spelled)
-                .replace("{value}", value);
+            let holes: &[(&str, &str)] = &[("type", language.spelling.ty(ty)), ("value", value)];
+            let value = filled(language.input, holes);
             local(ty, name.to_owned(), &value)
         };
         let step = |i: usize| {
@@ -122,11 +121,15 @@ impl Chain<'_> {
     fn call(&self, language: &ChainLanguage, i: usize) -> String {
         let argument = |param: &Param| match param.ty {
             Ty::Texture | Ty::Cube => language.texture_argument.to_owned(),
-            _ => language
-                .argument
-                .replace("{i}", &i.to_string())
-                .replace("{parts}", if param.ty == Ty::Vec3 { "xyz" } else { "x" })
-                .replace("{name}", &param.name),
+            _ => {
+                let parts = if param.ty == Ty::Vec3 { "xyz" } else { "x" };
+                let holes: &[(&str, &str)] = &[
+                    ("i", &i.to_string()),
+                    ("parts", parts),
+                    ("name", &param.name),
+                ];
+                filled(language.argument, holes)
+            }
         };
         let prefix = language.prefix;
         let first = match self.params.first().map_or(Ty::Scalar, |param| param.ty) {

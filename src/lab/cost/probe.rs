@@ -12,7 +12,7 @@ use super::chain::{Chain, ChainLanguage, MEASURED, uniforms, without_numbers};
 use super::family::Dialect;
 use crate::generator::emit::bare;
 use crate::language::ir::{Checked, Param, Ty};
-use crate::language::targets::{GLES, Target, WGSL};
+use crate::language::targets::{GLES, Target, WGSL, filled};
 use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
 
@@ -80,10 +80,13 @@ impl Probe {
                 (Ty::Vec3 | Ty::Vec2, _) => "c.x".to_owned(),
                 _ => format!("{ty}(c)"),
             };
-            let param = spelling.param.replace("{type}", spelling.ty(first));
-            let head = spelling.head.replace("{name}", MEASURED);
-            let head = head.replace("{type}", ty);
-            let head = head.replace("{params}", &param.replace("{name}", "c"));
+            let param: &[(&str, &str)] = &[("type", spelling.ty(first)), ("name", "c")];
+            let head: &[(&str, &str)] = &[
+                ("name", MEASURED),
+                ("type", ty),
+                ("params", &filled(spelling.param, param)),
+            ];
+            let head = filled(spelling.head, head);
             format!("{head} {{\n    return {value};\n}}\n")
         };
         let param = Param {

@@ -31,12 +31,9 @@ impl Context {
         hush();
         let egl = library()?;
         let display = display(egl)?;
-        egl.initialize(display).map_err(absent)?;
-        egl.bind_api(egl::OPENGL_ES_API).map_err(absent)?;
+        initialize(egl, display)?;
         let context = create(egl, display)?;
-        enter(egl, display, context)?;
-        // SAFETY: the context is current, and EGL 1.5 gives the address of every function, of the core too.
-        let gl = unsafe { glow::Context::from_loader_function(|name| address(egl, name)) };
+        let gl = functions(egl, display, context)?;
         Ok(Context {
             egl,
             display,
@@ -107,7 +104,28 @@ fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, Fault> {
         .map_err(absent)
 }
 
-pub(super) fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
+/// Prepares a display for OpenGL ES.
+pub(super) fn initialize(egl: &Egl, display: egl::Display) -> Result<(), Fault> {
+    egl.initialize(display).map_err(absent)?;
+    egl.bind_api(egl::OPENGL_ES_API).map_err(absent)
+}
+
+/// The functions of a context, which becomes current.
+pub(super) fn functions(
+    egl: &Egl,
+    display: egl::Display,
+    context: egl::Context,
+) -> Result<glow::Context, Fault> {
+    enter(egl, display, context)?;
+    let address = |name: &str| {
+        let function = egl.get_proc_address(name);
+        function.map_or(std::ptr::null(), |function| function as *const _)
+    };
+    // SAFETY: the context is current, and EGL 1.5 gives the address of every function, of the core too.
+    Ok(unsafe { glow::Context::from_loader_function(address) })
+}
+
+fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
     egl.make_current(display, None, None, Some(context))
         .map_err(absent)
 }
@@ -129,11 +147,6 @@ fn describe(gl: &glow::Context) -> Adapter {
         backend: Backend::Gles,
         kind,
     }
-}
-
-pub(super) fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
-    egl.get_proc_address(name)
-        .map_or(std::ptr::null(), |function| function as *const _)
 }
 
 pub(super) fn absent(why: impl ToString) -> Fault {

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glow::HasContext;
 use khronos_egl as egl;
 
-use super::egl::{Egl, absent, address, enter, library};
+use super::egl::{Egl, absent, functions, initialize, library};
 use super::gles::build;
 use crate::lab::fault::Fault;
 
@@ -43,12 +43,9 @@ impl GlesCompiler {
     pub fn open(major: i32) -> Result<GlesCompiler, Fault> {
         let egl = library()?;
         let display = display(egl)?;
-        egl.initialize(display).map_err(absent)?;
-        egl.bind_api(egl::OPENGL_ES_API).map_err(absent)?;
+        initialize(egl, display)?;
         let context = context(egl, display, major)?;
-        enter(egl, display, context)?;
-        // SAFETY: the context is current, and EGL 1.5 gives the address of every function, of the core too.
-        let mut gl = unsafe { glow::Context::from_loader_function(|name| address(egl, name)) };
+        let mut gl = functions(egl, display, context)?;
         let remarks = Arc::new(Mutex::new(Vec::new()));
         listen(&mut gl, remarks.clone());
         // SAFETY: the context is current.

@@ -1,11 +1,9 @@
 //! Code error: a function in unfused f32 against itself in f64, at the same f32 inputs. It is never added to model error.
 
-use serde::{Deserialize, Serialize};
-
 use crate::physics::num::ulp_distance;
 
 /// How far the code is from what it means.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CodeError {
     /// Largest distance in ulp. Differences within [`ABSOLUTE_FLOOR`] do not count.
     pub max_ulp: f64,

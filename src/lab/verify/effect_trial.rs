@@ -141,7 +141,7 @@ impl EffectTrial {
             let error = outside.into_iter().fold(0.0, f64::max) / largest;
             if error > outcome.max_abs {
                 outcome.max_abs = error;
-                outcome.worst = self.told(point, *got, all[0]);
+                outcome.worst = self.words(point, *got, all[0]);
             }
         }
         outcome
@@ -201,24 +201,24 @@ impl EffectTrial {
         value + sign * (last_bits + texel / WEIGHTS)
     }
 
-    fn told(&self, point: usize, got: [f32; 3], want: [f64; 3]) -> String {
+    fn words(&self, point: usize, got: [f32; 3], want: [f64; 3]) -> String {
         let arguments = self.params.iter().zip(&self.points[point]);
-        let told = arguments.filter(|(_, numbers)| !numbers.is_empty());
-        let told = told.map(|(param, numbers)| format!("{} = {numbers:?}", param.name));
-        let told: Vec<String> = told.collect();
-        format!("at {} it is {got:?}, expected {want:?}", told.join(", "))
+        let given = arguments.filter(|(_, numbers)| !numbers.is_empty());
+        let given = given.map(|(param, numbers)| format!("{} = {numbers:?}", param.name));
+        let given: Vec<String> = given.collect();
+        format!("at {} it is {got:?}, expected {want:?}", given.join(", "))
     }
 }
 
 /// From this point on, arguments come from the ends of their domains: axes, zero vectors, grazing and opposite directions.
-pub(super) const CORNERS_FROM: usize = 1536;
+const CORNERS_FROM: usize = 1536;
 /// From this point on, up to the corners, indices are chosen so that light arrives close to the critical angle.
-pub(super) const CRITICAL_FROM: usize = 1280;
+const CRITICAL_FROM: usize = 1280;
 /// Texels of a row of the trial's textures.
 pub const TEXELS: usize = 16;
 
 /// A quasi-random number from 0 to 1: the fractional part of a multiple of the square root of a prime, by place in two sequences.
-pub(super) fn share(index: usize, dimension: usize) -> f64 {
+fn share(index: usize, dimension: usize) -> f64 {
     const PRIMES: [f64; 24] = [
         2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0,
         59.0, 61.0, 67.0, 71.0, 73.0, 79.0, 83.0, 89.0,
@@ -228,7 +228,7 @@ pub(super) fn share(index: usize, dimension: usize) -> f64 {
 }
 
 /// The numbers of an argument at a point: anywhere in its domain, or at an end of it.
-pub(super) fn argument_at(argument: &Argument, index: usize, place: usize) -> Vec<f32> {
+fn argument_at(argument: &Argument, index: usize, place: usize) -> Vec<f32> {
     let is_corner = index >= CORNERS_FROM;
     let pick = |count: usize, dimension: usize| {
         (share(index, 5 * place + dimension) * count as f64) as usize % count
@@ -266,7 +266,7 @@ pub(super) fn argument_at(argument: &Argument, index: usize, place: usize) -> Ve
 
 /// Sets the index of a function that takes one and two directions to a value near the sine of the angle between these, where total
 /// reflection begins.
-pub(super) fn bring_to_critical_angle(
+fn bring_to_critical_angle(
     params: &[Param],
     part: EffectPart,
     index: usize,
@@ -294,11 +294,7 @@ pub(super) fn bring_to_critical_angle(
 }
 
 /// The numbers of an input of the method at a point.
-pub(super) fn input_at(
-    param: &Param,
-    index: usize,
-    values: &[Vec<(String, [f64; 3])>],
-) -> Vec<f32> {
+fn input_at(param: &Param, index: usize, values: &[Vec<(String, [f64; 3])>]) -> Vec<f32> {
     let set = values.get(index % values.len().max(1));
     let found = set.and_then(|set| set.iter().find(|(name, _)| *name == param.name));
     let value = found.map_or([1.5; 3], |(_, value)| *value);
@@ -363,7 +359,7 @@ const CAMERA: [f32; 16] = [
 
 /// The texels of the trial's texture: numbers that grow smoothly across it, with alpha 1 inside a circle and 0 outside. Those of
 /// a cube are distances between 1 and 2, different along each axis.
-pub(super) fn texels(params: &[Param]) -> Vec<[f32; 4]> {
+fn texels(params: &[Param]) -> Vec<[f32; 4]> {
     let half = |x: f64| nearest_half(x as f32);
     let place = |i: usize| 2.0 * (i as f64 + 0.5) / TEXELS as f64 - 1.0;
     let texture = params.iter().find(|param| param.ty.is_sampled());
@@ -396,7 +392,7 @@ pub(super) fn texels(params: &[Param]) -> Vec<[f32; 4]> {
     }
 }
 
-pub(super) fn flat(texels: &[[f32; 4]]) -> Texels {
+fn flat(texels: &[[f32; 4]]) -> Texels {
     let alpha: Arc<[f32]> = texels.iter().map(|texel| texel[3]).collect();
     Texels {
         width: TEXELS,
@@ -406,7 +402,7 @@ pub(super) fn flat(texels: &[[f32; 4]]) -> Texels {
     }
 }
 
-pub(super) fn cube(texels: &[[f32; 4]]) -> CubeTexels {
+fn cube(texels: &[[f32; 4]]) -> CubeTexels {
     CubeTexels {
         size: TEXELS,
         texels: texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect(),

@@ -2,11 +2,11 @@
 
 use std::cell::OnceCell;
 
+use super::cases::{TrialCase, cases};
 use super::judge::{PathRun, RanFunction, RunResult};
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 use super::run;
-use super::trial::{TrialCase, cases};
 use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::{self, ModelError};
 use crate::generator::reference::ReferenceCurve;
@@ -55,7 +55,7 @@ fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
     let mut all: Vec<(&'static str, Verdict)> = Vec::new();
     for page in &file.pages {
         for (name, verdict) in
-            compilers::accepts_in(file.precision(), file.target, &page.path, &page.bytes)
+            compilers::accepts(file.precision(), file.target, &page.path, &page.bytes)
         {
             let verdict = match verdict {
                 Err(Fault::Failed(words)) => {
@@ -199,7 +199,7 @@ impl<'a> FileTrial<'a> {
         {
             return None;
         }
-        let verdicts = compilers::accepts_in(
+        let verdicts = compilers::accepts(
             self.file.precision(),
             self.file.target,
             &page.path,

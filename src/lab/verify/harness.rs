@@ -1,12 +1,10 @@
 //! Harnesses: the code around the text of a file that runs one of its functions over cosines. The text itself stays as it is, to
-//! the byte. The code of each language stands in its target's [`Harness`]. [`as_object`] writes pairs as a JSON object, in order.
-
-use serde::{Serialize, Serializer};
+//! the byte. The code of each language stands in its target's [`Harness`].
 
 use super::naga_translation::Gles;
 use crate::generator::emit::{EmittedFunction, uniform_offsets};
 use crate::language::ir::{Param, Ty};
-use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
+use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL, filled};
 use crate::physics::num::Precision;
 
 /// A function as a harness calls it.
@@ -90,15 +88,18 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
         .numbers()
         .zip(offsets)
         .map(|(param, offset)| {
-            let member = harness.member.replace("{type}", spelling.ty(param.ty));
-            let member = member.replace("{offset}", &offset.to_string());
-            member.replace("{name}", &param.name)
+            let holes: &[(&str, &str)] = &[
+                ("type", spelling.ty(param.ty)),
+                ("offset", &offset.to_string()),
+                ("name", &param.name),
+            ];
+            filled(harness.member, holes)
         })
         .collect();
     let block = if members.is_empty() {
         String::new()
     } else {
-        harness.block.replace("{members}", &members)
+        filled(harness.block, &[("members", &members)])
     };
     let texture = if call.is_textured() {
         harness.texture
@@ -113,21 +114,23 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
     };
     let cosine = converted(Ty::Scalar, harness.cosine.to_owned(), Precision::F16);
     let value = call.call_text(&cosine, harness.texture_argument, |param| {
-        let value = harness.argument.replace("{name}", &param.name);
+        let value = filled(harness.argument, &[("name", &param.name)]);
         converted(param.ty, value, Precision::F16)
     });
     let value = converted(call.ty(), value, Precision::F32);
     let value = if call.is_scalar {
-        harness.splat.replace("{value}", &value)
+        filled(harness.splat, &[("value", &value)])
     } else {
         value
     };
-    let after = harness.after.replace("{block}", &block);
-    let after = after
-        .replace("{texture}", texture)
-        .replace("{cosines}", harness.cosines)
-        .replace("{count}", harness.count)
-        .replace("{value}", &value);
+    let holes: &[(&str, &str)] = &[
+        ("block", &block),
+        ("texture", texture),
+        ("cosines", harness.cosines),
+        ("count", harness.count),
+        ("value", &value),
+    ];
+    let after = filled(harness.after, holes);
     format!("{}{file}{after}", harness.before)
 }
 
@@ -177,15 +180,4 @@ pub fn renamed(made: &Gles) -> String {
             Some(from) => text.replace(from.as_str(), to),
             None => text,
         })
-}
-
-/// Writes pairs of a name and a value as an object, in order.
-///
-/// # Errors
-/// The writer refuses.
-pub fn as_object<S: Serializer, K: Serialize, T: Serialize>(
-    pairs: &[(K, T)],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }

@@ -1,6 +1,8 @@
 //! The manifest's entry of a file compared with what is true today (functions, signatures, errors, costs), and the difference
 //! between a file and the one that would be written today, in words.
 
+use std::fmt::Display;
+
 use serde_json::{Value, json};
 
 use crate::generator::emit::Artifact;
@@ -48,14 +50,8 @@ impl<'a> Listed<'a> {
             ("material", &self.entry.material, &artifact.material),
         ] {
             if said != right {
-                found.push(format!(
-                    "{}:{}: of {} it says `{claim}` is {}, and right is {}",
-                    manifest::FILE,
-                    self.line(&[&format!("\"{claim}\":")]),
-                    self.entry.file,
-                    said.as_deref().unwrap_or("null"),
-                    right.as_deref().unwrap_or("null")
-                ));
+                let [said, right] = [said, right].map(|name| name.as_deref().unwrap_or("null"));
+                found.push(self.false_claim(claim, said, right));
             }
         }
         let today = artifact.detail.functions();
@@ -80,26 +76,27 @@ impl<'a> Listed<'a> {
     /// A wrong entry of the material's viewing conditions or source.
     fn of_material(&self, claim: &str, right: &Value) -> Option<String> {
         let said = self.entry.detail.get(claim).filter(|said| *said != right)?;
-        Some(format!(
-            "{}:{}: of {} it says `{claim}` is {said}, and right is {right}",
-            manifest::FILE,
-            self.line(&[&format!("\"{claim}\":")]),
-            self.entry.file,
-        ))
+        Some(self.false_claim(claim, said, right))
+    }
+
+    fn false_claim(&self, claim: &str, said: impl Display, right: impl Display) -> String {
+        let mark = format!("\"{claim}\":");
+        let what = format!("says `{claim}` is {said}, and right is {right}");
+        self.of_file(&[&mark], &what)
+    }
+
+    /// A finding about the file, at the line of the last of these marks.
+    fn of_file(&self, marks: &[&str], what: &str) -> String {
+        let (line, file) = (self.line(marks), &self.entry.file);
+        format!("{}:{line}: of {file} it {what}", manifest::FILE)
     }
 
     /// The functions of the file that the entry does not list.
     pub fn unlisted(&self, in_file: &[&str]) -> Vec<String> {
         let missing = in_file.iter().filter(|name| !self.has(name));
-        let finding = |name: &&str| {
-            format!(
-                "{}:{}: of {} it does not list {name}",
-                manifest::FILE,
-                self.line(&[]),
-                self.entry.file
-            )
-        };
-        missing.map(finding).collect()
+        missing
+            .map(|name| self.of_file(&[], &format!("does not list {name}")))
+            .collect()
     }
 
     fn claims(&self, name: &str, function: &Value, right: &Value) -> Vec<String> {
@@ -117,14 +114,8 @@ impl<'a> Listed<'a> {
 
     /// A wrong hash, for a file whose bytes are those that a run would write today.
     pub fn hash_finding(&self, bytes: &[u8]) -> Option<String> {
-        (!is_listed(self.entry, bytes)).then(|| {
-            format!(
-                "{}:{}: of {} it says a `sha256` that is not the file's",
-                manifest::FILE,
-                self.line(&["\"sha256\":"]),
-                self.entry.file
-            )
-        })
+        let what = "says a `sha256` that is not the file's";
+        (!is_listed(self.entry, bytes)).then(|| self.of_file(&["\"sha256\":"], what))
     }
 
     fn finding(&self, name: &str, claim: &str, what: &str) -> String {

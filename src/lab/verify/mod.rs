@@ -7,6 +7,7 @@
 //! Shaders run in processes of their own, so that one that hangs or crashes its driver costs no more than a row of the report. All
 //! processes make the same [`VerifyPlan`](requested::VerifyPlan) from the same flags, and a number names one of its files.
 
+mod cases;
 mod code_error;
 pub mod compilers;
 pub mod effect_trial;
@@ -33,9 +34,9 @@ mod sweep;
 mod tampering;
 mod trial;
 
+pub use cases::material_trial;
 pub use code_error::{ABSOLUTE_FLOOR, CodeError};
 pub use half::{HalfError, HalfTrial, halves, halves_beyond, nearest_half};
-pub use harness::as_object;
 pub use machine::MachineStatement;
 pub use points::{
     Random, WITHIN, beyond, cosines, cosines_around, limits, share, worst_cases, worst_cosines,
@@ -43,8 +44,8 @@ pub use points::{
 };
 pub use row::{
     AllowedError, Answer, CodeErrorFigures, Emulation, Error, ModelErrorFigures, SecondOpinion,
-    Status, VerifyRow, WORST,
+    Status, VerifyRow, WORST, as_object,
 };
 pub use supervise::{serve, supervise};
 pub use sweep::{count, exhaustive_rows, sweep};
-pub use trial::{Expected, Miss, Outcome, Trial, material_trial, result_range};
+pub use trial::{Expected, Miss, Outcome, Trial, result_range};

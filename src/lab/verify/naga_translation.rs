@@ -27,8 +27,6 @@ pub struct Gles {
     pub inputs: Locations,
     /// The names of outputs.
     pub outputs: Locations,
-    /// The names of uniform blocks, in std140 layout.
-    pub blocks: Bindings,
     /// The names of `sampler2D`s, by the binding of the texture.
     pub textures: Bindings,
 }
@@ -61,7 +59,6 @@ pub fn to_gles(wgsl: &str, entry: &str) -> Result<Gles, Fault> {
     Ok(Gles {
         inputs: varyings(&text, " in "),
         outputs: varyings(&text, " out "),
-        blocks: blocks(&module, &names),
         textures: textures(&module, &names),
         text,
     })
@@ -136,13 +133,6 @@ fn varyings(text: &str, qualifier: &str) -> Locations {
     outermost.filter_map(varying).collect()
 }
 
-fn blocks(module: &Module, names: &glsl::ReflectionInfo) -> Bindings {
-    let blocks = names.uniforms.iter();
-    blocks
-        .filter_map(|(variable, name)| Some((binding(module, *variable)?, name.clone())))
-        .collect()
-}
-
 fn textures(module: &Module, names: &glsl::ReflectionInfo) -> Bindings {
     let textures = names.texture_mapping.iter();
     textures
@@ -188,7 +178,7 @@ struct Out { @builtin(position) position: vec4<f32>, @location(0) reflectance: v
     fn a_vertex_shader_comes_with_its_names() {
         let gles = to_gles(VERTEX, "points").unwrap();
         assert!(gles.text.starts_with("#version 300 es\n"), "{}", gles.text);
-        let names = [&gles.inputs[&0], &gles.outputs[&0], &gles.blocks[&(0, 0)]];
+        let names = [&gles.inputs[&0], &gles.outputs[&0]];
         assert!(names.iter().all(|name| gles.text.contains(*name)));
         assert!(gles.textures.is_empty());
     }

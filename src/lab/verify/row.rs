@@ -8,7 +8,6 @@ use thiserror::Error;
 
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
-use super::harness::as_object;
 use super::merge::MergeFault;
 use super::{CodeError, HalfError};
 use crate::generator::emit::FunctionForm;
@@ -218,6 +217,17 @@ pub struct SecondOpinion {
 /// JSON has no numbers that are not finite.
 pub(super) fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
+}
+
+/// Writes pairs of a name and a value as an object, in order.
+///
+/// # Errors
+/// The writer refuses.
+pub fn as_object<S: Serializer, K: Serialize, T: Serialize>(
+    pairs: &[(K, T)],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }
 
 fn as_object_or_null<S: Serializer, T: Serialize>(

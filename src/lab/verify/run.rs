@@ -14,7 +14,7 @@
 
 use std::cell::OnceCell;
 
-use super::compilers::{HlslVersion, Verdict, hlsl_to_spirv, hlsl_to_spirv_in};
+use super::compilers::{HlslVersion, Verdict, hlsl_to_spirv};
 use super::effect_trial::{EffectTrial, TEXELS};
 use super::file::FileTrial;
 use super::harness::{self, Call, ENTRY};
@@ -33,7 +33,7 @@ use crate::lab::gpu::{
 use crate::lab::verify::{HalfError, HalfTrial, halves, halves_beyond, result_range};
 use crate::language::ir::{Param, Ty};
 use crate::language::methods::{Contract, Method};
-use crate::language::targets::{Stack, Target};
+use crate::language::targets::{Stack, Target, filled};
 use crate::physics::num::{Num, Precision};
 
 /// The devices of a run, each opened when it is first needed.
@@ -211,13 +211,14 @@ impl Devices {
             }
             (Stack::Wgpu(_), ExecutionPath::NagaHlsl) => {
                 let made = naga_translation::to_hlsl(&shader, ENTRY)?;
-                let code = hlsl_to_spirv(&made.text, &made.entry, HlslVersion::V2018)?;
+                let code =
+                    hlsl_to_spirv(Precision::F32, &made.text, &made.entry, HlslVersion::V2018)?;
                 ready(ShaderCode::Spirv(&code), &made.entry, false)
             }
             (Stack::OpenGlEs(_), _) => ready(ShaderCode::Gles(&shader), "main", false),
             (Stack::DxcToVulkan(_), _) => {
                 let version = path.hlsl_version();
-                let code = hlsl_to_spirv_in(emitted.precision, &shader, ENTRY, version)?;
+                let code = hlsl_to_spirv(emitted.precision, &shader, ENTRY, version)?;
                 ready(ShaderCode::Spirv(&code), ENTRY, false)
             }
             _ => ready(ShaderCode::Wgsl(&shader), ENTRY, false),
@@ -274,7 +275,7 @@ impl Devices {
         match shown.target.stack {
             Stack::OpenGlEs(_) => run(ShaderCode::Gles(&program), "main"),
             Stack::DxcToVulkan(_) => {
-                let code = hlsl_to_spirv(&program, &entry, path.hlsl_version())?;
+                let code = hlsl_to_spirv(Precision::F32, &program, &entry, path.hlsl_version())?;
                 run(ShaderCode::Spirv(&code), &entry)
             }
             _ => run(ShaderCode::Wgsl(&program), &entry),
@@ -309,7 +310,7 @@ fn uniforms(params: &[Param], trial: &Trial, target: &Target) -> Vec<Uniform> {
         .iter()
         .filter(|param| param.ty != Ty::Texture && !param.is_cosine());
     let uniform = |(param, value): (&Param, &[f32; 3])| Uniform {
-        name: name.replace("{name}", &param.name),
+        name: filled(name, &[("name", &param.name)]),
         value: if param.ty == Ty::Vec3 {
             Argument::Rgb(*value)
         } else {

@@ -13,10 +13,10 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
+use super::cases::case_materials;
 use super::machine::MachineStatement;
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
-use super::trial::case_materials;
 use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::generator::error::RequestFault;
 use crate::generator::reference::MaterialInMedium;

@@ -7,7 +7,7 @@ use crate::generator::emit::HeaderForm;
 use crate::generator::error::Error;
 use crate::generator::generate::GeneratedFile;
 use crate::generator::output::folder;
-use crate::generator::output::manifest::{self, Manifest};
+use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::lab::verify::listed::{self, Listed};
 use crate::lab::verify::module_outline::{declarations, entry_points, loops, names};
 use crate::lab::verify::outline::{Item, Outline, outline};
@@ -36,7 +36,7 @@ pub(super) fn replace_with_today(
     page.is_shipped = false;
     page.holds_loop = None;
     page.bytes.clone_from(&made.artifact.bytes);
-    page.entries = Today::new(made, asked).entries();
+    page.entries = Today { made, asked }.entries();
     page.remark = Some(format!(
         "{}: it lacks {}, so that what would be written today was run",
         page.path,
@@ -54,38 +54,33 @@ pub(super) struct Folder<'a> {
 impl Folder<'_> {
     pub fn new(path: &Path) -> Result<Folder<'_>, Error> {
         let file = path.join(manifest::FILE);
-        let text = folder::read(&file)?;
-        let manifest = match text {
-            Some(text) => {
-                let parsed = Manifest::parse(&file, &text)?;
-                Some((parsed, String::from_utf8_lossy(&text).into_owned()))
-            }
-            None => None,
+        let parsed = |text: Vec<u8>| {
+            let manifest = Manifest::parse(&file, &text)?;
+            Ok::<_, Error>((manifest, String::from_utf8_lossy(&text).into_owned()))
         };
+        let manifest = folder::read(&file)?.map(parsed).transpose()?;
         Ok(Folder { path, manifest })
+    }
+
+    fn listed(&self) -> impl Iterator<Item = &Entry> {
+        self.manifest
+            .iter()
+            .flat_map(|(manifest, _)| &manifest.files)
     }
 
     /// The files that its manifest lists, and the manifest.
     pub fn files(&self) -> Vec<PathBuf> {
-        let listed = self
-            .manifest
-            .iter()
-            .flat_map(|(manifest, _)| &manifest.files);
-        let listed = listed.map(|entry| self.path.join(&entry.file));
+        let listed = self.listed().map(|entry| self.path.join(&entry.file));
         listed.chain([self.path.join(manifest::FILE)]).collect()
     }
 
     /// The files of functions, other than these pages, that the manifest lists for these targets, or for any where none is named.
     pub fn others(&self, targets: &[&Target], pages: &BTreeSet<&str>) -> Vec<String> {
-        let listed = self
-            .manifest
-            .iter()
-            .flat_map(|(manifest, _)| &manifest.files);
         let is_wanted = |target: &str| {
             targets::find(target).is_some()
                 && (targets.is_empty() || targets.iter().any(|own| own.name == target))
         };
-        let others = listed.filter(|entry| {
+        let others = self.listed().filter(|entry| {
             is_wanted(&entry.target)
                 && entry.function_names().next().is_some()
                 && !pages.contains(entry.file.as_str())
@@ -114,7 +109,7 @@ impl Folder<'_> {
     pub fn page(&self, made: &GeneratedFile, asked: &[bool]) -> Result<ShippedPage, Error> {
         let path = made.artifact.path.clone();
         let lying = folder::read(&self.path.join(&path))?;
-        let today = Today::new(made, asked);
+        let today = Today { made, asked };
         let listed = self
             .manifest
             .as_ref()
@@ -166,11 +161,7 @@ struct Today<'a> {
     asked: &'a [bool],
 }
 
-impl<'a> Today<'a> {
-    fn new(made: &'a GeneratedFile, asked: &'a [bool]) -> Today<'a> {
-        Today { made, asked }
-    }
-
+impl Today<'_> {
     fn is_module(&self) -> bool {
         self.made.artifact.path.ends_with(".spv")
     }

@@ -7,6 +7,7 @@
 
 use std::sync::Mutex;
 
+use super::cases::specialised;
 use super::code_error::CodeError;
 use super::harness;
 use super::judge::{PathRun, RanFunction, RunResult};
@@ -16,7 +17,7 @@ use super::requested::{PlannedFile, VerifyPlan};
 use super::row::Error;
 use super::run::{Devices, ShippedFunction};
 use super::shard::{PlannedRows, Shard, ShardOutcome};
-use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range, specialised};
+use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range};
 use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::Measured;
 use crate::generator::reference::MaterialInMedium;
@@ -111,8 +112,10 @@ impl Judge<'_> {
 
 /// A block, shared among the processor's cores.
 fn block(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let share = results.len().div_ceil(cores).next_multiple_of(PIECE);
+    let share = results
+        .len()
+        .div_ceil(machine::cores())
+        .next_multiple_of(PIECE);
     let worst = Mutex::new(Outcome::NONE);
     std::thread::scope(|scope| {
         for (i, part) in results.chunks(share).enumerate() {

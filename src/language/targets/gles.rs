@@ -6,7 +6,7 @@
 use super::glsl;
 use super::spelling::Spelling;
 use super::target::{
-    Batch, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+    Finish, Frame, GLSLANG, HalfText, Harness, Page, PointHarness, Stack, Target, Validator,
 };
 
 /// The record of this target.
@@ -58,7 +58,7 @@ static HARNESS: Harness = Harness {
     cosine: "cos_theta",
     splat: "{value}",
     converts: false,
-    batch: &BATCH,
+    points: &POINTS,
     after: "
 in highp float cos_theta;
 {block}{texture}out highp vec3 reflectance;
@@ -69,7 +69,7 @@ void main() {
 ",
 };
 
-pub(super) static BATCH: Batch = Batch {
+pub(super) static POINTS: PointHarness = PointHarness {
     input: "in highp vec4 fg_{at};\n",
     place: "fg_{at}",
     matrix: "{type}({columns})",

@@ -47,7 +47,7 @@ pub static DESKTOP: Harness = Harness {
     cosine: "fg_cosines[gl_GlobalInvocationID.x]",
     splat: "vec3({value})",
     converts: false,
-    batch: &super::gles::BATCH,
+    points: &super::gles::POINTS,
     after: "
 {block}layout(std430, set = 0, binding = 1) readonly buffer FgCosines { float fg_cosines[]; };
 layout(std430, set = 0, binding = 2) buffer FgReflectances { vec4 fg_reflectances[]; };

@@ -5,7 +5,8 @@
 
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{
-    Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+    Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, PointHarness, Stack, Target,
+    Validator,
 };
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
@@ -99,7 +100,7 @@ static HARNESS: Harness = Harness {
     cosine: "fg_cosines[at.x]",
     splat: "({value}).xxx",
     converts: false,
-    batch: &BATCH,
+    points: &POINTS,
     after: "
 {block}{texture}[[vk::binding(1, 0)]] StructuredBuffer<float> fg_cosines;
 [[vk::binding(2, 0)]] RWStructuredBuffer<float4> fg_reflectances;
@@ -117,7 +118,7 @@ void fg_main(uint3 at : SV_DispatchThreadID)
 };
 
 /// HLSL constructs a matrix from rows.
-static BATCH: Batch = Batch {
+static POINTS: PointHarness = PointHarness {
     input: "",
     place: "fg_points[at.x * {stride} + {at}]",
     matrix: "transpose({type}({columns}))",

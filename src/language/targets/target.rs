@@ -88,7 +88,7 @@ pub struct Harness {
     /// Whether converting a number between precisions needs an explicit conversion.
     pub converts: bool,
     /// How functions of many arguments are called.
-    pub batch: &'static Batch,
+    pub points: &'static PointHarness,
     /// The text after the file: `{block}`, `{texture}`, `{cosines}`, `{count}`, and the function's `{value}`.
     pub after: &'static str,
 }
@@ -96,7 +96,7 @@ pub struct Harness {
 /// The text after a file that calls its functions at points. Their arguments stand in a buffer of slots, four numbers each. The
 /// bindings are those of [`Harness`], with the slots instead of the cosines. In GLSL ES the slots are vertex attributes.
 #[derive(Debug)]
-pub struct Batch {
+pub struct PointHarness {
     /// The declaration of a slot as an attribute: `{at}`; empty where there is a buffer.
     pub input: &'static str,
     /// A slot of the current point: `{at}` of `{stride}`.

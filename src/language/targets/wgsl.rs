@@ -2,7 +2,7 @@
 
 use super::spelling::{Form, Spelling};
 use super::target::{
-    Batch, Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator,
+    Compiler, Finish, Frame, HalfText, Harness, Page, PointHarness, Stack, Target, Validator,
 };
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
@@ -52,7 +52,7 @@ const PROGRAM: Harness = Harness {
     cosine: "fg_cosines[i]",
     splat: "{value}",
     converts: true,
-    batch: &BATCH,
+    points: &POINTS,
     after: "
 {block}{texture}{cosines}
 @group(0) @binding(2) var<storage, read_write> fg_reflectances: array<vec4<f32>>;
@@ -67,7 +67,7 @@ fn fg_main(@builtin(global_invocation_id) at: vec3<u32>) {
 };
 static HARNESS: Harness = PROGRAM;
 
-static BATCH: Batch = Batch {
+static POINTS: PointHarness = PointHarness {
     input: "",
     place: "fg_points[i * {stride}u + {at}u]",
     matrix: "{type}({columns})",

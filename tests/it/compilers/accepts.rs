@@ -263,7 +263,12 @@ fn broken_modules_are_refused() {
 
 #[track_caller]
 fn refused(target: &Target, bytes: &[u8], words: Words) {
-    let verdicts = accepts(target, &format!("a.{}", target.extension), bytes);
+    let verdicts = accepts(
+        Precision::F32,
+        target,
+        &format!("a.{}", target.extension),
+        bytes,
+    );
     for (validator, (_, verdict)) in target.validators.iter().zip(verdicts) {
         match verdict {
             Ok(()) => panic!("{} accepts it", validator.name),
@@ -288,7 +293,7 @@ fn refused(target: &Target, bytes: &[u8], words: Words) {
 fn dxc_judges_by_two_versions_of_the_language() {
     let target = targets::find("hlsl").unwrap();
     let text = "float3 f(float3 a)\n{\n    return a > 0.5 ? a : 1.0 - a;\n}\n";
-    for (name, verdict) in accepts(target, "a.hlsl", text.as_bytes()) {
+    for (name, verdict) in accepts(Precision::F32, target, "a.hlsl", text.as_bytes()) {
         match (name, verdict) {
             (_, Err(Fault::Absent(_))) => {}
             ("dxc -HV 2021", Err(Fault::Failed(words))) => {

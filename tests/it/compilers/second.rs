@@ -15,6 +15,7 @@ use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::verify::compilers::{HlslVersion, accepts, hlsl_to_spirv};
 use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
 use fresnel_gen::language::targets;
+use fresnel_gen::physics::num::Precision;
 
 const GLSLANG: Tool = Tool {
     command: "glslangValidator",
@@ -65,20 +66,35 @@ fn nagas_gles_is_accepted() {
 fn nagas_hlsl_and_ours_become_valid_spirv() {
     let of_naga = |(file, function): &(&Artifact, &str)| {
         let hlsl = to_hlsl(&within(file, function, COMPUTE), "points").unwrap();
-        valid(hlsl_to_spirv(&hlsl.text, &hlsl.entry, HlslVersion::V2018))
+        valid(hlsl_to_spirv(
+            Precision::F32,
+            &hlsl.text,
+            &hlsl.entry,
+            HlslVersion::V2018,
+        ))
     };
     accepted(&materials("wgsl"), of_naga);
     let of_us = |(file, function): &(&Artifact, &str)| {
         let text = within(file, function, HLSL_COMPUTE);
-        valid(hlsl_to_spirv(&text, "points", HlslVersion::V2018))?;
-        valid(hlsl_to_spirv(&text, "points", HlslVersion::V2021))
+        valid(hlsl_to_spirv(
+            Precision::F32,
+            &text,
+            "points",
+            HlslVersion::V2018,
+        ))?;
+        valid(hlsl_to_spirv(
+            Precision::F32,
+            &text,
+            "points",
+            HlslVersion::V2021,
+        ))
     };
     accepted(&materials("hlsl"), of_us);
 }
 
 #[test]
 fn what_dxc_refuses_is_told() {
-    match hlsl_to_spirv("float f(", "f", HlslVersion::V2021) {
+    match hlsl_to_spirv(Precision::F32, "float f(", "f", HlslVersion::V2021) {
         Err(Fault::Failed(words)) => assert!(words.contains("shader.hlsl:1:"), "{words}"),
         Err(Fault::Absent(reason)) => not_checked(&format!("DXC's SPIR-V: {reason}")),
         Ok(_) => panic!("it is no HLSL"),
@@ -106,7 +122,7 @@ fn valid(spirv: Result<Vec<u8>, Fault>) -> Judgement {
     };
     assert!(bytes.starts_with(&[3, 2, 35, 7]), "SPIR-V's magic number");
     let target = targets::find("spirv").unwrap();
-    for (name, verdict) in accepts(target, "a.spv", &bytes) {
+    for (name, verdict) in accepts(Precision::F32, target, "a.spv", &bytes) {
         if let Err(Fault::Failed(words)) = verdict {
             return Err(format!("{name}: {words}"));
         }

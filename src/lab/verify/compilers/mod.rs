@@ -28,13 +28,8 @@ pub enum HlslVersion {
 /// The most lines of a refusal that are reported.
 const LINES: usize = 8;
 
-/// The verdict on a file of every compiler that can judge its target. `name` is the file's name in their messages.
-pub fn accepts(target: &Target, name: &str, bytes: &[u8]) -> Vec<(&'static str, Verdict)> {
-    accepts_in(Precision::F32, target, name, bytes)
-}
-
-/// As [`accepts`], for a file in this precision.
-pub fn accepts_in(
+/// The verdict on a file of this precision of every compiler that can judge its target. `name` is the file's name in their messages.
+pub fn accepts(
     precision: Precision,
     target: &Target,
     name: &str,
@@ -63,18 +58,11 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
 }
 
 /// The SPIR-V that DXC makes of a compute shader in HLSL, for Vulkan 1.1. Register numbers become bindings, spaces become sets.
+/// `half` has as many bits as the precision: 16 or 32.
 ///
 /// # Errors
 /// DXC refuses the text, or is not here.
-pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Vec<u8>, Fault> {
-    hlsl_to_spirv_in(Precision::F32, text, entry, version)
-}
-
-/// As [`hlsl_to_spirv`], where `half` has as many bits as this precision: 16 or 32.
-///
-/// # Errors
-/// DXC refuses the text, or is not here.
-pub fn hlsl_to_spirv_in(
+pub fn hlsl_to_spirv(
     precision: Precision,
     text: &str,
     entry: &str,
