@@ -24,8 +24,8 @@ use crate::generator::generate::tables::{WantedTables, artifacts, table_material
 use crate::generator::lut::{
     Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
 };
-use crate::generator::output::artifact::Scope;
 use crate::generator::output::lock::{Announce, Lock};
+use crate::generator::output::scope::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::language::methods::{self, Method, TEXELS};

@@ -28,7 +28,7 @@ use crate::generator::generate::tables::add_tables;
 use crate::generator::generate::{Generated, KeptMethods, generate_beside, generate_single};
 use crate::generator::output::depfile;
 use crate::generator::output::lock::{Announce, Lock};
-use crate::generator::output::tree::{self, ChangedRows, TreePlan, plan};
+use crate::generator::output::tree::{self, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Methods, Request};
@@ -284,8 +284,8 @@ fn checked(flags: &GenerateFlags, plan: &TreePlan) -> Output {
 
 /// Remarks on files that stay, or that are not as this program left them.
 pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<String> {
-    let stays = plan.stays.iter();
-    let stays = stays.map(|stay| format!("left alone: {}: {}", Foreign(&stay.path), stay.why));
+    let kept = plan.kept.iter();
+    let kept = kept.map(|kept| format!("left alone: {}: {}", Foreign(&kept.path), kept.why));
     let edited = plan.edited.iter();
     let edited = edited.map(Foreign).map(|path| {
         format!(
@@ -305,25 +305,8 @@ pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<Str
             )
         }
     });
-    let dropped = plan.dropped.iter().map(|(path, names)| {
-        format!(
-            "no longer in {}: {}, which an earlier run put there; name its method to have it",
-            Foreign(path),
-            one_line(&names.join(", "))
-        )
-    });
-    let reseen = plan.reseen.iter().map(|(path, [old, new])| {
-        let [path, old, new] = [path, old, new].map(Foreign);
-        format!("{path}: other viewing conditions, so that all of its functions change: from {old} to {new}")
-    });
-    let rows = plan.rows.iter().map(ChangedRows::words);
-    stays
-        .chain(edited)
-        .chain(obstacles)
-        .chain(dropped)
-        .chain(reseen)
-        .chain(rows)
-        .collect()
+    let remarks = plan.remarks.iter().cloned();
+    kept.chain(edited).chain(obstacles).chain(remarks).collect()
 }
 
 fn written(

@@ -275,7 +275,7 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "generator/output/stage.rs",
         "generator/output/folder.rs",
         // What is removed, what stays.
-        "generator/output/ours.rs",
+        "generator/output/ownership.rs",
         // It names this program, an input of what it writes.
         "generator/output/depfile.rs",
         // The lock on an output folder, and its waits.

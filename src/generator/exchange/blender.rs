@@ -6,10 +6,10 @@
 //! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE uses lookup tables for
 //! both, so its F only approximates that of Cycles: for dielectrics it is Schlick's. Roughness is .5 by default.
 
+use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet, capped_tint};
-use super::subject::{Body, EngineMaterial};
 use crate::physics::spectra::Space;
 
 /// The names of the nodes in reports, with how Python finds or makes them.

@@ -5,10 +5,10 @@
 //! or 1 on phones and in images. A dielectric's F0 is .16 reflectance², at most .16. Where a lit material sets `ior` and no
 //! `reflectance`, F0 is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
 
+use super::engine_material::{Body, EngineMaterial, f0_of};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial, f0_of};
 use crate::physics::spectra::Space;
 
 /// The ratio of F90 to the sum of F0's channels, for F90 up to 1: 50 * .33 in Filament's code.

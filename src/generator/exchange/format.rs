@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
+use super::engine_material::EngineMaterial;
 use super::model::NodeError;
 use super::sheet::Sheet;
-use super::subject::EngineMaterial;
 use crate::physics::foreign::Foreign;
 use crate::physics::spectra::Space;
 

@@ -11,10 +11,10 @@
 
 use serde::Serialize;
 
+use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial, f0_of, rounded};
 use crate::physics::materials::escaped;
 use crate::physics::spectra::Space;
 

@@ -7,11 +7,11 @@
 //! not colours: the space `none` keeps them unchanged. Yet the F computed from them is a colour of the document's space.
 //! Roughness is .05 by default, .3 in OpenPBR.
 
+use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::openpbr;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial};
 use crate::generator::emit::{XmlDocument, comment_lines};
 use crate::physics::spectra::Space;
 
@@ -152,7 +152,7 @@ struct Conductor {
 fn conductor(material: &EngineMaterial) -> Conductor {
     let channels = &material.subject.effective.channels;
     Conductor {
-        n: channels.n.map(super::subject::rounded),
-        k: channels.k.map(super::subject::rounded),
+        n: channels.n.map(super::engine_material::rounded),
+        k: channels.k.map(super::engine_material::rounded),
     }
 }

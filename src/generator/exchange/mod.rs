@@ -5,15 +5,15 @@
 //!
 //! To add a format, write its file with a `pub static FORMAT: Format`, and run `tests/lists`.
 
+mod engine_material;
 mod format;
 mod model;
 mod sheet;
-mod subject;
 
+pub use engine_material::{Body, EngineMaterial};
 pub use format::{ExchangeFault, Exported, Format};
 pub use model::{Model, NodeError};
 pub use sheet::{Field, FieldValue, Node, Sheet};
-pub use subject::{Body, EngineMaterial};
 
 // BEGIN list (written by tests/lists)
 mod blender;

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use super::engine_material::EngineMaterial;
 use super::sheet::Node;
-use super::subject::EngineMaterial;
 use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::Checked;
 use crate::language::methods::{self, Method, Values};

@@ -7,10 +7,10 @@
 //! space of the run, and says so where that is another. `base_color` and `specular_color` lie in [0, 1]. Dispersion is Abbe's
 //! number with a scale, which is 0 by default. `specular_roughness` is .3 by default.
 
+use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet, capped_tint};
-use super::subject::{Body, EngineMaterial};
 use crate::physics::spectra::Space;
 
 /// The record of this format.

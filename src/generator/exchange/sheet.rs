@@ -1,9 +1,9 @@
 //! The contents of a format's file: nodes with named numbers, and the lines above them (mark, command, what the material is,
 //! errors, remarks).
 
+use super::engine_material::{EngineMaterial, rounded};
 use super::format::{Format, Notes};
 use super::model::Model;
-use super::subject::{EngineMaterial, rounded};
 use crate::generator::emit::{MARK, OUTPUT_LICENCE, comment_lines};
 use crate::generator::fit::rounded_up;
 

@@ -6,10 +6,10 @@
 //! Schlick's approximation with min(50 F0, 1) of the green channel at 90 degrees. A slab takes F0 and F90 as colours, and
 //! multiplies F90 by the same minimum for the largest channel. Roughness is .5 by default.
 
+use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet};
-use super::subject::{Body, EngineMaterial, f0_of, rounded};
 use crate::physics::spectra::Space;
 
 /// F0 where Specular is 1.

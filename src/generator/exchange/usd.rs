@@ -5,10 +5,10 @@
 //! both ends would be `diffuseColor`, so that gold would be gold at 90 degrees too. A metal's `diffuseColor` is set to black; it
 //! is grey by default. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 by default.
 
+use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial};
 use crate::physics::spectra::Space;
 
 /// The record of this format.

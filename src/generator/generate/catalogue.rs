@@ -13,7 +13,7 @@ use crate::generator::envelope::{Origin, TOOL};
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
 use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
-use crate::generator::output::ours::SHARED;
+use crate::generator::output::ownership::SHARED;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, Source};
 use crate::physics::spectra::Space;

@@ -16,9 +16,9 @@ use crate::generator::emit::{
 use crate::generator::error::Error;
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::tables::add_tables;
-use crate::generator::output::artifact::{Scope, sha256};
 use crate::generator::output::lock::Lock;
 use crate::generator::output::manifest::{Input, Provenance};
+use crate::generator::output::scope::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::generator::reference::MaterialInMedium;
@@ -26,6 +26,7 @@ use crate::generator::request::source::Subjects;
 use crate::generator::request::{Materials, Request, each_once};
 use crate::language::methods::Method;
 use crate::language::targets::Target;
+use crate::physics::digest::sha256;
 use crate::physics::materials::SurfaceError;
 use effects::WantedEffects;
 use written::Owners;

@@ -226,6 +226,20 @@ pub fn linked_folder(root: &Path, path: &str) -> Option<(PathBuf, PathBuf)> {
     None
 }
 
+/// Checks that a path stays inside its folder, on every system.
+///
+/// # Errors
+/// The path holds `\\`, `:` or a control character, is absolute, or has a part that is empty, `.` or `..`.
+pub fn check_path(path: &str) -> Result<(), &'static str> {
+    if path.contains(|c: char| c == '\\' || c == ':' || c.is_control()) {
+        return Err("`\\`, `:` and control characters are not allowed");
+    }
+    if path.split('/').any(|part| matches!(part, "" | "." | "..")) {
+        return Err("it must be relative, without empty parts, `.` and `..`");
+    }
+    Ok(())
+}
+
 /// Adds the files of one folder and returns the folders in it. A missing folder is empty.
 fn list_one(root: &Path, folder: &str, files: &mut BTreeSet<String>) -> Result<Vec<String>, Error> {
     let path = root.join(folder);

@@ -14,8 +14,9 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use crate::generator::output::artifact::check_path;
-use crate::generator::output::folder::{is_plain_file, is_temporary, planted, temporaries_beside};
+use crate::generator::output::folder::{
+    check_path, is_plain_file, is_temporary, planted, temporaries_beside,
+};
 
 /// The lock's file in the output folder.
 pub const FILE: &str = ".fresnel-gen.lock";

@@ -2,7 +2,6 @@
 //!
 //! Runs of different scopes share one manifest. Its bytes are a function of the entries alone, not of the order of the runs.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::de::Error as _;
@@ -12,8 +11,8 @@ use serde_json::{Map, Value};
 use crate::generator::emit::Artifact;
 use crate::generator::envelope::TOOL;
 use crate::generator::error::Error;
-use crate::generator::output::artifact::{Scope, check_path};
-use crate::generator::output::ours::{could_be_written, listed_hash};
+use crate::generator::output::contents::listed_hash;
+use crate::generator::output::folder::check_path;
 use crate::physics::num::Precision;
 use crate::physics::user_text::without_mark;
 
@@ -121,34 +120,6 @@ impl Manifest {
         let text = serde_json::to_string_pretty(self);
         text.expect("all keys are strings, and no part of a manifest can fail to serialise") + "\n"
     }
-
-    /// The manifest after a run: its artifacts, and those old entries that it does not own.
-    pub fn merge(
-        old: Option<&Manifest>,
-        scope: &Scope,
-        artifacts: &[Artifact],
-        provenance: &Provenance,
-    ) -> Manifest {
-        let old_files = old.map_or(&[][..], |old| &old.files);
-        let kept = old_files
-            .iter()
-            .filter(|entry| !scope.owns(entry) || !could_be_written(entry));
-        let made = artifacts.iter().map(Entry::of);
-        // Later pairs replace earlier ones, so that this run's entries win.
-        let files: BTreeMap<_, _> = (kept.cloned().chain(made))
-            .map(|entry| (entry.file.clone(), entry))
-            .collect();
-        let files: Vec<Entry> = files.into_values().collect();
-        Manifest {
-            tool: TOOL.to_string(),
-            schema: SCHEMA,
-            version: provenance.version.clone(),
-            naga: provenance.naga.clone(),
-            inputs: merge_inputs(old, &provenance.inputs, &files),
-            files,
-            others: old.map_or_else(Map::new, |old| old.others.clone()),
-        }
-    }
 }
 
 impl Entry {
@@ -204,16 +175,6 @@ impl Entry {
             detail,
         }
     }
-}
-
-fn merge_inputs(old: Option<&Manifest>, new: &[Input], files: &[Entry]) -> Vec<Input> {
-    let named: BTreeSet<_> = files.iter().filter_map(|e| e.material.as_ref()).collect();
-    let old_inputs = old.map_or(&[][..], |old| &old.inputs);
-    let inputs: BTreeMap<_, _> = (old_inputs.iter().chain(new))
-        .filter(|input| named.contains(&input.name))
-        .map(|input| (&input.name, input))
-        .collect();
-    inputs.into_values().cloned().collect()
 }
 
 /// What to do with a manifest that version control could not merge.

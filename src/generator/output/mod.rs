@@ -3,12 +3,15 @@
 //! [`tree::plan`] compares a run's artifacts with the folder, [`tree::report`] says what differs, and [`write::write`] writes.
 //! Only [`write`](mod@write) changes the disk, except for the file of the [`lock`].
 
-pub mod artifact;
+pub mod contents;
 pub mod depfile;
+mod earlier_runs;
 pub mod folder;
 pub mod lock;
 pub mod manifest;
-pub mod ours;
+pub mod ownership;
+pub mod planned;
+pub mod scope;
 mod stage;
 pub mod tree;
 pub mod write;

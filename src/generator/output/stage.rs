@@ -14,7 +14,7 @@ use tempfile::TempPath;
 use crate::generator::error::Error;
 use crate::generator::output::folder::{self, folder_of};
 use crate::generator::output::lock::{Lock, create_held, remove_leftovers_of};
-use crate::generator::output::ours::bears_mark;
+use crate::generator::output::ownership::bears_mark;
 use crate::physics::digest::sha256;
 
 /// A file to be staged.
@@ -24,14 +24,14 @@ pub struct Pending<'a> {
     /// What it will hold.
     pub bytes: &'a [u8],
     /// What may lie there when the file is renamed.
-    pub before: Before,
+    pub expected: ExpectedContent,
 }
 
 /// A file ready to be renamed. It is deleted when dropped before.
 struct Staged {
     temporary: TempPath,
     destination: PathBuf,
-    before: Before,
+    expected: ExpectedContent,
     /// The lock on the temporary file, held until that is renamed or removed.
     _held: Option<File>,
 }
@@ -139,7 +139,7 @@ impl StagedFiles {
     /// # Errors
     /// A place is taken.
     pub fn refuse_taken(&self) -> Result<(), Error> {
-        let is_taken = |file: &&Staged| !file.before.allows(&file.destination);
+        let is_taken = |file: &&Staged| !file.expected.allows(&file.destination);
         match self.files.iter().find(is_taken) {
             Some(file) => Err(Error::NotOurs {
                 path: file.destination.clone(),
@@ -157,7 +157,7 @@ impl StagedFiles {
     pub fn replace(mut self, before: usize, pending: usize) -> Result<(), Error> {
         for (index, file) in self.files.drain(..).enumerate() {
             let (path, replaced) = (file.destination, before + index);
-            match put(file.temporary, &path, &file.before) {
+            match put(file.temporary, &path, &file.expected) {
                 Placing::Done => {}
                 Placing::Taken => {
                     return Err(Error::Taken {
@@ -240,7 +240,7 @@ fn filled(
     Ok(Staged {
         temporary,
         destination: path.clone(),
-        before: pending.before.clone(),
+        expected: pending.expected.clone(),
         _held: is_held.then_some(file),
     })
 }
@@ -272,7 +272,7 @@ pub fn stage_fault(path: &Path, source: io::Error) -> Error {
 
 /// What may lie in a place when a file is renamed into it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Before {
+pub enum ExpectedContent {
     /// Anything: the user named the file, or wants everything replaced.
     Anything,
     /// Nothing, or a file that bears this program's mark.
@@ -281,15 +281,19 @@ pub enum Before {
     Was(String),
 }
 
-impl Before {
-    /// What to expect where these bytes were seen. None: nothing was there.
-    pub fn seen(old: Option<&[u8]>) -> Before {
-        old.map_or(Before::Free, |bytes| Before::Was(sha256(bytes)))
+impl ExpectedContent {
+    /// What to expect where these bytes were seen, or nothing. With `overwrite`, anything may lie there.
+    pub fn seen(old: Option<&[u8]>, overwrite: bool) -> ExpectedContent {
+        match old {
+            _ if overwrite => ExpectedContent::Anything,
+            None => ExpectedContent::Free,
+            Some(bytes) => ExpectedContent::Was(sha256(bytes)),
+        }
     }
 
     /// Whether what lies there now may be replaced. A link or an unreadable file may not.
     pub fn allows(&self, place: &Path) -> bool {
-        if *self == Before::Anything || fs::symlink_metadata(place).is_err() {
+        if *self == ExpectedContent::Anything || fs::symlink_metadata(place).is_err() {
             return true;
         }
         let Some(bytes) = folder::is_plain_file(place)
@@ -298,7 +302,7 @@ impl Before {
         else {
             return false;
         };
-        bears_mark(&bytes) || matches!(self, Before::Was(hash) if *hash == sha256(&bytes))
+        bears_mark(&bytes) || matches!(self, ExpectedContent::Was(hash) if *hash == sha256(&bytes))
     }
 }
 
@@ -314,18 +318,18 @@ pub enum Placing {
 }
 
 /// Renames a file into its place. Where nothing was seen there, the system itself refuses to replace what has appeared.
-pub fn put(temporary: TempPath, place: &Path, before: &Before) -> Placing {
-    if !before.allows(place) {
+pub fn put(temporary: TempPath, place: &Path, expected: &ExpectedContent) -> Placing {
+    if !expected.allows(place) {
         return Placing::Taken;
     }
-    let is_free = *before != Before::Anything && fs::symlink_metadata(place).is_err();
+    let is_free = *expected != ExpectedContent::Anything && fs::symlink_metadata(place).is_err();
     if !is_free {
         return replaced(temporary, place);
     }
     match temporary.persist_noclobber(place) {
         Ok(()) => Placing::Done,
         Err(fault) if fault.error.kind() == ErrorKind::AlreadyExists => {
-            if before.allows(place) {
+            if expected.allows(place) {
                 replaced(fault.path, place)
             } else {
                 Placing::Taken
@@ -361,8 +365,8 @@ mod tests {
             fs::write(&place, now).expect("a file");
         }
         let temporary = TempPath::try_from_path(temporary).expect("a path");
-        let before = Before::seen(old.map(str::as_bytes));
-        let placing = put(temporary, &place, &before);
+        let expected = ExpectedContent::seen(old.map(str::as_bytes), false);
+        let placing = put(temporary, &place, &expected);
         assert_eq!(matches!(placing, Placing::Done), is_put, "{placing:?}");
         let left = fs::read_to_string(&place).expect("a file");
         assert_eq!(
@@ -395,8 +399,8 @@ mod tests {
         let place = dir.path().join("place");
         fs::write(dir.path().join("other"), OURS).expect("a file");
         std::os::unix::fs::symlink("other", &place).expect("a link");
-        assert!(!Before::Free.allows(&place));
-        assert!(!Before::seen(Some(OURS.as_bytes())).allows(&place));
-        assert!(Before::Anything.allows(&place));
+        assert!(!ExpectedContent::Free.allows(&place));
+        assert!(!ExpectedContent::seen(Some(OURS.as_bytes()), false).allows(&place));
+        assert!(ExpectedContent::Anything.allows(&place));
     }
 }

@@ -5,7 +5,7 @@
 //! of these steps changes nothing. A run killed at any moment leaves each file either old or new and listed, and another run
 //! completes its work.
 //!
-//! What is not proved to be this program's own is never replaced or removed: see [`ours`](crate::generator::output::ours).
+//! What is not proved to be this program's own is never replaced or removed: see [`ownership`](crate::generator::output::ownership).
 //! Nothing is forced to the disk: after a power cut, run again.
 
 use std::fs;
@@ -15,9 +15,10 @@ use std::path::{Path, PathBuf};
 use crate::generator::error::Error;
 use crate::generator::output::folder;
 use crate::generator::output::lock::Lock;
-use crate::generator::output::ours::{bears_mark, remove, remove_leftover};
-use crate::generator::output::stage::{Before, Pending, StagedFiles, stage_fault};
-use crate::generator::output::tree::{Obstacle, Planned, State, TreePlan};
+use crate::generator::output::ownership::{bears_mark, remove, remove_leftover};
+use crate::generator::output::planned::{Planned, State};
+use crate::generator::output::stage::{ExpectedContent, Pending, StagedFiles, stage_fault};
+use crate::generator::output::tree::{Obstacle, TreePlan};
 
 /// What a write did, in numbers of files, the manifest included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,11 +102,7 @@ fn staged_file<'a>(
     Pending {
         path: plan.out_dir.join(&file.path),
         bytes,
-        before: if overwrite {
-            Before::Anything
-        } else {
-            Before::seen(file.old.as_deref())
-        },
+        expected: ExpectedContent::seen(file.old.as_deref(), overwrite),
     }
 }
 
@@ -254,8 +251,10 @@ impl<'a> StagedOutputs<'a> {
                 OutputPlace::Named | OutputPlace::New if folder::is_device(path) => {
                     devices.push(output);
                 }
-                OutputPlace::Named => pending.extend(named(path, bytes, Before::Anything)?),
-                OutputPlace::New => pending.extend(named(path, bytes, Before::Free)?),
+                OutputPlace::Named => {
+                    pending.extend(named(path, bytes, ExpectedContent::Anything)?)
+                }
+                OutputPlace::New => pending.extend(named(path, bytes, ExpectedContent::Free)?),
                 OutputPlace::OfReport { overwrite } => {
                     let old = folder::read(path)?;
                     if old.as_deref() == Some(bytes) {
@@ -265,16 +264,10 @@ impl<'a> StagedOutputs<'a> {
                         try_places_of_ours(std::slice::from_ref(path), overwrite)?;
                         replaced.push(path.clone());
                     }
-                    let before = if overwrite {
-                        Before::Anything
-                    } else {
-                        Before::seen(old.as_deref())
-                    };
-                    let path = path.clone();
                     pending.push(Pending {
-                        path,
+                        path: path.clone(),
                         bytes,
-                        before,
+                        expected: ExpectedContent::seen(old.as_deref(), overwrite),
                     });
                 }
             }
@@ -338,17 +331,21 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
         return Ok(());
     }
     // No file of ours consists of this byte alone.
-    let pending = named(path, &[0], Before::Anything)?;
+    let pending = named(path, &[0], ExpectedContent::Anything)?;
     StagedFiles::beside_outputs(pending.as_slice()).map(drop)
 }
 
 /// A file that the user names; none if it is already right.
-fn named<'a>(path: &Path, bytes: &'a [u8], before: Before) -> Result<Option<Pending<'a>>, Error> {
+fn named<'a>(
+    path: &Path,
+    bytes: &'a [u8],
+    expected: ExpectedContent,
+) -> Result<Option<Pending<'a>>, Error> {
     let place = destination(path, bytes)?;
     Ok(place.map(|path| Pending {
         path,
         bytes,
-        before,
+        expected,
     }))
 }
 

@@ -5,10 +5,9 @@ use std::fmt::Display;
 
 use serde_json::{Value, json};
 
-use crate::generator::emit::Artifact;
-use crate::generator::emit::Detail;
+use crate::generator::emit::{Artifact, Detail};
 use crate::generator::output::manifest::{self, Entry, Manifest};
-use crate::generator::output::ours::is_listed;
+use crate::generator::output::ownership::is_listed;
 
 /// The manifest's entry of a file.
 pub(super) struct Listed<'a> {

@@ -10,10 +10,10 @@ use super::MY_METAL;
 use super::OUT;
 use super::Place;
 use super::contents;
-use fresnel_gen::generator::output::artifact::sha256;
 use fresnel_gen::generator::output::folder;
 use fresnel_gen::generator::output::lock::{self, Lock};
 use fresnel_gen::language::methods;
+use fresnel_gen::physics::digest::sha256;
 
 /// Files that look like ours and are the user's: a shader with a pasted function, a copy, what `-o` wrote.
 #[test]
@@ -205,7 +205,7 @@ fn binary_files_bear_the_mark() {
     let files = contents(&place.path(""));
     for (path, bytes) in &files {
         assert!(
-            fresnel_gen::generator::output::ours::bears_mark(bytes),
+            fresnel_gen::generator::output::ownership::bears_mark(bytes),
             "{path}"
         );
     }

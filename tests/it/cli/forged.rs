@@ -6,11 +6,10 @@ use serde_json::{Value, json};
 
 use super::OUT;
 use super::Place;
-use fresnel_gen::generator::output::artifact::sha256;
+use fresnel_gen::generator::output::contents::has_no_room_for_mark;
 use fresnel_gen::generator::output::manifest::Entry;
-use fresnel_gen::generator::output::ours::{
-    bears_mark, could_be_written, has_no_room_for_mark, is_as_written,
-};
+use fresnel_gen::generator::output::ownership::{bears_mark, could_be_written, is_as_written};
+use fresnel_gen::physics::digest::sha256;
 
 const MINE: &str = "mine, by hand\n";
 

@@ -47,7 +47,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::tree::{Snapshot, snapshot};
-use fresnel_gen::generator::output::artifact::sha256;
+use fresnel_gen::physics::digest::sha256;
 
 /// The program.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_fresnel-gen");

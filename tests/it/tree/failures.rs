@@ -7,8 +7,8 @@ use tempfile::TempDir;
 
 use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::artifact::Scope;
 use fresnel_gen::generator::output::manifest::FILE;
+use fresnel_gen::generator::output::scope::Scope;
 use fresnel_gen::generator::output::tree::plan;
 
 #[test]
@@ -111,7 +111,7 @@ fn links_are_not_followed_when_removing() {
         out.join("gles/fresnel_old.glsl"),
     )
     .unwrap();
-    let stays: Vec<String> = whole(&out).stays.into_iter().map(|s| s.path).collect();
+    let stays: Vec<String> = whole(&out).kept.into_iter().map(|s| s.path).collect();
     assert_eq!(stays, ["gles/fresnel_old.glsl", "gles/linked"]);
     fs::rename(out.join("wgsl"), outside.join("wgsl")).unwrap();
     symlink(outside.join("wgsl"), out.join("wgsl")).unwrap();

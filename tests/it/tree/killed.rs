@@ -15,7 +15,7 @@ use super::snapshot;
 use super::write;
 use fresnel_gen::generator::output::manifest::Manifest;
 use fresnel_gen::generator::output::tree::plan;
-use fresnel_gen::generator::output::{folder, lock, manifest, ours};
+use fresnel_gen::generator::output::{folder, lock, manifest, ownership};
 
 #[cfg(unix)]
 #[test]
@@ -82,7 +82,7 @@ fn assert_all_listed(found: &Snapshot) {
         let is_beside =
             folder::is_temporary(path) || [lock::FILE, manifest::FILE].contains(&&**path);
         assert!(
-            is_beside || own.is_some_and(|entry| ours::is_listed(entry, bytes)),
+            is_beside || own.is_some_and(|entry| ownership::is_listed(entry, bytes)),
             "{path} is not listed as it is"
         );
     }

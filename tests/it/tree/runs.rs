@@ -8,11 +8,13 @@ use tempfile::TempDir;
 
 use super::{artifact, provenance, put, run, silver, snapshot, whole, write};
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::artifact::{Scope, sha256};
 use fresnel_gen::generator::output::lock::Lock;
 use fresnel_gen::generator::output::manifest::FILE;
-use fresnel_gen::generator::output::tree::{State, TreePlan, plan, report};
+use fresnel_gen::generator::output::planned::State;
+use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::tree::{TreePlan, plan, report};
 use fresnel_gen::generator::output::write as writer;
+use fresnel_gen::physics::digest::sha256;
 
 #[test]
 fn a_second_run_writes_nothing() {
@@ -55,7 +57,7 @@ fn a_whole_run_finds_and_mends_all() {
     assert_eq!(found.paths(State::Changed), ["gles/fresnel_schlick.glsl"]);
     assert_eq!(found.paths(State::Missing), ["wgsl/materials/gold.wgsl"]);
     assert_eq!(found.edited, ["gles/fresnel_schlick.glsl"]);
-    let stays: Vec<&str> = found.stays.iter().map(|stay| stay.path.as_str()).collect();
+    let stays: Vec<&str> = found.kept.iter().map(|stay| stay.path.as_str()).collect();
     assert_eq!(stays, stay, "what nothing lists is named");
     assert_eq!(
         report(&found),
@@ -96,7 +98,7 @@ fn an_orphan_goes_only_as_it_was_written() {
     fs::write(&exact, format!("{text}// mine\n")).unwrap();
     let found = again();
     assert!(found.orphans.is_empty(), "it was edited: {found:?}");
-    assert_eq!(found.stays[0].path, "gles/fresnel_dielectric_exact.glsl");
+    assert_eq!(found.kept[0].path, "gles/fresnel_dielectric_exact.glsl");
     fs::write(&exact, text.replace('\n', "\r\n")).unwrap();
     assert_eq!(again().orphans.len(), 1, "ends of lines do not count");
     assert_eq!(write(&again()).unwrap().removed, 1);
@@ -159,8 +161,8 @@ fn a_manifest_may_name_only_paths_of_ours() {
         );
         put(out, FILE, &manifest.replace("\"files\": [", &entry));
         let found = plan(out, &artifacts, &scope, &provenance()).unwrap();
-        let is_named = found.stays.iter().any(|stay| stay.path == file);
-        assert_eq!(is_named, !is_ours, "{file}: {:?}", found.stays);
+        let is_named = found.kept.iter().any(|stay| stay.path == file);
+        assert_eq!(is_named, !is_ours, "{file}: {:?}", found.kept);
         let done = write(&found).unwrap();
         assert_eq!(done.removed, usize::from(is_ours), "{file}");
         assert_eq!(out.join(file).exists(), !is_ours, "{file}");
@@ -199,7 +201,7 @@ fn without_a_manifest_nothing_is_removed() {
     );
     let found = whole(out);
     assert!(found.orphans.is_empty(), "{found:?}");
-    assert_eq!(found.stays.len(), 2);
+    assert_eq!(found.kept.len(), 2);
 }
 
 /// A file that neither is listed nor bears the mark is not replaced, and nothing else is written then.
@@ -248,7 +250,7 @@ fn a_scoped_run_keeps_what_is_not_its_own() {
         orphans,
         ["gles/catalogue.glsl", "gles/fresnel_dielectric_exact.glsl"]
     );
-    assert!(found.stays.is_empty());
+    assert!(found.kept.is_empty());
     let done = write(&found).unwrap();
     assert_eq!((done.written, done.removed), (1, 2), "the manifest alone");
     let after = snapshot(out);

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::command::verify;
 use crate::cli::{OUT, Place, Ran};
-use fresnel_gen::generator::output::artifact::sha256;
+use fresnel_gen::physics::digest::sha256;
 
 const LIBRARY: &str = "--method schlick --material none";
 const GOLD: &str = "--material gold --method conductor_exact,fitted";

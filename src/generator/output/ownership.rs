@@ -13,17 +13,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use crate::generator::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
+use crate::generator::emit::{Artifact, CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
 use crate::generator::error::Error;
 use crate::generator::flavours;
 use crate::generator::lut::{CatalogueTexture, Format, KTX2_MARK, TABLES};
-use crate::generator::output::artifact::Scope;
+use crate::generator::output::contents::{is_module, listed_hash, without_carriage_returns};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::Entry;
-use crate::generator::output::tree::Planned;
-use crate::language::targets::{self, Finish};
+use crate::generator::output::scope::Scope;
+use crate::language::targets;
 use crate::language::{effects, methods};
-use crate::physics::digest::sha256;
 use crate::physics::num::Precision;
 
 /// The target of `catalogue.json`, which belongs to no language.
@@ -56,20 +55,6 @@ const SPIRV: [u8; 4] = 0x0723_0203_u32.to_le_bytes();
 const NAGA: [u8; 4] = 28_u32.to_le_bytes();
 /// A material's row in the catalogue's buffer: four floats.
 const ROW_BYTES: u64 = 16;
-
-/// The hash of a file as a manifest lists it. Line ends do not count in text, since version control changes them.
-pub fn listed_hash(path: &str, bytes: &[u8]) -> String {
-    if is_binary(path) || !bytes.contains(&b'\r') {
-        return sha256(bytes);
-    }
-    sha256(&without_carriage_returns(bytes))
-}
-
-/// Whether two files have the same content. Line ends do not count in text.
-pub fn is_same(path: &str, one: &[u8], other: &[u8]) -> bool {
-    one == other
-        || !is_binary(path) && without_carriage_returns(one) == without_carriage_returns(other)
-}
 
 /// Whether the head of a file says that this program wrote it. In text, the first line must say so: a function pasted into
 /// another file brings its own head along.
@@ -170,12 +155,6 @@ pub fn has_form_without_mark(entry: &Entry, bytes: &[u8]) -> bool {
         && rows.is_some_and(|rows| rows.checked_mul(ROW_BYTES) == Some(bytes.len() as u64))
 }
 
-/// Whether the format of this path has no room for a mark. These are SPIR-V modules, from which tools drop what is not code, and
-/// the bare numbers of the catalogue's buffer.
-pub fn has_no_room_for_mark(path: &str) -> bool {
-    path == CATALOGUE_BUFFER || is_module(path)
-}
-
 /// Whether this program could have written this path for this entry. It must know the method and the effect, from this version or
 /// an earlier one. A material may be a user's own.
 pub fn could_be_written(entry: &Entry) -> bool {
@@ -246,26 +225,6 @@ fn is_table(name: &str) -> bool {
     endings.any(|ending| name.ends_with(ending)) || targets::ALL.iter().any(is_function)
 }
 
-fn is_binary(path: &str) -> bool {
-    let mut tables = Format::ALL.into_iter().filter(|format| !format.is_text());
-    has_no_room_for_mark(path) || tables.any(|format| path.ends_with(format.ending()))
-}
-
-fn is_module(path: &str) -> bool {
-    let mut modules = (targets::ALL.iter()).filter(|target| target.finish == Finish::Spirv);
-    modules.any(|target| {
-        let stem = path.strip_suffix(target.extension);
-        stem.is_some_and(|stem| stem.ends_with('.'))
-    })
-}
-
-fn without_carriage_returns(bytes: &[u8]) -> Vec<u8> {
-    let followed = bytes.iter().skip(1).copied().map(Some).chain([None]);
-    let pairs = bytes.iter().copied().zip(followed);
-    let kept = pairs.filter(|pair| *pair != (b'\r', Some(b'\n')));
-    kept.map(|(byte, _)| byte).collect()
-}
-
 /// Removes an orphan and the folders that it leaves empty. False: it is gone, or is no longer what the manifest lists.
 ///
 /// # Errors
@@ -306,7 +265,7 @@ fn remove_empty_folders(out_dir: &Path, path: &Path) {
 
 /// A file that a run leaves in place and names in its messages.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Stay {
+pub struct KeptFile {
     /// The path, relative to the output folder.
     pub path: String,
     /// Why it is not removed.
@@ -314,18 +273,18 @@ pub struct Stay {
 }
 
 /// Entries in the run's scope that this program could not have written. The entry and the file stay.
-pub fn unknown<'a>(
+pub fn unknown_entries<'a>(
     out_dir: &'a Path,
     old: &'a [Entry],
-    files: &'a [Planned],
+    artifacts: &'a [Artifact],
     scope: &'a Scope,
-) -> impl Iterator<Item = Stay> + 'a {
-    let is_made = |entry: &&Entry| files.iter().any(|file| file.path == entry.file);
+) -> impl Iterator<Item = KeptFile> + 'a {
+    let is_made = |entry: &&Entry| artifacts.iter().any(|one| one.path == entry.file);
     old.iter()
         .filter(|entry| scope.owns(entry) && !could_be_written(entry))
         .filter(move |entry| !is_made(entry))
         .filter(|entry| fs::symlink_metadata(out_dir.join(&entry.file)).is_ok())
-        .map(|entry| Stay {
+        .map(|entry| KeptFile {
             path: entry.file.clone(),
             why: "the manifest lists it with a method, an effect or a target that this fresnel-gen does not write there",
         })
@@ -335,12 +294,12 @@ pub fn unknown<'a>(
 ///
 /// # Errors
 /// A folder cannot be read.
-pub fn strangers(
+pub fn unlisted_files(
     out_dir: &Path,
     expected: &BTreeSet<&str>,
     listed: &BTreeMap<&str, &Entry>,
     scope: &Scope,
-) -> Result<Vec<Stay>, Error> {
+) -> Result<Vec<KeptFile>, Error> {
     let first = |path: &&str| path.split_once('/').map(|(first, _)| first.to_owned());
     let paths = expected.iter().chain(listed.keys());
     let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
@@ -356,7 +315,7 @@ pub fn strangers(
         let is_known = expected.contains(path.as_str()) || listed.contains_key(path.as_str());
         path.contains('/') && !is_known && !is_hidden(path) && is_of_precision(path, scope)
     });
-    let stay = |path| Stay {
+    let stay = |path| KeptFile {
         path,
         why: "fresnel-gen did not write it, or no manifest lists it",
     };

@@ -1,71 +1,19 @@
-//! The paths of artifacts, and the scope of a run.
+//! The scope of a run: which manifest entries it may replace or remove.
 //!
-//! The path of an [`Artifact`] obeys the rules of [`check_path`]. The scope says which manifest entries a run may replace or remove. A run owns only what it was asked for, so that `--material silver` after `--target gles`
-//! gives the same tree as the other way round.
+//! A run owns only what it was asked for, so that `--material silver` after `--target gles` gives the same tree as the other way
+//! round.
 
 use std::collections::BTreeSet;
 
 use crate::generator::emit::Artifact;
-use crate::generator::error::Error;
-use crate::generator::output::manifest::{self, Entry};
+use crate::generator::output::manifest::Entry;
 use crate::physics::num::Precision;
-
-pub use crate::physics::digest::sha256;
 
 impl Artifact {
     /// The key that distinguishes a file of an effect from others in its target's folder.
     pub(in crate::generator) fn effect_key(&self) -> Option<EffectKey> {
         let effect = self.effect.clone()?;
         Some((effect, self.material.clone(), self.method.clone()))
-    }
-}
-
-/// Refuses paths that leave the output folder, collide with each other, or are the manifest's.
-///
-/// # Errors
-/// A path breaks a rule of [`check_path`], is the manifest's, is another artifact's, or is a folder that another artifact needs.
-pub fn check_paths(artifacts: &[Artifact]) -> Result<(), Error> {
-    let mut seen = BTreeSet::new();
-    for artifact in artifacts {
-        let path = artifact.path.as_str();
-        check_path(path).map_err(|reason| fault(path, reason))?;
-        if path == manifest::FILE {
-            return Err(fault(path, "it is the manifest's own name"));
-        }
-        if !seen.insert(path) {
-            return Err(fault(path, "two artifacts have it"));
-        }
-    }
-    match seen.iter().find(|path| is_folder_of_another(path, &seen)) {
-        Some(path) => Err(fault(path, "another artifact needs it as a folder")),
-        None => Ok(()),
-    }
-}
-
-/// Checks that a path stays inside its folder, on every system.
-///
-/// # Errors
-/// The path holds `\\`, `:` or a control character, is absolute, or has a part that is empty, `.` or `..`.
-pub fn check_path(path: &str) -> Result<(), &'static str> {
-    if path.contains(|c: char| c == '\\' || c == ':' || c.is_control()) {
-        return Err("`\\`, `:` and control characters are not allowed");
-    }
-    if path.split('/').any(|part| matches!(part, "" | "." | "..")) {
-        return Err("it must be relative, without empty parts, `.` and `..`");
-    }
-    Ok(())
-}
-
-fn is_folder_of_another(path: &str, all: &BTreeSet<&str>) -> bool {
-    let inside = format!("{path}/");
-    let next = all.range(inside.as_str()..).next();
-    next.is_some_and(|next| next.starts_with(&inside))
-}
-
-fn fault(path: &str, reason: &str) -> Error {
-    Error::Path {
-        path: path.to_string(),
-        reason: reason.to_string(),
     }
 }
 
