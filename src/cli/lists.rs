@@ -19,160 +19,68 @@ use crate::language::targets::{self, Target};
 use crate::physics::num::Precision;
 use crate::pictures::table;
 
-/// The flags of `methods`.
+/// What is listed and shown: methods, effects, targets.
+pub trait Listed: std::fmt::Debug + Sync + 'static {
+    /// What one is called: `method`. The command is the plural.
+    const KIND: &'static str;
+
+    /// All of them.
+    fn all() -> &'static [&'static Self];
+
+    /// Its row in the list.
+    fn row(&self) -> NameRow;
+
+    /// All that is known of it, as text.
+    fn text(&self) -> String;
+
+    /// All that is known of it, as JSON.
+    fn sheet(&self) -> impl Serialize;
+}
+
+/// The flags of `methods`, `effects` and `targets`.
 #[derive(Args, Debug)]
 #[command(mut_arg("json", |arg| arg.global(true)))]
-pub struct MethodsFlags {
+pub struct ListFlags<T: Listed> {
     /// `list`, or `show NAME`
     #[command(subcommand)]
-    pub what: Option<MethodsCommand>,
+    pub what: Option<ListCommand<T>>,
     /// The report.
     #[command(flatten)]
     pub report: ReportFlags,
 }
 
-/// What is listed of methods.
-#[derive(Clone, Copy, Debug, Subcommand)]
-pub enum MethodsCommand {
+/// What is listed.
+#[derive(Debug, Subcommand)]
+pub enum ListCommand<T: Listed> {
     /// Name and summary of each; with --json its source too
     List,
     /// All that is known of one
     Show {
         /// Its name
-        #[arg(value_parser = one_of("method", methods::ALL.iter().copied(), |method| method.name))]
-        name: &'static Method,
+        #[arg(value_parser = one_of(T::KIND, T::all().iter().copied(), |item| item.row().name))]
+        name: &'static T,
     },
-}
-
-/// The flags of `effects`.
-#[derive(Args, Debug)]
-#[command(mut_arg("json", |arg| arg.global(true)))]
-pub struct EffectsFlags {
-    /// `list`, or `show NAME`
-    #[command(subcommand)]
-    pub what: Option<EffectsCommand>,
-    /// The report.
-    #[command(flatten)]
-    pub report: ReportFlags,
-}
-
-/// What is listed of effects.
-#[derive(Clone, Copy, Debug, Subcommand)]
-pub enum EffectsCommand {
-    /// Name and summary of each; with --json its source too
-    List,
-    /// All that is known of one
-    Show {
-        /// Its name
-        #[arg(value_parser = one_of("effect", effects::ALL.iter().copied(), |effect| effect.name))]
-        name: &'static Effect,
-    },
-}
-
-/// The flags of `targets`.
-#[derive(Args, Debug)]
-#[command(mut_arg("json", |arg| arg.global(true)))]
-pub struct TargetsFlags {
-    /// `list`, or `show NAME`
-    #[command(subcommand)]
-    pub what: Option<TargetsCommand>,
-    /// The report.
-    #[command(flatten)]
-    pub report: ReportFlags,
-}
-
-/// What is listed of targets.
-#[derive(Clone, Copy, Debug, Subcommand)]
-pub enum TargetsCommand {
-    /// Name and summary of each; with --json its source too
-    List,
-    /// All that is known of one
-    Show {
-        /// Its name
-        #[arg(value_parser = one_of("target", targets::ALL.iter().copied(), |target| target.name))]
-        name: &'static Target,
-    },
-}
-
-/// `fresnel-gen methods`.
-pub fn methods(flags: &MethodsFlags) -> Result<Output, Error> {
-    let file = flags.report.json();
-    if let Some(MethodsCommand::Show { name: method }) = flags.what {
-        return report(method_text(method), &MethodSheet::new(method), file);
-    }
-    let row = |method: &&'static Method| NameRow {
-        name: method.name,
-        summary: method.summary,
-        source: method.source_in_full(),
-    };
-    listed("methods", methods::ALL.iter().map(row).collect(), file)
-}
-
-/// `fresnel-gen effects`.
-pub fn effects(flags: &EffectsFlags) -> Result<Output, Error> {
-    let file = flags.report.json();
-    if let Some(EffectsCommand::Show { name: effect }) = flags.what {
-        return report(effect_text(effect), &EffectSheet::new(effect), file);
-    }
-    let row = |effect: &&'static Effect| NameRow {
-        name: effect.name,
-        summary: effect.summary,
-        source: effect.source.line(),
-    };
-    listed("effects", effects::ALL.iter().map(row).collect(), file)
-}
-
-/// `fresnel-gen targets`.
-pub fn targets(flags: &TargetsFlags) -> Result<Output, Error> {
-    let file = flags.report.json();
-    if let Some(TargetsCommand::Show { name: target }) = flags.what {
-        return report(target_text(target), &TargetSheet::new(target), file);
-    }
-    let row = |target: &&'static Target| NameRow {
-        name: target.name,
-        summary: target.summary,
-        source: target.source.to_owned(),
-    };
-    listed("targets", targets::ALL.iter().map(row).collect(), file)
 }
 
 /// A name in a list, with its summary and source.
 #[derive(Serialize)]
-struct NameRow {
+pub struct NameRow {
     name: &'static str,
     summary: &'static str,
     source: String,
 }
 
-/// All names.
-fn listed(command: &str, rows: Vec<NameRow>, file: Option<&Path>) -> Result<Output, Error> {
+/// Lists all, or shows one.
+pub fn run<T: Listed>(flags: &ListFlags<T>) -> Result<Output, Error> {
+    let file = flags.report.json();
+    if let Some(ListCommand::Show { name: item }) = flags.what {
+        return report(item.text(), &item.sheet(), file);
+    }
+    let rows: Vec<NameRow> = T::all().iter().map(|item| item.row()).collect();
     let cells = |row: &NameRow| [row.name, row.summary].map(str::to_owned).to_vec();
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
     let text = table::text_table(&["name", "summary"], &cells);
-    report(text, &Report::new(command, rows), file)
-}
-
-fn method_text(method: &Method) -> String {
-    let mut lines = vec![
-        format!("{}: {}", method.name, method.summary),
-        String::new(),
-    ];
-    lines.extend(method.formula.iter().map(|line| format!("  {line}")));
-    lines.push(String::new());
-    lines.push(format!("source      {}", method.source_in_full()));
-    lines.push(format!("domain      {}", method.domain));
-    lines.extend(
-        method
-            .inputs
-            .iter()
-            .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.range.words())),
-    );
-    lines.extend(emit::promises(Precision::F32, method));
-    lines.push(format!("in f16      {}", emit::half_promise(method)));
-    if let Contract::Exempt(why) = method.contract {
-        lines.push(format!("fails       {why}"));
-    }
-    lines.join("\n") + "\n"
+    report(text, &Report::new(format!("{}s", T::KIND), rows), file)
 }
 
 /// The facts about a method.
@@ -213,68 +121,69 @@ struct HalfRow {
     specialised: bool,
 }
 
-impl MethodSheet {
-    fn new(method: &'static Method) -> MethodSheet {
-        let arguments = method.inputs.iter().map(|input| ArgumentRow {
+impl Listed for Method {
+    const KIND: &'static str = "method";
+
+    fn all() -> &'static [&'static Method] {
+        methods::ALL
+    }
+
+    fn row(&self) -> NameRow {
+        NameRow {
+            name: self.name,
+            summary: self.summary,
+            source: self.source_in_full(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut lines = vec![format!("{}: {}", self.name, self.summary), String::new()];
+        lines.extend(self.formula.iter().map(|line| format!("  {line}")));
+        lines.push(String::new());
+        lines.push(format!("source      {}", self.source_in_full()));
+        lines.push(format!("domain      {}", self.domain));
+        lines.extend(
+            self.inputs
+                .iter()
+                .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.range.words())),
+        );
+        lines.extend(emit::promises(Precision::F32, self));
+        lines.push(format!("in f16      {}", emit::half_promise(self)));
+        if let Contract::Exempt(why) = self.contract {
+            lines.push(format!("fails       {why}"));
+        }
+        lines.join("\n") + "\n"
+    }
+
+    fn sheet(&self) -> impl Serialize {
+        let arguments = self.inputs.iter().map(|input| ArgumentRow {
             name: input.name,
             meaning: input.meaning,
             domain: input.range.words(),
         });
-        let claims = method.claims.model.iter().map(|claim| ClaimRow {
+        let claims = self.claims.model.iter().map(|claim| ClaimRow {
             over: claim.over.text(),
             max_abs: claim.max_abs,
         });
-        let half = method.half.claim();
+        let half = self.half.claim();
         MethodSheet {
             schema: SCHEMA,
-            name: method.name,
-            summary: method.summary,
-            source: method.source_in_full(),
-            formula: method.formula,
-            domain: method.domain,
+            name: self.name,
+            summary: self.summary,
+            source: self.source_in_full(),
+            formula: self.formula,
+            domain: self.domain,
             arguments: arguments.collect(),
             claims: claims.collect(),
-            code_ulp: method.claims.code_ulp,
+            code_ulp: self.claims.code_ulp,
             f16: HalfRow {
                 max_abs: half.map(|claim| claim.max_abs),
-                over: half.map(|claim| method.media(claim.over)),
-                reason: method.half.library_refusal(),
-                specialised: method.half.refusal().is_none(),
+                over: half.map(|claim| self.media(claim.over)),
+                reason: self.half.library_refusal(),
+                specialised: self.half.refusal().is_none(),
             },
         }
     }
-}
-
-fn effect_text(effect: &Effect) -> String {
-    let mut lines = vec![
-        format!("{}: {}", effect.name, effect.summary),
-        String::new(),
-    ];
-    lines.extend(effect.formula.iter().map(|line| format!("  {line}")));
-    lines.push(String::new());
-    lines.push(format!("source      {}", effect.source.line()));
-    for (title, said) in [("use", effect.conventions), ("fails", effect.fails)] {
-        lines.extend(said.iter().map(|line| format!("{title:<12}{line}")));
-    }
-    for function in effect.functions {
-        lines.push(String::new());
-        lines.push(format!("{}: {}", function.name, function.gives));
-        for argument in effect_arguments(function) {
-            let ArgumentRow {
-                name,
-                meaning,
-                domain,
-            } = argument;
-            lines.push(
-                if domain.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
-                    format!("  {name}: {meaning} (error stated for {domain})")
-                } else {
-                    format!("  {name}: {meaning}")
-                },
-            );
-        }
-    }
-    lines.join("\n") + "\n"
 }
 
 /// The arguments of a function. Behind these stand the inputs of the method, where the function needs R.
@@ -318,8 +227,51 @@ struct EffectFunctionRow {
     code_abs: f64,
 }
 
-impl EffectSheet {
-    fn new(effect: &'static Effect) -> EffectSheet {
+impl Listed for Effect {
+    const KIND: &'static str = "effect";
+
+    fn all() -> &'static [&'static Effect] {
+        effects::ALL
+    }
+
+    fn row(&self) -> NameRow {
+        NameRow {
+            name: self.name,
+            summary: self.summary,
+            source: self.source.line(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut lines = vec![format!("{}: {}", self.name, self.summary), String::new()];
+        lines.extend(self.formula.iter().map(|line| format!("  {line}")));
+        lines.push(String::new());
+        lines.push(format!("source      {}", self.source.line()));
+        for (title, said) in [("use", self.conventions), ("fails", self.fails)] {
+            lines.extend(said.iter().map(|line| format!("{title:<12}{line}")));
+        }
+        for function in self.functions {
+            lines.push(String::new());
+            lines.push(format!("{}: {}", function.name, function.gives));
+            for argument in effect_arguments(function) {
+                let ArgumentRow {
+                    name,
+                    meaning,
+                    domain,
+                } = argument;
+                lines.push(
+                    if domain.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+                        format!("  {name}: {meaning} (error stated for {domain})")
+                    } else {
+                        format!("  {name}: {meaning}")
+                    },
+                );
+            }
+        }
+        lines.join("\n") + "\n"
+    }
+
+    fn sheet(&self) -> impl Serialize {
         let row = |function: &EffectFunction| EffectFunctionRow {
             name: function.name,
             gives: function.gives,
@@ -329,40 +281,15 @@ impl EffectSheet {
         };
         EffectSheet {
             schema: SCHEMA,
-            name: effect.name,
-            summary: effect.summary,
-            source: effect.source.line(),
-            formula: effect.formula,
-            conventions: effect.conventions,
-            fails: effect.fails,
-            functions: effect.functions.iter().map(row).collect(),
+            name: self.name,
+            summary: self.summary,
+            source: self.source.line(),
+            formula: self.formula,
+            conventions: self.conventions,
+            fails: self.fails,
+            functions: self.functions.iter().map(row).collect(),
         }
     }
-}
-
-fn target_text(target: &Target) -> String {
-    let mut lines = vec![
-        format!("{}: {}", target.name, target.summary),
-        format!("source      {}", target.source),
-        format!("extension   {}", target.extension),
-        format!(
-            "by default  {}",
-            if target.by_default {
-                "yes"
-            } else {
-                "only by name"
-            }
-        ),
-    ];
-    for validator in target.validators {
-        lines.push(format!(
-            "validator   {}: {} ({})",
-            validator.name,
-            validator.command(),
-            validator.compiler.get
-        ));
-    }
-    lines.join("\n") + "\n"
 }
 
 /// The facts about a target.
@@ -384,20 +311,59 @@ struct ValidatorRow {
     get: &'static str,
 }
 
-impl TargetSheet {
-    fn new(target: &'static Target) -> TargetSheet {
-        let validators = target.validators.iter().map(|validator| ValidatorRow {
+impl Listed for Target {
+    const KIND: &'static str = "target";
+
+    fn all() -> &'static [&'static Target] {
+        targets::ALL
+    }
+
+    fn row(&self) -> NameRow {
+        NameRow {
+            name: self.name,
+            summary: self.summary,
+            source: self.source.to_owned(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut lines = vec![
+            format!("{}: {}", self.name, self.summary),
+            format!("source      {}", self.source),
+            format!("extension   {}", self.extension),
+            format!(
+                "by default  {}",
+                if self.by_default {
+                    "yes"
+                } else {
+                    "only by name"
+                }
+            ),
+        ];
+        for validator in self.validators {
+            lines.push(format!(
+                "validator   {}: {} ({})",
+                validator.name,
+                validator.command(),
+                validator.compiler.get
+            ));
+        }
+        lines.join("\n") + "\n"
+    }
+
+    fn sheet(&self) -> impl Serialize {
+        let validators = self.validators.iter().map(|validator| ValidatorRow {
             name: validator.name,
             command: validator.command(),
             get: validator.compiler.get,
         });
         TargetSheet {
             schema: SCHEMA,
-            name: target.name,
-            summary: target.summary,
-            source: target.source,
-            extension: target.extension,
-            by_default: target.by_default,
+            name: self.name,
+            summary: self.summary,
+            source: self.source,
+            extension: self.extension,
+            by_default: self.by_default,
             validators: validators.collect(),
         }
     }

@@ -46,6 +46,9 @@ use crate::cli::flags::material::MaterialName;
 use crate::cli::flags::named::NamedFiles;
 use crate::cli::places::refuse_clashes;
 use crate::generator::output::lock::Announce;
+use crate::language::effects::Effect;
+use crate::language::methods::Method;
+use crate::language::targets::Target;
 
 pub use completions::completions;
 pub use error::Error;
@@ -85,7 +88,7 @@ pub enum Command {
     Generate(Box<generate::GenerateFlags>),
     /// List the methods, or show one with formula, source, domain and promised errors
     #[command(after_help = "Example:\n  fresnel-gen methods show schlick_corrected")]
-    Methods(lists::MethodsFlags),
+    Methods(lists::ListFlags<Method>),
     /// List the materials, show one, compute its parameters, import more
     #[command(
         after_help = "Examples:\n  fresnel-gen materials list --class metal\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials show gold --svg gold.svg\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
@@ -93,10 +96,10 @@ pub enum Command {
     Materials(Box<materials::MaterialsFlags>),
     /// List the effects, or show one with its functions, their arguments, and where it must be wrong
     #[command(after_help = "Example:\n  fresnel-gen effects show interior")]
-    Effects(lists::EffectsFlags),
+    Effects(lists::ListFlags<Effect>),
     /// List the targets, or show one with its validators
     #[command(after_help = "Example:\n  fresnel-gen targets show gles")]
-    Targets(lists::TargetsFlags),
+    Targets(lists::ListFlags<Target>),
     /// Bake reflectance into lookup tables: EXR, PNG, KTX2, arrays, with the error of the filtered lookup
     #[command(
         after_help = "Examples:\n  fresnel-gen bake --material gold --format exr-half,ktx2 --target wgsl\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -\n  fresnel-gen bake --dfg --method fitted --format exr-half"
@@ -211,10 +214,10 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
             is_file: true,
             ..Output::default()
         }),
-        Some(Command::Methods(listing)) => lists::methods(listing),
+        Some(Command::Methods(listing)) => lists::run(listing),
         Some(Command::Materials(listing)) => materials::run(listing, progress),
-        Some(Command::Effects(listing)) => lists::effects(listing),
-        Some(Command::Targets(listing)) => lists::targets(listing),
+        Some(Command::Effects(listing)) => lists::run(listing),
+        Some(Command::Targets(listing)) => lists::run(listing),
         Some(Command::Bake(flags)) => bake::run(flags, progress, announce),
         Some(Command::Verify(flags)) => verify::run(flags, progress),
         Some(Command::Merge(flags)) => merge::run(flags),
