@@ -4,10 +4,10 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 use fresnel_gen::generator::bake::{BakeRequest, TableSize, bake};
-use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
+use fresnel_gen::generator::generate::tables::table_materials;
 use fresnel_gen::generator::lut::{Depth, Format, Table, TableAxis, smallest};
 use fresnel_gen::generator::reference::ReferenceCurve;
-use fresnel_gen::generator::request::Materials;
+use fresnel_gen::generator::request::Request;
 use fresnel_gen::language::methods::Light;
 use fresnel_gen::physics::materials::{Surface, ViewingConditions, find};
 
@@ -30,12 +30,7 @@ fn one(c: &mut Criterion) {
 }
 
 fn all_formats(c: &mut Criterion) {
-    let wanted = WantedTables {
-        materials: Materials::Default,
-        medium: None,
-        viewing: ViewingConditions::default(),
-    };
-    let (subjects, _) = table_materials(&wanted).expect("the four are seen");
+    let (subjects, _) = table_materials(&Request::default()).expect("the four are seen");
     let request = BakeRequest {
         subjects,
         typed: Vec::new(),

@@ -20,7 +20,7 @@ use crate::generator::emit::Artifact;
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
 use crate::generator::generate::provenance;
-use crate::generator::generate::tables::{WantedTables, artifacts, table_materials};
+use crate::generator::generate::tables::{artifacts, table_materials};
 use crate::generator::lut::{
     Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
 };
@@ -28,6 +28,7 @@ use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::scope::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
+use crate::generator::request::Request;
 use crate::language::methods::{self, Method, TEXELS};
 use crate::language::targets::{self, Finish, Target};
 use crate::physics::foreign;
@@ -169,10 +170,11 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     }
     let shape = shape(flags)?;
     let viewing = flags.viewing.conditions()?;
-    let wanted = WantedTables {
+    let wanted = Request {
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
         viewing: as_tables_are_seen(&viewing, flags.viewing.gamut.is_some()),
+        ..Request::default()
     };
     let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;

@@ -156,17 +156,17 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
     }
     if generated.scope.whole {
         let viewing = as_tables_are_seen(&request.viewing, flags.viewing.gamut.is_some());
-        let medium = request.medium.clone();
-        add_tables(&mut generated, Materials::Default, medium, viewing)?;
+        let request = Request {
+            viewing,
+            ..request.clone()
+        };
+        add_tables(&mut generated, &request)?;
     }
     if flags.list {
-        let names: Vec<String> = generated
-            .artifacts
-            .iter()
-            .map(|artifact| artifact.path.clone() + "\n")
-            .collect();
+        let paths = generated.artifacts.iter();
+        let names: String = paths.map(|one| one.path.clone() + "\n").collect();
         return Ok(Output {
-            stdout: names.concat().into_bytes(),
+            stdout: names.into_bytes(),
             ..Output::default()
         });
     }
@@ -330,21 +330,13 @@ fn written(
     let depfile = depfile(flags, &outputs)?;
     let counts = write(plan, &depfile, flags.tree.overwrite, lock)?;
     let mut output = Output::default();
-    for why in generated.left_out.iter().filter(|_| !flags.quiet) {
-        output
-            .remarks
-            .push(format!("left out: {}", one_line(&why.why)));
-    }
-    for why in generated.refused.iter().filter(|_| !flags.quiet) {
-        output
-            .remarks
-            .push(format!("left out: {}", one_line(&why.to_string())));
-    }
-    for orphan in plan.orphans.iter().filter(|_| !flags.quiet) {
-        let file = Foreign(&orphan.file);
-        output
-            .remarks
-            .push(format!("removed: {file}, which is no longer generated"));
+    if !flags.quiet {
+        let unseen = generated.left_out.iter().map(|fault| fault.why.as_str());
+        let left_out = unseen.chain(generated.refused.iter().map(String::as_str));
+        let left_out = left_out.map(|why| format!("left out: {}", one_line(why)));
+        let removed = plan.orphans.iter().map(|orphan| Foreign(&orphan.file));
+        let removed = removed.map(|file| format!("removed: {file}, which is no longer generated"));
+        output.remarks.extend(left_out.chain(removed));
     }
     output
         .remarks

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::cli::error::Error;
 use crate::cli::places::replaced;
+use crate::generator::envelope::json_text;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::physics::materials::{escaped, is_hidden};
@@ -84,8 +85,7 @@ pub fn reported<T: Serialize>(
     let Some(file) = file else {
         return (output(text, false), None);
     };
-    let json = serde_json::to_string_pretty(json).expect("a report has only text keys") + "\n";
-    let json = escaped(&json);
+    let json = escaped(&json_text(json));
     if file == Path::new("-") {
         return (output(json, true), None);
     }

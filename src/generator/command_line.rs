@@ -56,10 +56,43 @@ impl CommandLine {
         }
     }
 
-    /// Adds the flags of these viewing conditions.
+    /// Adds the flags of these viewing conditions; nothing for the default ones.
     #[must_use]
     pub fn seen_as(self, viewing: &ViewingConditions) -> CommandLine {
-        CommandLine(self.0 + &viewing_condition_flags(viewing))
+        let (own, usual) = (&viewing.integration, Integration::default());
+        let usual_gamut = ViewingConditions::default().gamut.name();
+        let choices = [
+            ("space", own.space.name(), usual.space.name()),
+            ("gamut", viewing.gamut.name(), usual_gamut),
+            ("illuminant", own.illuminant.name(), usual.illuminant.name()),
+            ("observer", own.observer.name(), usual.observer.name()),
+            ("adaptation", own.adaptation.name(), usual.adaptation.name()),
+            ("step", own.step.name(), usual.step.name()),
+        ];
+        let mut command = self;
+        for (flag, value, usual) in choices {
+            command = command.list(flag, (value != usual).then_some(value));
+        }
+        if let Some([red, green, blue]) = viewing.wavelengths_nm {
+            command = command.number("wavelengths", format!("{red},{green},{blue}"));
+        }
+        let holds = viewing.beyond == Extrapolate::Hold;
+        command.list("extrapolate", holds.then_some(viewing.beyond.name()))
+    }
+
+    /// Adds the flags of the viewing conditions of a surface, if there is one. Where each channel is one wavelength, the other
+    /// viewing conditions have no effect.
+    #[must_use]
+    pub fn seen_on(self, viewing: &ViewingConditions, surface: Option<&Surface>) -> CommandLine {
+        match surface {
+            None => self,
+            Some(surface) if surface.channels().is_none() => self.seen_as(viewing),
+            Some(_) => self.seen_as(&ViewingConditions {
+                wavelengths_nm: viewing.wavelengths_nm,
+                beyond: viewing.beyond,
+                ..ViewingConditions::default()
+            }),
+        }
     }
 
     /// Adds more flags, each with a space before it.
@@ -125,46 +158,6 @@ fn last_part(path: &str) -> &str {
     path.rsplit(separators).next().unwrap_or(path)
 }
 
-/// The flags that give a surface's viewing conditions again, each with a space before it; empty for the defaults. Where each
-/// channel is one wavelength, the other viewing conditions have no effect.
-pub fn surface_flags(viewing: &ViewingConditions, surface: &Surface) -> String {
-    if surface.channels().is_none() {
-        return viewing_condition_flags(viewing);
-    }
-    viewing_condition_flags(&ViewingConditions {
-        wavelengths_nm: viewing.wavelengths_nm,
-        beyond: viewing.beyond,
-        ..ViewingConditions::default()
-    })
-}
-
-/// The flags that give these viewing conditions again, each with a space before it.
-fn viewing_condition_flags(viewing: &ViewingConditions) -> String {
-    let (own, usual) = (&viewing.integration, Integration::default());
-    let choices = [
-        ("space", own.space.name(), usual.space.name()),
-        (
-            "gamut",
-            viewing.gamut.name(),
-            ViewingConditions::default().gamut.name(),
-        ),
-        ("illuminant", own.illuminant.name(), usual.illuminant.name()),
-        ("observer", own.observer.name(), usual.observer.name()),
-        ("adaptation", own.adaptation.name(), usual.adaptation.name()),
-        ("step", own.step.name(), usual.step.name()),
-    ];
-    let mut command = CommandLine::new("");
-    for (flag, value, usual) in choices {
-        command = command.list(flag, (value != usual).then_some(value));
-    }
-    if let Some([red, green, blue]) = viewing.wavelengths_nm {
-        command = command.number("wavelengths", format!("{red},{green},{blue}"));
-    }
-    let holds = viewing.beyond == Extrapolate::Hold;
-    let hold = holds.then_some(viewing.beyond.name());
-    command.list("extrapolate", hold).into()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,6 +215,7 @@ mod tests {
 
     #[test]
     fn usual_viewing_conditions_need_no_flags() {
-        assert_eq!(viewing_condition_flags(&ViewingConditions::default()), "");
+        let command = CommandLine::new("fit").seen_as(&ViewingConditions::default());
+        assert_eq!(String::from(command), "fit");
     }
 }

@@ -10,6 +10,14 @@ pub const SCHEMA: u32 = 1;
 /// The name of the program, as reports give it.
 pub const TOOL: &str = "fresnel-gen";
 
+/// The text of a JSON file, with a line break at its end.
+///
+/// # Panics
+/// A key is no text. No report has such a key.
+pub fn json_text(value: &impl Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("a report has only text keys") + "\n"
+}
+
 /// The origin of a report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Origin {

@@ -40,13 +40,8 @@ mod tree_of_a_run {
         let mut generated = generate(&request).expect("the catalogue generates");
         add_catalogue(&mut generated, &request).expect("the catalogue is fitted");
         let viewing = as_tables_are_seen(&request.viewing, false);
-        add_tables(
-            &mut generated,
-            fresnel_gen::Materials::Default,
-            None,
-            viewing,
-        )
-        .expect("the tables are baked");
+        let tables = Request { viewing, ..request };
+        add_tables(&mut generated, &tables).expect("the tables are baked");
         if crate::bless::is_on() {
             std::fs::remove_dir_all(&folder).expect("it is there");
         }

@@ -7,12 +7,12 @@ use crate::not_checked;
 use crate::stated::{check_stated, stated};
 use fresnel_gen::cli::Cli;
 use fresnel_gen::generator::bake::{BakeRequest, TableMaterial, TableSize, bake};
-use fresnel_gen::generator::generate::tables::{WantedTables, artifacts, table_materials};
+use fresnel_gen::generator::generate::tables::{artifacts, table_materials};
 use fresnel_gen::generator::lut::{
     BetweenTexels, Depth, Format, Stored, Table, TableAxis, smallest, table_error,
 };
 use fresnel_gen::generator::reference::ReferenceCurve;
-use fresnel_gen::generator::request::{Materials, Source};
+use fresnel_gen::generator::request::{Materials, Request, Source};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods::Light;
 use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
@@ -124,13 +124,13 @@ fn filtering_is_exact_at_both_ends() {
 
 fn request(names: &str, formats: &[Format], atlas: bool) -> BakeRequest {
     let sources = names.split(',').map(|name| Source::Named(name.to_owned()));
-    let wanted = WantedTables {
+    let wanted = Request {
         materials: Materials::These(sources.collect()),
-        medium: None,
         viewing: ViewingConditions {
             gamut: Gamut::Keep,
             ..ViewingConditions::default()
         },
+        ..Request::default()
     };
     BakeRequest {
         subjects: table_materials(&wanted).unwrap().0,
@@ -411,12 +411,7 @@ fn others_find_no_fault_with_the_files() {
 
 #[test]
 fn the_default_materials_are_baked_without_flags() {
-    let wanted = WantedTables {
-        materials: Materials::Default,
-        medium: None,
-        viewing: ViewingConditions::default(),
-    };
-    let names: Vec<String> = table_materials(&wanted)
+    let names: Vec<String> = table_materials(&Request::default())
         .unwrap()
         .0
         .into_iter()

@@ -15,6 +15,7 @@ use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
 use super::format::{Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, FieldValue, Node, Sheet};
+use crate::generator::envelope::{TOOL, json_text};
 use crate::physics::materials::escaped;
 use crate::physics::spectra::Space;
 
@@ -158,11 +159,8 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
             extensions,
         }],
     };
-    let json = serde_json::to_string_pretty(&asset).expect("an asset has only text keys");
-    escaped(&json) + "\n"
+    escaped(&json_text(&asset))
 }
-
-const TOOL: &str = "fresnel-gen";
 
 /// A field's value. The base colour has an alpha.
 fn value(field: &Field) -> serde_json::Value {

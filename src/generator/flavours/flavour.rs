@@ -67,14 +67,6 @@ impl Flavour {
     }
 }
 
-/// Commands that make files again.
-pub struct Commands<'a> {
-    /// All files of the flavour.
-    pub all: String,
-    /// Those of one material, by its name.
-    pub of_material: &'a dyn Fn(&str) -> String,
-}
-
 /// An error of writing a flavour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -96,7 +88,8 @@ pub struct Fitted<'a> {
 }
 
 /// The files of a flavour for these materials. A file that is not for one material shows all of them. If the flavour also has
-/// files for each material, a later run may add materials, so such a file shows the `example` instead, whatever the run.
+/// files for each material, a later run may add materials, so such a file shows the `example` instead, whatever the run. `command`
+/// gives the command that makes the file of a material again, or without a material all others.
 ///
 /// # Errors
 /// A language refuses a text, or the template engine a template: a bug.
@@ -104,14 +97,15 @@ pub fn files(
     flavour: &'static Flavour,
     materials: Fitted,
     example: Fitted,
-    commands: &Commands,
+    command: &dyn Fn(Option<&str>) -> String,
 ) -> Result<Vec<Artifact>, Error> {
     let shown = if flavour.is_by_material() {
         example
     } else {
         materials
     };
-    let shared = view(flavour, shown.rows, shown.reference, &commands.all)?;
+    let all = command(None);
+    let shared = view(flavour, shown.rows, shown.reference, &all)?;
     let file = |page: &FlavourPage, material: Option<&str>, view: &AdapterView, command: &str| {
         let name = page.file_of(material.unwrap_or_default());
         let path = format!("{}/{name}", flavour.name);
@@ -129,10 +123,10 @@ pub fn files(
     };
     let mut files = Vec::new();
     for page in flavour.pages.iter().filter(|page| !page.is_of_material()) {
-        files.push(file(page, None, &shared, &commands.all)?);
+        files.push(file(page, None, &shared, &all)?);
     }
     for row in materials.rows.iter().filter(|_| flavour.is_by_material()) {
-        let command = (commands.of_material)(&row.name);
+        let command = command(Some(&row.name));
         let own = shared.of_material(row, materials.reference, &command);
         for page in flavour.pages.iter().filter(|page| page.is_of_material()) {
             files.push(file(page, Some(&row.name), &own, &command)?);

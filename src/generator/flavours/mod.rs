@@ -13,7 +13,7 @@ use crate::physics::names::{UnknownName, named};
 mod flavour;
 mod view;
 
-pub use flavour::{Commands, Error, Fitted, Flavour, FlavourPage, files};
+pub use flavour::{Error, Fitted, Flavour, FlavourPage, files};
 
 // BEGIN list (written by tests/lists)
 mod babylon;

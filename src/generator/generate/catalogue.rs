@@ -9,7 +9,7 @@ use crate::generator::emit::{
     self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail,
     CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
 };
-use crate::generator::envelope::{Origin, TOOL};
+use crate::generator::envelope::{Origin, TOOL, json_text};
 use crate::generator::error::Error;
 use crate::generator::generate::Generated;
 use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
@@ -155,7 +155,7 @@ fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command
         methods: CatalogueMethod::all(rows),
         materials: CatalogueMaterial::all(rows),
     };
-    serde_json::to_string_pretty(&file).expect("a report has only text keys") + "\n"
+    json_text(&file)
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! The files of effects: in their default form, with another method, or specialised to materials.
 
-use crate::generator::command_line::CommandLine;
-use crate::generator::emit::Artifact;
-use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming};
+use crate::generator::emit::{self, Artifact, EffectRequest, EmittedFunction, HeaderForm};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::written::Owners;
 use crate::generator::generate::{GeneratedFile, Run};
@@ -68,10 +66,11 @@ impl Run<'_> {
 
     /// What effects are specialised to: none (any material), or each named material.
     fn effect_subjects(&self) -> Vec<Option<&MaterialInMedium>> {
-        let is_named = self.is_of_effects() && !self.subjects.is_empty();
-        let subjects = self.subjects.iter().filter(|_| is_named);
-        let named: Vec<_> = subjects.map(|(subject, _)| Some(subject)).collect();
-        if is_named { named } else { vec![None] }
+        if !self.is_of_effects() || self.subjects.is_empty() {
+            return vec![None];
+        }
+        let subjects = self.subjects.iter();
+        subjects.map(|(subject, _)| Some(subject)).collect()
     }
 
     /// The functions of an effect, with the request that gave them.
@@ -173,22 +172,14 @@ impl Run<'_> {
 
     /// The command that writes a file of an effect again.
     pub fn effect_command(&self, target: &Target, effect: &EffectRequest) -> String {
-        let request = self.request;
-        let medium = effect.subject.and_then(|subject| subject.medium.as_ref());
-        let seen = effect.subject.map(|subject| {
-            crate::generator::command_line::surface_flags(
-                &request.viewing,
-                &subject.reference.surface,
-            )
-        });
-        CommandLine::new("fresnel-gen")
-            .list("target", [target.name])
-            .list("effect", [effect.effect.name])
-            .list("method", effect.unusual_method())
-            .list("material", effect.subject.map(|subject| &subject.argument))
-            .list("medium", medium.map(|(argument, _)| argument))
-            .list("prefix", Naming::flag_of_prefix(&request.prefix))
-            .with(&seen.unwrap_or_default())
-            .into()
+        let method = effect.unusual_method();
+        let (subject, form) = (effect.subject, HeaderForm::default());
+        self.command(
+            target,
+            Some(effect.effect),
+            method.as_slice(),
+            subject,
+            form,
+        )
     }
 }

@@ -3,7 +3,7 @@
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, Artifact, CatalogueRow};
 use crate::generator::error::{Error, RequestFault};
-use crate::generator::flavours::{self, Commands, Fitted, Flavour};
+use crate::generator::flavours::{self, Fitted, Flavour};
 use crate::generator::generate::Run;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{DEFAULT_MATERIALS, Materials, Request, Source};
@@ -120,28 +120,14 @@ impl Run<'_> {
         };
         let mut artifacts = Vec::new();
         for flavour in &self.flavours {
-            artifacts.extend(self.adapter(flavour, materials, example)?);
+            let command = |material: Option<&str>| match material {
+                Some(name) => self.adapter_command(flavour, &|one| one.name == name),
+                None if flavour.is_by_material() => self.adapter_command(flavour, &|_| false),
+                None => self.adapter_command(flavour, &|_| true),
+            };
+            artifacts.extend(flavours::files(flavour, materials, example, &command)?);
         }
         Ok((artifacts, others.iter().map(without).collect()))
-    }
-
-    fn adapter(
-        &self,
-        flavour: &'static Flavour,
-        materials: Fitted,
-        example: Fitted,
-    ) -> Result<Vec<Artifact>, Error> {
-        let commands = Commands {
-            all: if flavour.is_by_material() {
-                CommandLine::new("fresnel-gen")
-                    .list("flavour", [flavour.name])
-                    .into()
-            } else {
-                self.adapter_command(flavour, &|_| true)
-            },
-            of_material: &|name| self.adapter_command(flavour, &|one| one.name == name),
-        };
-        Ok(flavours::files(flavour, materials, example, &commands)?)
     }
 
     /// Refuses a material whose file would have the name of one of the flavour's shared files.
@@ -188,17 +174,14 @@ impl Run<'_> {
         }
         let first = meant.first();
         let medium = first.and_then(|subject| subject.medium.as_ref());
-        let seen = first.map(|subject| {
-            crate::generator::command_line::surface_flags(
-                &self.request.viewing,
-                &subject.reference.surface,
-            )
-        });
         CommandLine::new("fresnel-gen")
             .list("flavour", [flavour.name])
             .list("material", names)
             .list("medium", medium.map(|(argument, _)| argument))
-            .with(&seen.unwrap_or_default())
+            .seen_on(
+                &self.request.viewing,
+                first.map(|one| &one.reference.surface),
+            )
             .into()
     }
 }

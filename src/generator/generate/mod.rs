@@ -71,9 +71,11 @@ pub type KeptMethods = BTreeMap<(String, String), Vec<&'static Method>>;
 pub fn generate(request: &Request) -> Result<Generated, Error> {
     let mut generated = generate_beside(request, &KeptMethods::new())?;
     if request.tables {
-        let materials = request.materials.clone();
-        let viewing = as_tables_are_seen(&request.viewing, false);
-        add_tables(&mut generated, materials, request.medium.clone(), viewing)?;
+        let request = Request {
+            viewing: as_tables_are_seen(&request.viewing, false),
+            ..request.clone()
+        };
+        add_tables(&mut generated, &request)?;
     }
     Ok(generated)
 }
@@ -264,7 +266,7 @@ impl<'r> Run<'r> {
         let mut files = Vec::new();
         for target in &self.targets {
             let form = self.form(target, &functions[0].name);
-            let command = self.command(target, Some(&[method]), None, form);
+            let command = self.command(target, None, &[method.name], None, form);
             let heading = Heading {
                 form,
                 command: &command,
@@ -293,16 +295,16 @@ impl<'r> Run<'r> {
             let methods = written::methods_of(self, target, subject, kept);
             let functions = self.specialised(&methods, subject, &mut ready)?;
             let usual = written::usual(self.request, subject);
-            let is_usual = methods
-                .iter()
-                .map(|m| m.name)
-                .eq(usual.iter().map(|m| m.name));
-            let (named, of) = ((!is_usual).then_some(&methods[..]), Some(subject));
-            let form = self.form(
-                target,
-                &format!("materials/{}", self.naming.material(subject)),
-            );
-            let command = self.command(target, named, of, form);
+            let names = |methods: &[&'static Method]| -> Vec<&str> {
+                methods.iter().map(|method| method.name).collect()
+            };
+            let mut named = names(&methods);
+            if named == names(&usual) {
+                named.clear();
+            }
+            let stem = format!("materials/{}", self.naming.material(subject));
+            let form = self.form(target, &stem);
+            let command = self.command(target, None, &named, Some(subject), form);
             let heading = Heading {
                 form,
                 command: &command,
@@ -342,12 +344,6 @@ impl<'r> Run<'r> {
 
     /// What the run owns. Of files of effects, it owns those that it made.
     fn scope(&self, artifacts: &[Artifact]) -> Scope {
-        let names = |methods: &Vec<&'static Method>| {
-            methods
-                .iter()
-                .map(|method| method.name.to_owned())
-                .collect()
-        };
         let request = self.request;
         let is_of_effects = self.is_of_effects();
         let subjects = self.subjects.iter().filter(|_| !is_of_effects);
@@ -357,11 +353,12 @@ impl<'r> Run<'r> {
                 .iter()
                 .map(|target| target.name.to_owned())
                 .collect(),
-            methods: match (&self.named, request.chosen.is_empty()) {
-                _ if is_of_effects => Some(BTreeSet::new()),
-                (Some(named), _) => Some(names(named)),
-                (None, true) => None,
-                (None, false) => Some(BTreeSet::new()),
+            methods: match &self.named {
+                Some(named) if !is_of_effects => {
+                    Some(named.iter().map(|method| method.name.to_owned()).collect())
+                }
+                None if !is_of_effects && request.chosen.is_empty() => None,
+                _ => Some(BTreeSet::new()),
             },
             materials: subjects.map(|(subject, _)| subject.name.clone()).collect(),
             effects: artifacts.iter().filter_map(Artifact::effect_key).collect(),

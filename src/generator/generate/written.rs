@@ -8,13 +8,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{self, HeaderForm, Heading, Naming, PlaceInFile};
+use crate::generator::emit::{self, EmittedFunction, HeaderForm, Heading, Naming, PlaceInFile};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::{KeptMethods, Run};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Manifest};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request};
+use crate::language::effects::Effect;
 use crate::language::methods::{self, InHalf, Method};
 use crate::language::targets::{Finish, Target};
 use crate::physics::num::Precision;
@@ -173,36 +174,32 @@ impl Run<'_> {
         }
     }
 
-    /// The command that makes a file again.
+    /// The command that makes a file again: one of an effect, of a material, or of the library.
     pub(super) fn command(
         &self,
         target: &Target,
-        methods: Option<&[&Method]>,
+        effect: Option<&Effect>,
+        methods: &[&str],
         subject: Option<&MaterialInMedium>,
         form: HeaderForm,
     ) -> String {
         let request = self.request;
-        let precision =
-            Some(request.precision).filter(|precision| *precision != Precision::default());
+        let precision = Some(request.precision).filter(|one| *one != Precision::default());
         let medium = subject.and_then(|subject| subject.medium.as_ref());
-        let seen = subject.map(|subject| {
-            crate::generator::command_line::surface_flags(
-                &request.viewing,
-                &subject.reference.surface,
-            )
-        });
+        let is_matched = subject.is_some() && effect.is_none();
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])
-            .list("method", methods.into_iter().flatten().map(|one| one.name))
+            .list("effect", effect.map(|effect| effect.name))
+            .list("method", methods)
             .list("material", subject.map(|subject| &subject.argument))
             .list("medium", medium.map(|(argument, _)| argument))
             .list("prefix", Naming::flag_of_prefix(&request.prefix))
             .list("precision", precision.map(Precision::name))
             .switch("force", request.force && request.precision.is_half())
-            .with(&seen.unwrap_or_default())
+            .seen_on(&request.viewing, subject.map(|one| &one.reference.surface))
             .list(
                 "matching-angle",
-                request.matching_angle.filter(|_| subject.is_some()),
+                request.matching_angle.filter(|_| is_matched),
             )
             .list("header", form.flag())
             .into()
@@ -242,18 +239,22 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         return effects(&run, target);
     }
     let (mut pages, mut owners) = (Vec::new(), Owners::default());
+    let form = run.form(target, "");
+    let mut add = |emitted: &EmittedFunction, method: &Method, subject| {
+        let command = run.command(target, None, &[method.name], subject, form) + " -o -";
+        let heading = Heading {
+            form,
+            command: &command,
+        };
+        let place = PlaceInFile::behind(&pages);
+        pages.push(emit::single(target, emitted, subject, heading, place)?);
+        Ok::<(), Error>(())
+    };
     for (subject, _) in &run.subjects {
         let methods = named_or(&run, &subject.name, &[registered(subject.exact_method())]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
-            let (place, of) = (PlaceInFile::behind(&pages), Some(subject));
-            let form = run.form(target, "");
-            let command = run.command(target, Some(&[emitted.method]), of, form) + " -o -";
-            let heading = Heading {
-                form,
-                command: &command,
-            };
-            pages.push(emit::single(target, &emitted, of, heading, place)?);
+            add(&emitted, emitted.method, Some(subject))?;
         }
     }
     if run.subjects.is_empty() {
@@ -264,16 +265,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
                 _ => emit::library_functions(method, &run.naming)?,
             };
             for emitted in emit::written_for(target, functions) {
-                let form = run.form(target, "");
-                let command = run.command(target, Some(&[method]), None, form) + " -o -";
-                let (place, heading) = (
-                    PlaceInFile::behind(&pages),
-                    Heading {
-                        form,
-                        command: &command,
-                    },
-                );
-                pages.push(emit::single(target, &emitted, None, heading, place)?);
+                add(&emitted, method, None)?;
             }
         }
     }

@@ -114,12 +114,6 @@ impl Manifest {
             },
         })
     }
-
-    /// The file's text.
-    pub fn to_json(&self) -> String {
-        let text = serde_json::to_string_pretty(self);
-        text.expect("all keys are strings, and no part of a manifest can fail to serialise") + "\n"
-    }
 }
 
 impl Entry {

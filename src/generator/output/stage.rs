@@ -158,15 +158,15 @@ impl StagedFiles {
         for (index, file) in self.files.drain(..).enumerate() {
             let (path, replaced) = (file.destination, before + index);
             match put(file.temporary, &path, &file.expected) {
-                Placing::Done => {}
-                Placing::Taken => {
+                Ok(true) => {}
+                Ok(false) => {
                     return Err(Error::Taken {
                         path,
                         replaced,
                         pending,
                     });
                 }
-                Placing::Refused(source) => {
+                Err(source) => {
                     return Err(Error::Replace {
                         path,
                         source,
@@ -306,45 +306,32 @@ impl ExpectedContent {
     }
 }
 
-/// The result of putting a file in its place.
-#[derive(Debug)]
-pub enum Placing {
-    /// It is there.
-    Done,
-    /// What lies there is not what was seen: it stays.
-    Taken,
-    /// The system refuses.
-    Refused(io::Error),
-}
-
-/// Renames a file into its place. Where nothing was seen there, the system itself refuses to replace what has appeared.
-pub fn put(temporary: TempPath, place: &Path, expected: &ExpectedContent) -> Placing {
+/// Renames a file into its place. False: what lies there is not what was seen, and stays. Where nothing was seen, the system itself
+/// refuses to replace what has appeared.
+fn put(temporary: TempPath, place: &Path, expected: &ExpectedContent) -> io::Result<bool> {
     if !expected.allows(place) {
-        return Placing::Taken;
+        return Ok(false);
     }
+    let replaced = |temporary: TempPath| {
+        let renamed = temporary.persist(place);
+        renamed.map(|()| true).map_err(|fault| fault.error)
+    };
     let is_free = *expected != ExpectedContent::Anything && fs::symlink_metadata(place).is_err();
     if !is_free {
-        return replaced(temporary, place);
+        return replaced(temporary);
     }
     match temporary.persist_noclobber(place) {
-        Ok(()) => Placing::Done,
+        Ok(()) => Ok(true),
         Err(fault) if fault.error.kind() == ErrorKind::AlreadyExists => {
             if expected.allows(place) {
-                replaced(fault.path, place)
+                replaced(fault.path)
             } else {
-                Placing::Taken
+                Ok(false)
             }
         }
         // The file system can neither rename without replacing nor link: the check just before must do.
-        Err(fault) if fs::symlink_metadata(place).is_err() => replaced(fault.path, place),
-        Err(fault) => Placing::Refused(fault.error),
-    }
-}
-
-fn replaced(temporary: TempPath, place: &Path) -> Placing {
-    match temporary.persist(place) {
-        Ok(()) => Placing::Done,
-        Err(fault) => Placing::Refused(fault.error),
+        Err(fault) if fs::symlink_metadata(place).is_err() => replaced(fault.path),
+        Err(fault) => Err(fault.error),
     }
 }
 
@@ -367,7 +354,7 @@ mod tests {
         let temporary = TempPath::try_from_path(temporary).expect("a path");
         let expected = ExpectedContent::seen(old.map(str::as_bytes), false);
         let placing = put(temporary, &place, &expected);
-        assert_eq!(matches!(placing, Placing::Done), is_put, "{placing:?}");
+        assert_eq!(placing.expect("the disk takes it"), is_put);
         let left = fs::read_to_string(&place).expect("a file");
         assert_eq!(
             left,

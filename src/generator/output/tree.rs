@@ -14,7 +14,7 @@ use serde_json::Map;
 use similar::TextDiff;
 
 use crate::generator::emit::Artifact;
-use crate::generator::envelope::TOOL;
+use crate::generator::envelope::{TOOL, json_text};
 use crate::generator::error::Error;
 use crate::generator::output::contents::listed_hash;
 use crate::generator::output::earlier_runs;
@@ -90,7 +90,7 @@ pub fn plan(
     let manifest = Planned {
         path: manifest::FILE.to_string(),
         old: old_text,
-        new: merged.to_json().into_bytes(),
+        new: json_text(&merged).into_bytes(),
     };
     let expected: BTreeSet<&str> = (merged.files.iter().map(|entry| entry.file.as_str()))
         .chain([manifest::FILE])
@@ -126,12 +126,6 @@ impl TreePlan {
     /// All files that a write puts in place, the manifest last.
     pub fn all(&self) -> impl Iterator<Item = &Planned> {
         self.files.iter().chain([&self.manifest])
-    }
-
-    /// The paths of the files in this state, sorted, the manifest last.
-    pub fn paths(&self, state: State) -> Vec<&str> {
-        let matching = self.all().filter(|file| file.state() == state);
-        matching.map(|file| file.path.as_str()).collect()
     }
 }
 
@@ -326,7 +320,7 @@ fn interim(
     }
     interim.files.extend(orphans.iter().cloned());
     interim.files.sort_by(|a, b| a.file.cmp(&b.file));
-    interim.to_json().into_bytes()
+    json_text(&interim).into_bytes()
 }
 
 const CONTEXT_LINES: usize = 3;

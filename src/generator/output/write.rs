@@ -192,22 +192,22 @@ enum OutputPlace {
 }
 
 impl OutputFile {
-    /// A file that the user names.
-    pub fn named(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> OutputFile {
+    fn at(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>, place: OutputPlace) -> OutputFile {
         OutputFile {
             path: path.into(),
             bytes: bytes.into(),
-            place: OutputPlace::Named,
+            place,
         }
+    }
+
+    /// A file that the user names.
+    pub fn named(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> OutputFile {
+        OutputFile::at(path, bytes, OutputPlace::Named)
     }
 
     /// A file that the user names and that replaces nothing.
     pub fn new(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> OutputFile {
-        OutputFile {
-            path: path.into(),
-            bytes: bytes.into(),
-            place: OutputPlace::New,
-        }
+        OutputFile::at(path, bytes, OutputPlace::New)
     }
 
     /// A file of a report in a folder that the user names.
@@ -216,11 +216,7 @@ impl OutputFile {
         bytes: impl Into<Vec<u8>>,
         overwrite: bool,
     ) -> OutputFile {
-        OutputFile {
-            path: path.into(),
-            bytes: bytes.into(),
-            place: OutputPlace::OfReport { overwrite },
-        }
+        OutputFile::at(path, bytes, OutputPlace::OfReport { overwrite })
     }
 
     /// Where it goes.

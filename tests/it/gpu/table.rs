@@ -4,9 +4,9 @@
 use super::device;
 use fresnel_gen::generator::bake::TableMaterial;
 use fresnel_gen::generator::emit::{self, EmittedFunction, Naming};
-use fresnel_gen::generator::generate::tables::{WantedTables, table_materials};
+use fresnel_gen::generator::generate::tables::table_materials;
 use fresnel_gen::generator::lut::{Depth, Stored, Table, TableAxis};
-use fresnel_gen::generator::request::Materials;
+use fresnel_gen::generator::request::Request;
 use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{
     Argument, Backend, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
@@ -15,7 +15,6 @@ use fresnel_gen::lab::gpu::{
 use fresnel_gen::lab::verify::{cosines, harness};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::{methods, targets};
-use fresnel_gen::physics::materials::ViewingConditions;
 
 /// What a sampler may differ by from the model.
 const CLOSE: f32 = 1.0 / 4096.0;
@@ -25,12 +24,7 @@ const EIGHT_BITS: f32 = 0.5 / 255.0;
 
 /// The materials that are committed, unclipped as tables keep them.
 fn committed() -> Vec<TableMaterial> {
-    let wanted = WantedTables {
-        materials: Materials::Default,
-        medium: None,
-        viewing: ViewingConditions::default(),
-    };
-    table_materials(&wanted).unwrap().0
+    table_materials(&Request::default()).unwrap().0
 }
 
 fn function() -> EmittedFunction {
