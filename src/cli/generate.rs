@@ -28,6 +28,7 @@ use crate::generator::generate::tables::add_tables;
 use crate::generator::generate::{Generated, KeptMethods, generate_beside, generate_single};
 use crate::generator::output::depfile;
 use crate::generator::output::lock::{Announce, Lock};
+use crate::generator::output::manifest::Manifest;
 use crate::generator::output::tree::{self, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
 use crate::generator::reference::MaterialInMedium;
@@ -148,7 +149,10 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
     let kept = if flags.method.is_empty() && request.chosen.is_empty() {
         KeptMethods::new()
     } else {
-        kept(out_dir, request.precision)?
+        let manifest = Manifest::in_folder(out_dir)?;
+        manifest.map_or_else(KeptMethods::new, |(manifest, _)| {
+            kept(&manifest, request.precision)
+        })
     };
     let mut generated = generate_beside(request, &kept)?;
     if request.selects_nothing() {
@@ -443,7 +447,7 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
 const NEGLIGIBLE: f64 = 0.1;
 
 /// The remarks on a material's choice, a line each.
-pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
+fn budget_remarks(row: &BudgetRow) -> Vec<String> {
     let (name, choice) = (crate::physics::foreign::Foreign(&row.material), &row.choice);
     let mut lines = vec![format!(
         "{name}: {} is the cheapest within {}: {} ({} on {}, as a {} function)",
@@ -513,7 +517,7 @@ const FAR: f64 = 2.0;
 ///
 /// # Errors
 /// The request names something that does not exist, or a material's file has a fault.
-pub fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
+fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
     let mut named = request.methods.named().unwrap_or_default();
     named.retain(|method| method.is_fitted() && !method.claims.by_class.is_empty());
     let is_of_materials = !matches!(request.materials, Materials::None | Materials::Default);

@@ -46,7 +46,7 @@ pub fn refuse_read<'a>(
 }
 
 /// Refuses a file of a generated tree, whichever run made it: the manifest, or a file that the manifest in a folder above lists.
-pub fn refuse_listed(named: &Path) -> Result<(), Error> {
+fn refuse_listed(named: &Path) -> Result<(), Error> {
     /// The most folders between a tree's root and its files, with some to spare for tables.
     const DEPTH: usize = 5;
     let whole = resolved(named);
@@ -75,7 +75,7 @@ pub fn refuse_listed(named: &Path) -> Result<(), Error> {
 }
 
 /// Refuses two outputs that are the same file.
-pub fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
+fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
     for (i, file) in files.iter().enumerate() {
         if files[..i].iter().any(|other| is_same_file(other, file)) {
             return Err(RequestFault::Place {

@@ -10,10 +10,8 @@ mod format;
 mod model;
 mod sheet;
 
-pub use engine_material::{Body, EngineMaterial};
-pub use format::{ExchangeFault, Exported, Format};
-pub use model::{Model, NodeError};
-pub use sheet::{Field, FieldValue, Node, Sheet};
+pub use engine_material::EngineMaterial;
+pub use format::{ExchangeFault, Format};
 
 // BEGIN list (written by tests/lists)
 mod blender;
@@ -35,17 +33,4 @@ pub static ALL: &[&Format] = &[
     &unreal::FORMAT,
     &usd::FORMAT,
 ];
-
-/// Each by its name.
-#[rustfmt::skip]
-#[allow(missing_docs)]
-impl Format {
-    pub const BLENDER: &'static Format = &blender::FORMAT;
-    pub const FILAMENT: &'static Format = &filament::FORMAT;
-    pub const GLTF: &'static Format = &gltf::FORMAT;
-    pub const MATERIALX: &'static Format = &materialx::FORMAT;
-    pub const OPENPBR: &'static Format = &openpbr::FORMAT;
-    pub const UNREAL: &'static Format = &unreal::FORMAT;
-    pub const USD: &'static Format = &usd::FORMAT;
-}
 // END list

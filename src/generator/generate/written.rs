@@ -5,14 +5,12 @@
 //! functions that `-o` writes.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, EmittedFunction, HeaderForm, Heading, Naming, PlaceInFile};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::{KeptMethods, Run};
-use crate::generator::output::folder;
-use crate::generator::output::manifest::{self, Manifest};
+use crate::generator::output::manifest::{Entry, Manifest};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request};
 use crate::language::effects::Effect;
@@ -63,7 +61,7 @@ fn registered(name: &str) -> &'static Method {
 }
 
 /// The methods for a material: the one that a budget chose, those named, or the default ones.
-pub fn named_or(run: &Run, material: &str, usual: &[&'static Method]) -> Vec<&'static Method> {
+fn named_or(run: &Run, material: &str, usual: &[&'static Method]) -> Vec<&'static Method> {
     match (run.request.chosen.get(material), &run.named) {
         (Some(chosen), _) => vec![*chosen],
         (None, Some(named)) => named.clone(),
@@ -140,26 +138,18 @@ impl Owners {
     }
 }
 
-/// The methods in the folder's material files of this precision, according to its manifest.
-///
-/// # Errors
-/// The manifest cannot be read, or is not ours.
-pub fn kept(out_dir: &Path, precision: Precision) -> Result<KeptMethods, Error> {
-    let path = out_dir.join(manifest::FILE);
-    let Some(text) = folder::read(&path)? else {
-        return Ok(KeptMethods::new());
-    };
+/// The methods in a folder's material files of this precision, according to its manifest.
+pub fn kept(manifest: &Manifest, precision: Precision) -> KeptMethods {
     let mut kept = KeptMethods::new();
-    let mut entries = Manifest::parse(&path, &text)?.files;
-    entries.retain(|entry| entry.effect.is_none() && entry.precision() == precision.name());
-    for entry in entries {
+    let is_kept = |entry: &&Entry| entry.effect.is_none() && entry.precision() == precision.name();
+    for entry in manifest.files.iter().filter(is_kept) {
         let methods = entry.function_methods().filter_map(methods::find);
         if let Some(material) = &entry.material {
             let file = (entry.target.clone(), material.clone());
             kept.entry(file).or_default().extend(methods);
         }
     }
-    Ok(kept)
+    kept
 }
 
 impl Run<'_> {

@@ -12,7 +12,7 @@ use crate::generator::emit::Artifact;
 use crate::generator::envelope::TOOL;
 use crate::generator::error::Error;
 use crate::generator::output::contents::listed_hash;
-use crate::generator::output::folder::check_path;
+use crate::generator::output::folder::{self, check_path};
 use crate::physics::num::Precision;
 use crate::physics::user_text::without_mark;
 
@@ -92,6 +92,18 @@ pub struct Provenance {
 }
 
 impl Manifest {
+    /// The manifest of a folder, and its bytes; none if the folder has none.
+    ///
+    /// # Errors
+    /// It cannot be read, or as [`Manifest::parse`].
+    pub fn in_folder(out_dir: &Path) -> Result<Option<(Manifest, Vec<u8>)>, Error> {
+        let path = out_dir.join(FILE);
+        let Some(bytes) = folder::read(&path)? else {
+            return Ok(None);
+        };
+        Ok(Some((Manifest::parse(&path, &bytes)?, bytes)))
+    }
+
     /// Reads a manifest. `path` is used only in the message.
     ///
     /// # Errors

@@ -145,7 +145,7 @@ fn names_itself(entry: &Entry, bytes: &[u8]) -> bool {
 
 /// Whether bytes of a format without room for a mark are what this program writes there: a module that naga made, or floats for
 /// as many rows as the entry says.
-pub fn has_form_without_mark(entry: &Entry, bytes: &[u8]) -> bool {
+fn has_form_without_mark(entry: &Entry, bytes: &[u8]) -> bool {
     if is_module(&entry.file) {
         // The magic number and the generator's number in the module's head, in the byte order that naga writes.
         return bytes.starts_with(&SPIRV) && bytes.get(8..12) == Some(&NAGA);

@@ -74,8 +74,10 @@ pub fn plan(
     provenance: &Provenance,
 ) -> Result<TreePlan, Error> {
     check_paths(artifacts)?;
-    let old_text = folder::read(&out_dir.join(manifest::FILE))?;
-    let old = old_manifest(out_dir, old_text.as_deref(), scope)?;
+    let (mut old, old_text) = Manifest::in_folder(out_dir)?.unzip();
+    if let Some(old) = old.as_mut().filter(|_| scope.whole) {
+        forget_deleted(old, out_dir);
+    }
     let merged = merged(old.as_ref(), scope, artifacts, provenance);
     earlier_runs::refuse_meeting_names(artifacts, &merged)?;
     let old_entries = old.as_ref().map_or(&[][..], |old| &old.files);
@@ -129,23 +131,12 @@ impl TreePlan {
     }
 }
 
-/// The old manifest. A run without flags forgets entries whose file somebody deleted. No other run would, once that material is
-/// no longer asked for.
-fn old_manifest(
-    out_dir: &Path,
-    text: Option<&[u8]>,
-    scope: &Scope,
-) -> Result<Option<Manifest>, Error> {
-    let Some(text) = text else {
-        return Ok(None);
-    };
-    let mut old = Manifest::parse(&out_dir.join(manifest::FILE), text)?;
-    if scope.whole {
-        let is_there = |entry: &Entry| out_dir.join(&entry.file).try_exists().unwrap_or(true);
-        old.files
-            .retain(|entry| !could_be_written(entry) || is_there(entry));
-    }
-    Ok(Some(old))
+/// Drops the entries of files that somebody deleted. Only a run without flags does: no other run would write them again once that
+/// material is no longer asked for.
+fn forget_deleted(old: &mut Manifest, out_dir: &Path) {
+    let is_there = |entry: &Entry| out_dir.join(&entry.file).try_exists().unwrap_or(true);
+    old.files
+        .retain(|entry| !could_be_written(entry) || is_there(entry));
 }
 
 /// The manifest after a run: its artifacts, and those old entries that it does not own.

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use crate::generator::emit::{EmittedFunction, HeaderForm};
 use crate::generator::error::{Error, RequestFault};
-use crate::generator::generate::kept;
 use crate::generator::generate::{
     ExistingContents, GeneratedFile, GeneratedWithGraphs, KeptMethods, generate_with_graphs,
 };
@@ -22,10 +21,10 @@ use crate::physics::num::Precision;
 /// # Errors
 /// The request cannot be met, or a file cannot be read.
 pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, Error> {
-    // Functions that earlier runs put into a material's file belong to it: they would be written again.
-    let kept = kept(folder, request.precision)?;
-    let meant = generate_with_graphs(request, &kept, &ExistingContents::default())?;
     let shipped = Folder::new(folder)?;
+    // Functions that earlier runs put into a material's file belong to it: they would be written again.
+    let kept = shipped.kept(request.precision);
+    let meant = generate_with_graphs(request, &kept, &ExistingContents::default())?;
     let held = ExistingContents {
         methods: held_methods(request, &meant, &shipped, &kept)?,
         full_headers: full_headers(&meant, &shipped)?,

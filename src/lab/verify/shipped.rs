@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::generator::emit::HeaderForm;
 use crate::generator::error::Error;
-use crate::generator::generate::GeneratedFile;
+use crate::generator::generate::{GeneratedFile, KeptMethods, kept};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::lab::verify::listed::{self, Listed};
@@ -15,6 +15,7 @@ use crate::lab::verify::requested::ShippedPage;
 use crate::lab::verify::tampering;
 use crate::language::targets::{self, Target};
 use crate::physics::foreign::Foreign;
+use crate::physics::num::Precision;
 
 /// The version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -53,13 +54,15 @@ pub(super) struct Folder<'a> {
 
 impl Folder<'_> {
     pub fn new(path: &Path) -> Result<Folder<'_>, Error> {
-        let file = path.join(manifest::FILE);
-        let parsed = |text: Vec<u8>| {
-            let manifest = Manifest::parse(&file, &text)?;
-            Ok::<_, Error>((manifest, String::from_utf8_lossy(&text).into_owned()))
-        };
-        let manifest = folder::read(&file)?.map(parsed).transpose()?;
+        let manifest = Manifest::in_folder(path)?
+            .map(|(manifest, bytes)| (manifest, String::from_utf8_lossy(&bytes).into_owned()));
         Ok(Folder { path, manifest })
+    }
+
+    /// The methods of its material files in this precision.
+    pub fn kept(&self, precision: Precision) -> KeptMethods {
+        let manifest = self.manifest.as_ref();
+        manifest.map_or_else(KeptMethods::new, |(manifest, _)| kept(manifest, precision))
     }
 
     fn listed(&self) -> impl Iterator<Item = &Entry> {
