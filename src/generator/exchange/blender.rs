@@ -8,8 +8,9 @@
 
 use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
+use super::head;
 use super::model::Model;
-use super::sheet::{self, Field, FieldValue, Node, Sheet, capped_tint};
+use super::sheet::{Field, FieldValue, Node, Sheet, capped_tint};
 use crate::physics::spectra::Space;
 
 /// The names of the nodes in reports, with how Python finds or makes them.
@@ -86,7 +87,7 @@ fn metal(material: &EngineMaterial) -> Sheet {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let mut text = sheet::comments("#", &FORMAT, material, notes);
+    let mut text = head::comments("#", &FORMAT, material, notes);
     text += &format!(
         "import bpy\n\nmaterial = bpy.data.materials.new(\"{}\")\nmaterial.use_fake_user = True  # it is saved, though no object has it yet\nif not material.node_tree:\n    material.use_nodes = True\nnodes = material.node_tree.nodes\n",
         material.subject.name

@@ -1,9 +1,11 @@
 //! A material's numbers for exchange formats: colours in [0, 1], the tint, the index at the d line, Abbe's number.
 
-use super::format::ExchangeFault;
+use thiserror::Error;
+
 use crate::generator::fit::{abbe_in, ior_in};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{Input, KnownSurface};
+use crate::physics::foreign::Foreign;
 use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
 
@@ -160,4 +162,31 @@ fn remarks(
             .map(|held| format!("extrapolated: {held}")),
     );
     remarks
+}
+
+/// Why a material cannot be exported to a format.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ExchangeFault {
+    /// A dielectric with an index below that of its medium.
+    #[error(
+        "`{}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \
+         is optically rarer",
+        Foreign(name)
+    )]
+    Rarer {
+        /// The material.
+        name: String,
+        /// Its relative index.
+        index: String,
+    },
+    /// A working space that the format does not support.
+    #[error("--as {format} takes colours in {allowed}, and not in {space}; change --space")]
+    Space {
+        /// The format.
+        format: &'static str,
+        /// The space requested.
+        space: &'static str,
+        /// The spaces that the format supports.
+        allowed: String,
+    },
 }

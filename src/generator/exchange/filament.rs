@@ -7,8 +7,9 @@
 
 use super::engine_material::{Body, EngineMaterial, f0_of};
 use super::format::{Format, Notes};
+use super::head;
 use super::model::Model;
-use super::sheet::{self, Field, FieldValue, Node, Sheet};
+use super::sheet::{Field, FieldValue, Node, Sheet};
 use crate::physics::spectra::Space;
 
 /// The ratio of F90 to the sum of F0's channels, for F90 up to 1: 50 * .33 in Filament's code.
@@ -75,5 +76,5 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     };
     let fields = sheet.nodes.iter().flat_map(|node| &node.fields);
     let lines: String = fields.map(line).collect();
-    sheet::comments("//", &FORMAT, material, notes) + &lines
+    head::comments("//", &FORMAT, material, notes) + &lines
 }

@@ -1,11 +1,8 @@
-//! The record of an exchange format, and the errors of exporting a material to one.
+//! The record of an exchange format, and a material exported to one.
 
-use thiserror::Error;
-
-use super::engine_material::EngineMaterial;
+use super::engine_material::{EngineMaterial, ExchangeFault};
 use super::model::NodeError;
-use super::sheet::Sheet;
-use crate::physics::foreign::Foreign;
+use super::sheet::{Node, Sheet};
 use crate::physics::spectra::Space;
 
 /// A format that engines or tools read.
@@ -67,7 +64,7 @@ impl Format {
             });
         }
         let sheet = (self.sheet)(material);
-        let error = |node| NodeError::of(node, material);
+        let error = |node: &Node| NodeError::of(node.name, &node.model, material);
         let notes = Notes {
             command: command.to_owned(),
             errors: sheet.nodes.iter().map(error).collect(),
@@ -84,31 +81,4 @@ impl Format {
             remarks: notes.remarks,
         })
     }
-}
-
-/// Why a material cannot be exported to a format.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum ExchangeFault {
-    /// A dielectric with an index below that of its medium.
-    #[error(
-        "`{}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \
-         is optically rarer",
-        Foreign(name)
-    )]
-    Rarer {
-        /// The material.
-        name: String,
-        /// Its relative index.
-        index: String,
-    },
-    /// A working space that the format does not support.
-    #[error("--as {format} takes colours in {allowed}, and not in {space}; change --space")]
-    Space {
-        /// The format.
-        format: &'static str,
-        /// The space requested.
-        space: &'static str,
-        /// The spaces that the format supports.
-        allowed: String,
-    },
 }

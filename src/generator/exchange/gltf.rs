@@ -13,8 +13,9 @@ use serde::Serialize;
 
 use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
 use super::format::{Format, Notes};
+use super::head;
 use super::model::Model;
-use super::sheet::{self, Field, FieldValue, Node, Sheet};
+use super::sheet::{Field, FieldValue, Node, Sheet};
 use crate::generator::envelope::{TOOL, json_text};
 use crate::physics::materials::escaped;
 use crate::physics::spectra::Space;
@@ -149,7 +150,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
             extras: Extras {
                 tool: TOOL,
                 command: &notes.command,
-                about: sheet::about(&FORMAT, material, notes),
+                about: head::about(&FORMAT, material, notes),
             },
         },
         extensions_used: used,

@@ -9,10 +9,11 @@
 
 use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
+use super::head;
 use super::model::Model;
 use super::openpbr;
-use super::sheet::{self, Field, FieldValue, Node, Sheet};
-use crate::generator::emit::{XmlDocument, comment_lines};
+use super::sheet::{Field, FieldValue, Node, Sheet};
+use crate::generator::emit::{MARK, XmlDocument, comment_lines};
 use crate::physics::spectra::Space;
 
 /// The record of this format.
@@ -75,10 +76,10 @@ fn of_conductor(material: &EngineMaterial) -> Option<String> {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let mut document = XmlDocument::new(sheet::mark());
-    document.comment(&comment_lines(sheet::about(&FORMAT, material, notes)));
+    let mut document = XmlDocument::new(MARK);
+    document.comment(&comment_lines(head::about(&FORMAT, material, notes)));
     // A comment may not hold two hyphens in a row, but a command does.
-    let doc = sheet::regenerate(notes);
+    let doc = head::regenerate(notes);
     let mut attributes = vec![("version", "1.39")];
     attributes.extend(material.space.map(|own| ("colorspace", space(own))));
     attributes.push(("doc", &doc));

@@ -7,11 +7,12 @@
 
 mod engine_material;
 mod format;
+mod head;
 mod model;
 mod sheet;
 
-pub use engine_material::EngineMaterial;
-pub use format::{ExchangeFault, Format};
+pub use engine_material::{EngineMaterial, ExchangeFault};
+pub use format::Format;
 
 // BEGIN list (written by tests/lists)
 mod blender;

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::engine_material::EngineMaterial;
-use super::sheet::Node;
 use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::Checked;
 use crate::language::methods::{self, Method, Values};
@@ -125,16 +124,16 @@ impl Model {
 
 impl NodeError {
     /// The error of a node for a material.
-    pub fn of(node: &Node, material: &EngineMaterial) -> NodeError {
-        let (max_abs, worst_degrees) = node.model.error(material);
+    pub fn of(node: &'static str, model: &Model, material: &EngineMaterial) -> NodeError {
+        let (max_abs, worst_degrees) = model.error(material);
         NodeError {
-            node: node.name,
-            model: node.model.words,
+            node,
+            model: model.words,
             max_abs,
             worst_degrees,
             below_coat: material
                 .coat
-                .map(|index| node.model.error_below_coat(material, index)),
+                .map(|index| model.error_below_coat(material, index)),
         }
     }
 

@@ -9,6 +9,7 @@
 
 use super::engine_material::{Body, EngineMaterial};
 use super::format::{Format, Notes};
+use super::head;
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet, capped_tint};
 use crate::physics::spectra::Space;
@@ -84,5 +85,5 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    sheet::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
+    head::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
 }

@@ -1,10 +1,7 @@
-//! The contents of a format's file: nodes with named numbers, and the lines above them (mark, command, what the material is,
-//! errors, remarks).
+//! The contents of a format's file: nodes with named numbers.
 
 use super::engine_material::{EngineMaterial, rounded};
-use super::format::{Format, Notes};
 use super::model::Model;
-use crate::generator::emit::{MARK, OUTPUT_LICENCE, comment_lines};
 use crate::generator::fit::rounded_up;
 
 /// A material in a format.
@@ -126,57 +123,6 @@ pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<
     let remark =
         format!("{field}: the F82 tint ({red:?}, {green:?}, {blue:?}) is limited to 1: {price}");
     (capped, Some(remark))
-}
-
-/// The mark, which stands in the first line that the format leaves free.
-pub fn mark() -> &'static str {
-    MARK
-}
-
-/// The command as a line.
-pub fn regenerate(notes: &Notes) -> String {
-    format!("Regenerate: {}", notes.command)
-}
-
-/// The lines of the head, without the mark and the command.
-pub fn about(format: &Format, material: &EngineMaterial, notes: &Notes) -> Vec<String> {
-    let own = &material.subject.material;
-    let around = match &material.subject.medium {
-        Some((_, medium)) => format!(", in {}", medium.name),
-        None => String::new(),
-    };
-    let mut lines = vec![
-        format!("Licence of this file: {OUTPUT_LICENCE}"),
-        format!("{}{around}: {}", own.name, own.summary),
-    ];
-    lines.extend(own.data_line());
-    lines.extend([
-        format!("Format: {}", format.summary),
-        format!("Colours: {}", material.subject.reference.surface.seen),
-    ]);
-    lines.extend(material.hex().map(|hex| format!("F0 in sRGB: {hex}")));
-    lines.extend(
-        notes
-            .errors
-            .iter()
-            .map(|error| format!("{}.", error.line())),
-    );
-    lines.extend(
-        notes
-            .remarks
-            .iter()
-            .map(|remark| format!("Remark: {remark}.")),
-    );
-    lines
-}
-
-/// The whole head as comments with this start.
-pub fn comments(start: &str, format: &Format, material: &EngineMaterial, notes: &Notes) -> String {
-    let mut lines = vec![mark().to_owned(), regenerate(notes)];
-    lines.extend(about(format, material, notes));
-    let lines = comment_lines(lines);
-    let lines = lines.iter().map(|line| format!("{start} {line}\n"));
-    lines.collect()
 }
 
 /// The nodes as tables of TOML.

@@ -8,6 +8,7 @@
 
 use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
 use super::format::{Format, Notes};
+use super::head;
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet};
 use crate::physics::spectra::Space;
@@ -95,5 +96,5 @@ fn lit(f0: [f64; 3]) -> Model {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    sheet::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
+    head::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
 }

@@ -10,10 +10,12 @@ use std::str::FromStr;
 
 use crate::physics::names::{UnknownName, named};
 
+mod files;
 mod flavour;
 mod view;
 
-pub use flavour::{Error, Fitted, Flavour, FlavourPage, files};
+pub use files::{Fitted, files};
+pub use flavour::{Error, Flavour, FlavourPage};
 
 // BEGIN list (written by tests/lists)
 mod babylon;

@@ -13,9 +13,11 @@ use crate::generator::request::source::{Loaded, Subjects, load};
 use crate::language::effects::Effect;
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
-use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
+use crate::physics::materials::{Material, MaterialKind, ViewingConditions};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Illuminant;
+
+pub use source::Source;
 
 /// What to generate. `Request::default()` is a run without flags.
 #[derive(Clone, Debug)]
@@ -132,42 +134,6 @@ impl Materials {
             Materials::All => Source::catalogue().collect(),
             Materials::These(sources) => sources.clone(),
         }
-    }
-}
-
-/// The source of a material.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// A material of the catalogue. A medium can also be a refractive index from 1 to 10, such as `1.5`, without absorption and
-    /// dispersion.
-    Named(String),
-    /// A material of the catalogue that `all` includes. It is left out where it is not known over the whole spectrum.
-    BroughtAlong(String),
-    /// A user's file, already read.
-    File {
-        /// Its name, for messages and for the command in headers.
-        file: String,
-        /// Its text.
-        text: String,
-    },
-}
-
-impl Source {
-    /// The argument that names it again on the command line.
-    ///
-    /// # Errors
-    /// As [`load`].
-    #[doc(hidden)]
-    pub fn argument(&self) -> Result<String, Error> {
-        Ok(load(self)?.argument)
-    }
-
-    /// All materials of the catalogue.
-    #[doc(hidden)]
-    pub fn catalogue() -> impl Iterator<Item = Source> {
-        materials::names()
-            .into_iter()
-            .map(|name| Source::BroughtAlong(name.to_owned()))
     }
 }
 

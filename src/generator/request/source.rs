@@ -9,7 +9,6 @@ use crate::generator::command_line::path_again;
 use crate::generator::error::{Error, RequestFault, unknown};
 use crate::generator::output::folder::{self, is_below};
 use crate::generator::reference::MaterialInMedium;
-use crate::generator::request::Source;
 use crate::physics::foreign::{self, one_line};
 use crate::physics::materials::{self, ConstantIndex, Material, SurfaceError};
 use crate::physics::user_text::{FileFault, TextFault, mesh_text, user_text};
@@ -184,6 +183,42 @@ fn is_page(name: &str) -> bool {
         && name != "about.yml"
         && !name.starts_with("catalog-")
         && name != "library.yml"
+}
+
+/// The source of a material.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A material of the catalogue. A medium can also be a refractive index from 1 to 10, such as `1.5`, without absorption and
+    /// dispersion.
+    Named(String),
+    /// A material of the catalogue that `all` includes. It is left out where it is not known over the whole spectrum.
+    BroughtAlong(String),
+    /// A user's file, already read.
+    File {
+        /// Its name, for messages and for the command in headers.
+        file: String,
+        /// Its text.
+        text: String,
+    },
+}
+
+impl Source {
+    /// The argument that names it again on the command line.
+    ///
+    /// # Errors
+    /// As [`load`].
+    #[doc(hidden)]
+    pub fn argument(&self) -> Result<String, Error> {
+        Ok(load(self)?.argument)
+    }
+
+    /// All materials of the catalogue.
+    #[doc(hidden)]
+    pub fn catalogue() -> impl Iterator<Item = Source> {
+        materials::names()
+            .into_iter()
+            .map(|name| Source::BroughtAlong(name.to_owned()))
+    }
 }
 
 /// The materials of a request.
