@@ -3,6 +3,7 @@
 use super::flavour::{Error, Flavour, FlavourPage};
 use super::view::{AdapterView, view};
 use crate::generator::emit::{self, AdapterDetail, Artifact, CatalogueRow, Detail, OUTPUT_LICENCE};
+use crate::language::targets::Finish;
 
 /// Materials, and the reference that their coefficients were fitted to.
 #[derive(Clone, Copy, Debug)]

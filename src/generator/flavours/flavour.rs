@@ -2,7 +2,6 @@
 
 use crate::generator::emit;
 use crate::generator::lut::{self, SplitSumAxis};
-use crate::language::targets::Finish;
 
 /// A target adapted to one host.
 #[derive(Debug)]
