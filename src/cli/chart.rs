@@ -15,7 +15,7 @@ use crate::generator::envelope::Report;
 use crate::generator::error::unknown;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
-use crate::generator::request::{Materials, Request};
+use crate::generator::request::Request;
 use crate::lab::chart::{
     ChartData, ChartPoint, ChartView, ERRORS, ErrorAxis, STATISTICS, chart_data, cost_names,
     set_name, without_point,
@@ -76,6 +76,7 @@ fn cost(word: &str) -> Result<&'static str, UnknownName> {
 
 const PICTURE: &str = "chart.svg";
 const PAGE: &str = "chart.html";
+const NO_MATERIALS: &str = "a chart is of materials; `none` leaves nothing to show";
 
 /// Draws.
 pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
@@ -89,7 +90,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
     try_places_of_ours(&files, flags.pictures.overwrite)?;
     let request = Request {
-        materials: chosen(flags)?,
+        materials: flags.materials.materials_or_all(NO_MATERIALS)?,
         ..Request::default()
     };
     let found = request.subjects()?;
@@ -116,17 +117,6 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     output.remarks.splice(0..0, remarks);
     output.remarks.extend(said);
     Ok(output)
-}
-
-/// Materials to chart: the whole catalogue unless others are asked for.
-fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
-    match flags.materials.materials()? {
-        Materials::Default => Ok(Materials::All),
-        Materials::None => Err(Error::usage(
-            "a chart is of materials; `none` leaves nothing to show",
-        )),
-        named => Ok(named),
-    }
 }
 
 /// The paths of a chart's files, if it has a folder.

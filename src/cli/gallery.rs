@@ -10,7 +10,7 @@ use crate::cli::output::{Output, Progress};
 use crate::cli::places::{folder_or_current, replaced, try_files};
 use crate::generator::command_line::CommandLine;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
-use crate::generator::request::{Materials, Request};
+use crate::generator::request::Request;
 use crate::pictures::gallery::gallery;
 use crate::pictures::gallery::page::gallery_page;
 
@@ -41,6 +41,7 @@ impl GalleryFlags {
 
 /// The page's name in its folder.
 const PAGE: &str = "index.html";
+const NO_MATERIALS: &str = "a gallery shows materials; `none` leaves nothing to show";
 
 /// Writes the page.
 pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
@@ -48,7 +49,7 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     try_files(&[&file])?;
     try_places_of_ours(std::slice::from_ref(&file), flags.overwrite)?;
     let request = Request {
-        materials: chosen(flags)?,
+        materials: flags.materials.materials_or_all(NO_MATERIALS)?,
         ..Request::default()
     };
     let found = request.subjects()?;
@@ -59,29 +60,16 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     let command: String = flags.command_line().into();
     let page = gallery_page(&gallery, &command).map_err(Error::usage)?;
     let old = write_outputs(&[OutputFile::of_report(&file, page, flags.overwrite)])?;
-    let (rows, methods, materials) = (
-        gallery.rows.len(),
-        gallery.methods.len(),
-        gallery.materials.len(),
-    );
     remarks.extend(replaced(&old));
     remarks.push(format!(
-        "{}: {rows} effects, {methods} methods, {materials} materials",
-        crate::physics::foreign::path(&file)
+        "{}: {} effects, {} methods, {} materials",
+        crate::physics::foreign::path(&file),
+        gallery.rows.len(),
+        gallery.methods.len(),
+        gallery.materials.len()
     ));
     Ok(Output {
         remarks,
         ..Output::default()
     })
-}
-
-/// The materials of the page: the whole catalogue unless others are asked for.
-fn chosen(flags: &GalleryFlags) -> Result<Materials, Error> {
-    match flags.materials.materials()? {
-        Materials::Default => Ok(Materials::All),
-        Materials::None => Err(Error::usage(
-            "a gallery shows materials; `none` leaves nothing to show",
-        )),
-        named => Ok(named),
-    }
 }

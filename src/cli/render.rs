@@ -19,6 +19,7 @@ use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::request::Source;
 use crate::generator::request::source::{self, load};
 use crate::lab::gpu::{Device, Wanted};
+use crate::physics::foreign;
 use crate::physics::materials::{Material, MaterialKind, Surface, ViewingConditions};
 use crate::physics::spectra::{Space, srgb_byte};
 use crate::pictures::plot::shade_bytes;
@@ -77,18 +78,15 @@ impl RenderFlags {
     pub fn command_line(&self) -> CommandLine {
         let number = |value: f64| (value != 0.0).then_some(value);
         let curve = self.tone_curve.name;
+        let environment = self.environment.iter();
+        let environment = environment.map(|file| path_again(&file.to_string_lossy()));
         CommandLine::new("render")
             .argument(self.name.name)
             .number("size", self.size)
             .list("exposure", number(self.exposure))
             .list("tone-curve", (curve != "none").then_some(curve))
             .list("material", &self.material)
-            .list(
-                "environment",
-                self.environment
-                    .iter()
-                    .map(|file| path_again(&file.to_string_lossy())),
-            )
+            .list("environment", environment)
             .switch("ldr", self.ldr)
     }
 }
@@ -115,7 +113,7 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     if flags.output.is_none() && try_places_of_ours(std::slice::from_ref(&file), false).is_err() {
         let why = format!(
             "{} lies here, and this program did not write it; name the picture's file with -o",
-            crate::physics::foreign::path(&file)
+            foreign::path(&file)
         );
         return Err(Error::usage(why));
     }
@@ -150,10 +148,9 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     let text = render_text(&picture.row, &adapter);
     let json = Report::new(command, vec![picture.row]).with_device(Some(adapter));
     let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
-    output.remarks.push(format!(
-        "{}: drawn, truth, error",
-        crate::physics::foreign::path(&file)
-    ));
+    output
+        .remarks
+        .push(format!("{}: drawn, truth, error", foreign::path(&file)));
     Ok(output)
 }
 
@@ -163,19 +160,16 @@ fn check(flags: &RenderFlags) -> Result<(), Error> {
         value,
         allowed: allowed.to_owned(),
     };
-    if !SIZES.contains(&flags.size) {
-        let allowed = "is 16 to 2048 pixels a side";
-        return Err(out_of_range("size", flags.size.to_string(), allowed).into());
+    let (size, exposure) = (flags.size, flags.exposure);
+    if !SIZES.contains(&size) {
+        return Err(out_of_range("size", size.to_string(), "is 16 to 2048 pixels a side").into());
     }
-    if !STOPS.contains(&flags.exposure) {
-        let allowed = "is -16 to 16 stops";
-        return Err(out_of_range("exposure", flags.exposure.to_string(), allowed).into());
+    if !STOPS.contains(&exposure) {
+        return Err(out_of_range("exposure", exposure.to_string(), "is -16 to 16 stops").into());
     }
     if flags.ldr && !flags.name.is_under_the_sky() {
-        let why = format!(
-            "{} has no environment to clamp; leave --ldr out",
-            flags.name.name
-        );
+        let name = flags.name.name;
+        let why = format!("{name} has no environment to clamp; leave --ldr out");
         return Err(Error::usage(why));
     }
     Ok(())
@@ -189,7 +183,7 @@ fn is_exr(file: &Path) -> Result<bool, Error> {
         Some("png") => Ok(false),
         _ => Err(Error::usage(format!(
             "-o {}: the picture's name ends in .png or .exr",
-            crate::physics::foreign::path(&file)
+            foreign::path(&file)
         ))),
     }
 }
@@ -218,7 +212,7 @@ fn environment(file: Option<&Path>) -> Result<Environment, Error> {
     };
     let bytes = source::picture(file)?;
     Environment::read(&bytes, Space::Srgb)
-        .map_err(|fault| Error::usage(format!("{}: {fault}", crate::physics::foreign::path(file))))
+        .map_err(|fault| Error::usage(format!("{}: {fault}", foreign::path(file))))
 }
 
 fn lacking(why: impl ToString) -> Error {

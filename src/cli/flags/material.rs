@@ -128,6 +128,18 @@ impl MaterialFlags {
         self.material.iter().flat_map(|list| &list.0)
     }
 
+    /// The same, with the whole catalogue where none is named. `none` is refused in these words.
+    ///
+    /// # Errors
+    /// As for [`MaterialFlags::materials`], and `none`.
+    pub fn materials_or_all(&self, why_some: &str) -> Result<Materials, Error> {
+        match self.materials()? {
+            Materials::Default => Ok(Materials::All),
+            Materials::None => Err(Error::usage(why_some)),
+            named => Ok(named),
+        }
+    }
+
     /// The materials, read if they are files.
     ///
     /// # Errors

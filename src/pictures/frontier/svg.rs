@@ -306,27 +306,21 @@ fn beside(left: f64, middle: f64, width: f64, height: f64) -> Area {
 /// The candidates for a place: right, left, above and below, then the same farther off.
 fn candidates((x, y): (f64, f64), width: f64, height: f64) -> impl Iterator<Item = LabelPlace> {
     let near = DOT + GAP;
+    // The shift of the left end and of the middle, and the direction in which further rings lie.
     let sides = [
-        (near, 0.0),
-        (-near - width, 0.0),
-        (-width / 2.0, -near - height / 2.0),
-        (-width / 2.0, near + height / 2.0),
-        (near, -height),
-        (near, height),
-        (-near - width, -height),
-        (-near - width, height),
+        (near, 0.0, 1.0),
+        (-near - width, 0.0, -1.0),
+        (-width / 2.0, -near - height / 2.0, 0.0),
+        (-width / 2.0, near + height / 2.0, 0.0),
+        (near, -height, 1.0),
+        (near, height, 1.0),
+        (-near - width, -height, -1.0),
+        (-near - width, height, -1.0),
     ];
     (0..6).flat_map(move |ring| {
         let further = 1.0 + 0.9 * f64::from(ring);
-        sides.into_iter().map(move |(dx, dy)| {
-            let shift = f64::from(ring) * height;
-            let dx = if dx > 0.0 {
-                dx + shift
-            } else if dx <= -near - width {
-                dx - shift
-            } else {
-                dx
-            };
+        sides.into_iter().map(move |(dx, dy, sign)| {
+            let dx = dx + sign * (f64::from(ring) * height);
             let (left, middle) = (x + dx, y + dy * further);
             LabelPlace {
                 left,

@@ -8,6 +8,7 @@ use naga::{GlobalVariable, Handle, Module};
 use serde::Serialize;
 
 use crate::generator::emit::validate_wgsl;
+use crate::pictures::scene::GLES_CALLS;
 
 /// The translation failed: a bug.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -41,9 +42,6 @@ pub struct LoweredTexture {
     /// The binding of the sampler, if there is one.
     pub sampler: Option<u32>,
 }
-
-/// The name of the frame's block in fragment shaders.
-pub const FRAGMENT_FRAME: &str = "_group_0_binding_0_fs";
 
 /// Stands in for the calls of a method until one is chosen. It reads the frame, as they do.
 pub const STAND_IN: &str = "
@@ -99,10 +97,10 @@ pub fn lowered(
     }
     kept += rest;
     let (before, after) = kept.split_at(first.unwrap_or(kept.len()));
-    if calls && !before.contains(&format!(" {FRAGMENT_FRAME};")) {
-        return Err(LoweringFault(format!(
-            "{entry} calls a method, and has no {FRAGMENT_FRAME}"
-        )));
+    let frame = GLES_CALLS.frame;
+    if calls && !before.contains(&format!(" {frame};")) {
+        let why = format!("{entry} calls a method, and has no {frame}");
+        return Err(LoweringFault(why));
     }
     Ok(GlesProgram {
         before: before.to_owned(),

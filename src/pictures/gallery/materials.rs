@@ -100,7 +100,6 @@ pub fn numbers(subjects: &[MaterialInMedium], data: &ChartData) -> Vec<MaterialN
 
 fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
     let optical = OpticalMaterial::of_surface(&subject.reference.surface);
-    let single = |numbers: glam::DVec3| numbers.to_array().map(|value| value as f32);
     let set = data.sets.iter().find(|set| set.name == subject.argument);
     let (mut inputs, mut errors) = (BTreeMap::new(), BTreeMap::new());
     for method in shown_methods().filter(|method| subject.is_described_by(method)) {
@@ -112,9 +111,9 @@ fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
     MaterialNumbers {
         name: subject.name.clone(),
         summary: subject.material.summary.clone(),
-        n: single(optical.n),
-        k: single(optical.k),
-        absorption: single(optical.absorption()),
+        n: optical.n.as_vec3().to_array(),
+        k: optical.k.as_vec3().to_array(),
+        absorption: optical.absorption().as_vec3().to_array(),
         inputs,
         errors,
     }

@@ -9,7 +9,7 @@ use crate::pictures::scene::{
 };
 
 /// Positions around the body: every 5 degrees.
-pub const AZIMUTHS: usize = 72;
+const AZIMUTHS: usize = 72;
 /// Elevations relative to the row's own, in degrees.
 const STEPS: [f64; 7] = [-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0];
 /// The index of the row's own elevation among them.
@@ -45,10 +45,6 @@ pub struct Orbit {
 impl Orbit {
     /// The index of a row's orbit among these. A new orbit is appended.
     pub fn of(row: &RenderRow, orbits: &mut Vec<Orbit>) -> usize {
-        if let Some(receiver) = row.receiver {
-            orbits.push(Orbit::of_light(row, receiver));
-            return orbits.len() - 1;
-        }
         let size = row.body.radius();
         let mut views = Vec::new();
         for pass in row.passes {
@@ -56,12 +52,17 @@ impl Orbit {
                 views.push(pass.view);
             }
         }
-        let is_same =
-            |orbit: &Orbit| (orbit.eye, orbit.size, &orbit.views) == (row.eye, size, &views);
+        let is_same = |orbit: &Orbit| {
+            row.receiver.is_none()
+                && (orbit.eye, orbit.size, &orbit.views) == (row.eye, size, &views)
+        };
         if let Some(place) = orbits.iter().position(is_same) {
             return place;
         }
-        orbits.push(Orbit::new(row.eye, size, views));
+        orbits.push(match row.receiver {
+            Some(receiver) => Orbit::of_light(row, receiver),
+            None => Orbit::new(row.eye, size, views),
+        });
         orbits.len() - 1
     }
 
@@ -99,13 +100,12 @@ impl Orbit {
                 }
             }
         }
+        let elevations = (0..STEPS.len()).map(|step| elevation(eye, step).round());
         Orbit {
             eye,
             size,
             azimuths: AZIMUTHS,
-            elevations: (0..STEPS.len())
-                .map(|step| elevation(eye, step).round())
-                .collect(),
+            elevations: elevations.collect(),
             first: OWN,
             blocks: Packed::floats(&numbers),
             numbers: INPUTS_AT,
@@ -127,7 +127,7 @@ fn elevation(eye: [f64; 3], step: usize) -> f64 {
 }
 
 /// The eye's position on its own orbit.
-pub fn eye_at(eye: [f64; 3], step: usize, azimuth: usize) -> DVec3 {
+fn eye_at(eye: [f64; 3], step: usize, azimuth: usize) -> DVec3 {
     let own = DVec3::from_array(eye);
     if (step, azimuth) == (OWN, 0) {
         return own;

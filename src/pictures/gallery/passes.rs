@@ -42,14 +42,11 @@ pub struct GalleryPass {
 
 /// The passes of a row with this orbit.
 pub fn passes_of(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
-    match row.receiver {
-        Some(_) => light_passes(row),
-        None => row
-            .passes
-            .iter()
-            .map(|pass| seen_pass(row, pass, orbit))
-            .collect(),
+    if row.receiver.is_some() {
+        return light_passes(row);
     }
+    let passes = row.passes.iter();
+    passes.map(|pass| seen_pass(row, pass, orbit)).collect()
 }
 
 /// The passes of light that falls through a body onto a receiver: both sides of the body, photons, and the triangles between
@@ -69,10 +66,8 @@ fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
         writes: names(&writes),
         reads: names(&[SKY]),
     };
-    let (front, back) = (
-        ["FrontPositions", "FrontNormals"],
-        ["BackPositions", "BackNormals"],
-    );
+    let front = ["FrontPositions", "FrontNormals"];
+    let back = ["BackPositions", "BackNormals"];
     let photons = ["PhotonPlaces", "PhotonEnergies"];
     let drawn = |vertex, fragment, count, of: [&str; 2]| GalleryPass {
         vertex,
@@ -167,24 +162,23 @@ pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error
             }
         }
     }
-    all.into_values().map(|emitted| written(&emitted)).collect()
-}
-
-fn written(emitted: &EmittedFunction) -> Result<FunctionTexts, emit::Error> {
-    let text = |target: &str| {
-        let target = targets::find(target).expect("a target");
-        effect_function_text(target, emitted)
+    let written = |(name, emitted): (String, EmittedFunction)| {
+        let text = |target: &str| {
+            let target = targets::find(target).expect("a target");
+            effect_function_text(target, &emitted)
+        };
+        Ok(FunctionTexts {
+            name,
+            wgsl: text("wgsl")?,
+            gles: text("gles")?,
+            hlsl: text("hlsl")?,
+        })
     };
-    Ok(FunctionTexts {
-        name: emitted.name.clone(),
-        wgsl: text("wgsl")?,
-        gles: text("gles")?,
-        hlsl: text("hlsl")?,
-    })
+    all.into_iter().map(written).collect()
 }
 
 /// The text of the pass that shows the panels.
-pub const SHOW: &str = include_str!("show.wgsl");
+const SHOW: &str = include_str!("show.wgsl");
 
 /// The programs of that pass.
 #[derive(Clone, Debug, Serialize)]

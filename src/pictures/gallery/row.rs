@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
+use super::lower::{GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::materials::shown_methods;
 use super::orbit::Orbit;
 use super::passes::{GalleryPass, passes_of};
@@ -15,7 +15,7 @@ use crate::language::effects::Reflectance;
 use crate::language::methods::{Class, Method};
 use crate::language::targets;
 use crate::physics::materials::MaterialKind;
-use crate::pictures::scene::{self, FRAME, PassRow, RenderRow, RowText};
+use crate::pictures::scene::{self, FRAME, GLES_CALLS, PassRow, RenderRow, RowText, WGSL_CALLS};
 
 /// A row of the gallery.
 #[derive(Clone, Debug, Serialize)]
@@ -127,9 +127,8 @@ impl GalleryRow {
             })
         };
         let programs: Result<Vec<ProgramPair>, LoweringFault> = passes.iter().map(pair).collect();
-        let calls = methods_of(row)
-            .into_iter()
-            .map(|method| method_calls(row, method));
+        let methods = methods_of(row).into_iter();
+        let calls = methods.map(|method| method_calls(row, method));
         Ok(GalleryRow {
             name: row.name,
             summary: row.summary,
@@ -178,8 +177,8 @@ fn method_calls(
     Ok(MethodCalls {
         method: method.name,
         functions: functions.into_iter().map(|one| one.name).collect(),
-        wgsl: text.calls()?,
-        gles: text.calls_in_gles(FRAGMENT_FRAME)?,
+        wgsl: text.calls(&WGSL_CALLS)?,
+        gles: text.calls(&GLES_CALLS)?,
         exit: (asks_for_exit && exit != method.name).then_some(exit),
     })
 }

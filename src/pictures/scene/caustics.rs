@@ -10,7 +10,7 @@ use super::table::find;
 use super::texels::square_means;
 use super::text::RowText;
 use crate::lab::fault::Fault;
-use crate::lab::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
+use crate::lab::gpu::{Depth, Device, Draw, Image, Offscreen};
 use crate::physics::optics;
 
 /// A window of the receiver.
@@ -96,13 +96,20 @@ pub fn caustics(
         };
         let block = light.numbers(&material, inputs);
         let uniforms: Vec<u8> = block.into_iter().flat_map(f32::to_ne_bytes).collect();
-        let light = Light {
-            offscreen: &offscreen,
-            ball: &ball,
+        let sides = Draw {
             text: &text,
+            vertex: "vs_body",
+            fragment: "fs_side",
             uniforms: &uniforms,
+            images: &[],
+            mesh: Ok(&ball),
+            targets: &[],
+            clears: true,
+            depth: Depth::Nearest,
+            adds: false,
         };
-        let (map, landed) = light.gathered(side, window.pixels * finer, gathering)?;
+        let samples = window.pixels * finer;
+        let (map, landed) = gathered(&offscreen, &sides, (side, samples), gathering)?;
         for (sum, one) in sum.iter_mut().zip(square_means(&map, finer as usize)) {
             *sum += share * one;
         }
@@ -111,73 +118,53 @@ pub fn caustics(
     Ok((sum, hits))
 }
 
-/// What the draws of a picture have in common.
-struct Light<'a> {
-    offscreen: &'a Offscreen,
-    ball: &'a Mesh,
-    text: &'a str,
-    uniforms: &'a [u8],
-}
-
-impl Light<'_> {
-    /// The irradiance at this many samples a side of the receiver, and the share of the photons on the ball that land.
-    fn gathered(
-        &self,
-        photons: u32,
-        samples: u32,
-        gathering: Gathering,
-    ) -> Result<(Vec<f64>, f64), Fault> {
-        let target = |side: u32| self.offscreen.target(side, side);
-        let pair = |side: u32| Ok::<_, Fault>([target(side)?, target(side)?]);
-        let (front, back) = (pair(photons)?, pair(BACK)?);
-        // Positions and normals of the side of the ball that is nearest to the light, and of the one that is farthest from it.
-        for (side, depth) in [(&front, Depth::Nearest), (&back, Depth::Farthest)] {
-            self.offscreen.draw(&Draw {
-                mesh: Ok(self.ball),
-                targets: &[&side[0], &side[1]],
-                depth,
-                ..self.pass("vs_body", "fs_side")
-            })?;
-        }
-        let nothing = self.offscreen.upload([1, 1, 1], &[[0.0; 4]])?;
-        let landed = pair(photons)?;
-        self.offscreen.draw(&Draw {
-            images: &[&nothing, &front[0], &front[1], &back[0], &back[1]],
-            targets: &[&landed[0], &landed[1]],
-            ..self.pass("vs_cover", "fs_photon")
+/// The irradiance at this many samples a side of the receiver, and the share of the photons on the ball that land. `sides` draws
+/// positions and normals of the side of the ball that is nearest to the light.
+fn gathered(
+    offscreen: &Offscreen,
+    sides: &Draw,
+    (photons, samples): (u32, u32),
+    gathering: Gathering,
+) -> Result<(Vec<f64>, f64), Fault> {
+    let target = |side: u32| offscreen.target(side, side);
+    let pair = |side: u32| Ok::<_, Fault>([target(side)?, target(side)?]);
+    let (front, back) = (pair(photons)?, pair(BACK)?);
+    for (side, depth) in [(&front, Depth::Nearest), (&back, Depth::Farthest)] {
+        offscreen.draw(&Draw {
+            targets: &[&side[0], &side[1]],
+            depth,
+            ..*sides
         })?;
-        let map = target(samples)?;
-        self.offscreen.draw(&Draw {
-            images: &[&nothing, &landed[0], &landed[1], &back[0], &back[1]],
-            mesh: Err((gathering.vertices)(photons)),
-            targets: &[&map],
-            adds: true,
-            ..self.pass(gathering.vertex, gathering.fragment)
-        })?;
-        let count = |image: &Image| -> Result<f64, Fault> {
-            let texels = self.offscreen.read(image)?;
-            Ok(texels.iter().filter(|texel| texel[3] > 0.0).count() as f64)
-        };
-        let hits = count(&landed[0])? / count(&front[0])?.max(1.0);
-        let map = self.offscreen.read(&map)?;
-        Ok((map.iter().map(|sample| sample[0].into()).collect(), hits))
     }
-
-    /// A pass over all pixels.
-    fn pass<'a>(&'a self, vertex: &'a str, fragment: &'a str) -> Draw<'a> {
-        Draw {
-            text: self.text,
-            vertex,
-            fragment,
-            uniforms: self.uniforms,
-            images: &[],
-            mesh: Err(3),
-            targets: &[],
-            clears: true,
-            depth: Depth::Unused,
-            adds: false,
-        }
-    }
+    let nothing = offscreen.upload([1, 1, 1], &[[0.0; 4]])?;
+    let landed = pair(photons)?;
+    offscreen.draw(&Draw {
+        vertex: "vs_cover",
+        fragment: "fs_photon",
+        images: &[&nothing, &front[0], &front[1], &back[0], &back[1]],
+        mesh: Err(3),
+        targets: &[&landed[0], &landed[1]],
+        depth: Depth::Unused,
+        ..*sides
+    })?;
+    let map = target(samples)?;
+    offscreen.draw(&Draw {
+        vertex: gathering.vertex,
+        fragment: gathering.fragment,
+        images: &[&nothing, &landed[0], &landed[1], &back[0], &back[1]],
+        mesh: Err((gathering.vertices)(photons)),
+        targets: &[&map],
+        depth: Depth::Unused,
+        adds: true,
+        ..*sides
+    })?;
+    let count = |image: &Image| -> Result<f64, Fault> {
+        let texels = offscreen.read(image)?;
+        Ok(texels.iter().filter(|texel| texel[3] > 0.0).count() as f64)
+    };
+    let hits = count(&landed[0])? / count(&front[0])?.max(1.0);
+    let map = offscreen.read(&map)?;
+    Ok((map.iter().map(|sample| sample[0].into()).collect(), hits))
 }
 
 /// The rings of the ball's disc, and the samples on an eighth of each. Where rings land far apart, they are split so that at

@@ -145,11 +145,9 @@ fn hdr(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
 fn numbers_of_hdr(header: &HdrMetadata) -> Result<Numbers, String> {
     let mut primaries = None;
     for (key, value) in &header.custom_attributes {
-        let numbers = || {
-            let numbers = value.split_whitespace().map(str::parse::<f64>);
-            numbers.collect::<Result<Vec<f64>, _>>().ok()
-        };
-        match (key.as_str(), numbers().as_deref()) {
+        let numbers = value.split_whitespace().map(str::parse);
+        let numbers: Option<Vec<f64>> = numbers.collect::<Result<_, _>>().ok();
+        match (key.as_str(), numbers.as_deref()) {
             ("PRIMARIES", Some(&[a, b, c, d, e, f, g, h])) => {
                 primaries = Some(([[a, b], [c, d], [e, f]], [g, h]));
             }
@@ -193,22 +191,18 @@ fn exr(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
         image::load_from_memory_with_format(bytes, ImageFormat::OpenExr).map_err(in_words)?;
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
     let meta = meta.map_err(|why| why.to_string())?;
+    let first = meta.headers.first();
     // A file that is cropped or extends beyond the edges is no whole sphere.
     let is_whole =
         |header: &Header| header.data_window() == header.shared_attributes.display_window;
-    if !meta.headers.first().is_none_or(is_whole) {
+    if !first.is_none_or(is_whole) {
         return Err("its data window is not its display window, so that the picture is cropped or has overscan; save it whole".to_owned());
     }
-    let stated = meta
-        .headers
-        .first()
-        .and_then(|header| header.shared_attributes.chromaticities);
+    let stated = first.and_then(|header| header.shared_attributes.chromaticities);
     let primaries = stated.map(|stated| {
         let place = |at: exr::prelude::Vec2<f32>| [f64::from(at.0), f64::from(at.1)];
-        (
-            [stated.red, stated.green, stated.blue].map(place),
-            place(stated.white),
-        )
+        let rgb = [stated.red, stated.green, stated.blue];
+        (rgb.map(place), place(stated.white))
     });
     Ok((picture, Numbers::new(Curve::Linear, primaries)))
 }
@@ -225,15 +219,11 @@ fn png(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
     let stated = stated_by_png(reader.info())?;
     let decoder = PngDecoder::new(Cursor::new(bytes)).map_err(in_words)?;
     let (picture, profile) = upright(decoder)?;
-    let is_opaque = !picture.color().has_alpha()
-        || picture.to_rgba32f().pixels().all(|pixel| pixel.0[3] == 1.0);
-    if !is_opaque {
+    let is_seen_through = |pixel: &image::Rgba<f32>| pixel.0[3] != 1.0;
+    if picture.color().has_alpha() && picture.to_rgba32f().pixels().any(is_seen_through) {
         return Err("it has transparent pixels, and light has no alpha; fill them".to_owned());
     }
-    let numbers = match stated {
-        Some(numbers) => numbers,
-        None => of_profile(profile.as_deref())?,
-    };
+    let numbers = stated.map_or_else(|| of_profile(profile.as_deref()), Ok)?;
     Ok((picture, numbers))
 }
 
@@ -303,10 +293,8 @@ fn stated_by_png(info: &png::Info) -> Result<Option<Numbers>, String> {
         let place = |at: (png::ScaledFloat, png::ScaledFloat)| {
             [at.0, at.1].map(|x| f64::from(x.into_scaled()) / 1e5)
         };
-        (
-            [stated.red, stated.green, stated.blue].map(place),
-            place(stated.white),
-        )
+        let rgb = [stated.red, stated.green, stated.blue];
+        (rgb.map(place), place(stated.white))
     });
     let curve = match info.gama_chunk.map(png::ScaledFloat::into_scaled) {
         // Writers of sRGB state 45 455 beside it; 0 states nothing.

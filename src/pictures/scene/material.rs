@@ -47,32 +47,30 @@ impl OpticalMaterial {
     pub fn of_surface(surface: &Surface) -> OpticalMaterial {
         let weights = &surface.integrator.weights;
         let sum: DVec3 = weights.iter().sum();
+        let weighted = || surface.indices.iter().zip(weights);
         let mean = |of: fn(&Index) -> f64| -> DVec3 {
-            let weighted = surface.indices.iter().zip(weights);
-            weighted
+            weighted()
                 .map(|(index, weight)| of(index) * *weight / sum)
                 .sum()
         };
-        let samples = surface.indices.iter().zip(weights);
-        let samples = samples.map(|(index, weight)| SpectralSample {
+        let samples = weighted().map(|(index, weight)| SpectralSample {
             index: *index,
             weight: *weight / sum,
         });
-        let mut material = OpticalMaterial {
-            samples: samples.collect(),
-            n: mean(|index| index.n),
-            k: mean(|index| index.k),
-        };
+        let (mut n, mut k) = (mean(|index| index.n), mean(|index| index.k));
         if surface.most_k() > TRANSPARENT_K {
             // The index whose colours match the metal's own at two angles. The means of a curved spectrum have other colours.
-            let colours = [1.0, COS_82]
+            let [f0, f82] = [1.0, COS_82]
                 .map(|cosine| surface.unpolarised(cosine).clamp(DVec3::ZERO, DVec3::ONE));
-            let pairs = colours[0].to_array().into_iter().zip(colours[1].to_array());
-            let found: Vec<_> = pairs.map(|(f0, f82)| index_from_f0_f82(f0, f82)).collect();
-            material.n = DVec3::new(found[0].n, found[1].n, found[2].n);
-            material.k = DVec3::new(found[0].k, found[1].k, found[2].k);
+            let found = [0, 1, 2].map(|i| index_from_f0_f82(f0[i], f82[i]));
+            n = DVec3::from_array(found.map(|index| index.n));
+            k = DVec3::from_array(found.map(|index| index.k));
         }
-        material
+        OpticalMaterial {
+            samples: samples.collect(),
+            n,
+            k,
+        }
     }
 
     /// Without dispersion, at green's index.

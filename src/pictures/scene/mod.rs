@@ -40,7 +40,7 @@ pub use picture::{
 pub use room::{ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
 pub use table::{ALL, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, View, find};
 pub use texels::{Slot, Texels};
-pub use text::{FRAME, INPUTS, RowText};
+pub use text::{FRAME, GLES_CALLS, INPUTS, RowText, WGSL_CALLS};
 pub use trace::{Things, trace};
 
 /// Samples of a pixel along each side, in the drawn picture and in its truth.

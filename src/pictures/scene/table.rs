@@ -21,10 +21,7 @@ const BACK: PassRow = PassRow {
     ..SKY
 };
 /// The body over the sky, seen through its back.
-const THROUGH: PassRow = PassRow {
-    reads: &[Slot::BackPositions, Slot::BackNormals],
-    ..FRONT
-};
+const THROUGH: PassRow = front(&[Slot::BackPositions, Slot::BackNormals]);
 
 /// The body over the sky, by its front alone.
 pub const FRONT: PassRow = PassRow {
@@ -32,6 +29,11 @@ pub const FRONT: PassRow = PassRow {
     surface: DrawnSurface::Front,
     ..SKY
 };
+
+/// The body over the sky, with these tables.
+const fn front(reads: &'static [Slot]) -> PassRow {
+    PassRow { reads, ..FRONT }
+}
 
 const FROM_THE_SIDE: [f64; 3] = [0.0, 0.75, 2.9];
 const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
@@ -155,10 +157,7 @@ pub static ALL: &[RenderRow] = &[
                 reads: &[Slot::Relief],
                 ..BACK
             },
-            PassRow {
-                reads: &[Slot::BackPositions, Slot::BackNormals, Slot::Relief],
-                ..FRONT
-            },
+            front(&[Slot::BackPositions, Slot::BackNormals, Slot::Relief]),
         ],
         dents: Some(0.12),
         wrong: "light that is reflected inside is missing; dents do not hide each other, here and in the truth",
@@ -225,13 +224,7 @@ pub static ALL: &[RenderRow] = &[
         summary: "A hammered ball of silver by a normal map",
         effects: &["interface", "normal_mapping"],
         text: include_str!("passes/normal_mapped.wgsl"),
-        passes: &[
-            SKY,
-            PassRow {
-                reads: &[Slot::Relief],
-                ..FRONT
-            },
-        ],
+        passes: &[SKY, front(&[Slot::Relief])],
         material: "silver",
         dents: Some(0.35),
         wrong: "dents cast no shadow and do not mirror each other, here and in the truth",
@@ -248,10 +241,7 @@ pub static ALL: &[RenderRow] = &[
                 reads: &[Slot::Room],
                 ..SKY
             },
-            PassRow {
-                reads: &[Slot::Room],
-                ..FRONT
-            },
+            front(&[Slot::Room]),
         ],
         material: "silver",
         in_room: true,
@@ -277,13 +267,7 @@ pub static ALL: &[RenderRow] = &[
         summary: "A rose window: tinted panes with a normal map, before the sky",
         effects: &["interface", "interior", "normal_mapping"],
         text: include_str!("passes/stained_glass.wgsl"),
-        passes: &[
-            SKY,
-            PassRow {
-                reads: &[Slot::Paint, Slot::Relief],
-                ..FRONT
-            },
-        ],
+        passes: &[SKY, front(&[Slot::Paint, Slot::Relief])],
         body: Body::Window,
         material: "soda_lime_glass",
         eye: BEFORE_THE_WINDOW,

@@ -22,41 +22,43 @@ pub const INPUTS: usize = 8;
 /// The declarations that every pass sees.
 pub const FRAME: &str = include_str!("passes/frame.wgsl");
 
-/// The syntax of the language that calls are written in.
+/// How calls are written in a language.
 #[derive(Clone, Copy, Debug)]
-struct Words {
+pub struct CallSyntax {
+    /// The name of the frame's block.
+    pub frame: &'static str,
     scalar: &'static str,
     vector: &'static str,
     /// Whether types stand before names.
     type_first: bool,
 }
 
-const WGSL: Words = Words {
+/// WGSL.
+pub const WGSL_CALLS: CallSyntax = CallSyntax {
+    frame: "frame",
     scalar: "f32",
     vector: "vec3<f32>",
     type_first: false,
 };
-const GLES: Words = Words {
+/// GLSL ES, where naga names the block.
+pub const GLES_CALLS: CallSyntax = CallSyntax {
+    frame: "_group_0_binding_0_fs",
     scalar: "float",
     vector: "vec3",
     type_first: true,
 };
 
-impl Words {
+impl CallSyntax {
     fn head(&self, name: &str, arguments: &[(&str, &str)], result: &str) -> String {
-        let each = |(name, ty): &(&str, &str)| {
-            if self.type_first {
-                format!("{ty} {name}")
-            } else {
-                format!("{name}: {ty}")
-            }
+        let each = |(name, ty): &(&str, &str)| match self.type_first {
+            true => format!("{ty} {name}"),
+            false => format!("{name}: {ty}"),
         };
         let arguments: Vec<String> = arguments.iter().map(each).collect();
         let arguments = arguments.join(", ");
-        if self.type_first {
-            format!("{result} {name}({arguments})")
-        } else {
-            format!("fn {name}({arguments}) -> {result}")
+        match self.type_first {
+            true => format!("{result} {name}({arguments})"),
+            false => format!("fn {name}({arguments}) -> {result}"),
         }
     }
 }
@@ -94,12 +96,12 @@ impl RowText {
     /// # Errors
     /// A graph breaks a rule: a bug.
     pub fn called_functions(&self) -> Result<Vec<EmittedFunction>, emit::Error> {
-        let mut called = vec![self.entry_function()?];
+        let mut called = vec![self.surface_function("interface")?];
         if self.leaves_a_body() {
             called.push(self.exit_function()?);
         }
         if self.is_rough() {
-            called.insert(0, self.rough_function()?);
+            called.insert(0, self.surface_function("ggx_specular")?);
         }
         Ok(called)
     }
@@ -112,11 +114,6 @@ impl RowText {
     /// Whether a rough surface reflects light, so that passes need its BRDF.
     pub fn is_rough(&self) -> bool {
         self.row.effects.contains(&"ggx_specular")
-    }
-
-    fn rough_function(&self) -> Result<EmittedFunction, emit::Error> {
-        let each = Reflectance::EachChannel;
-        function("ggx_specular", self.method, each, self.is_scalar())
     }
 
     /// Whether the method has one value for all channels where light passes through the body.
@@ -135,94 +132,65 @@ impl RowText {
         }
     }
 
-    /// The function of R where light enters the body.
-    ///
-    /// # Errors
-    /// A graph breaks a rule: a bug.
-    pub fn entry_function(&self) -> Result<EmittedFunction, emit::Error> {
-        function(
-            "interface",
-            self.method,
-            Reflectance::EachChannel,
-            self.is_scalar(),
-        )
+    /// The function of an effect that takes R of the body's surface from outside.
+    fn surface_function(&self, effect: &str) -> Result<EmittedFunction, emit::Error> {
+        let each = Reflectance::EachChannel;
+        function(effect, self.method, each, self.is_scalar())
     }
 
     fn exit_function(&self) -> Result<EmittedFunction, emit::Error> {
-        function(
-            "interior",
-            self.exit_method(),
-            Reflectance::FromWithin,
-            true,
-        )
+        let within = Reflectance::FromWithin;
+        function("interior", self.exit_method(), within, true)
     }
 
-    /// The text of `reflectance` and `transmittance_out` in WGSL.
+    /// The text of `reflectance` and `transmittance_out` in a language.
     ///
     /// # Errors
     /// A graph breaks a rule: a bug.
-    pub fn calls(&self) -> Result<String, emit::Error> {
-        self.calls_in(&WGSL, "frame")
-    }
-
-    /// The same in GLSL ES, where the frame's block has this name.
-    ///
-    /// # Errors
-    /// A graph breaks a rule: a bug.
-    pub fn calls_in_gles(&self, frame: &str) -> Result<String, emit::Error> {
-        self.calls_in(&GLES, frame)
-    }
-
-    fn calls_in(&self, words: &Words, frame: &str) -> Result<String, emit::Error> {
-        let Words { scalar, vector, .. } = *words;
+    pub fn calls(&self, syntax: &CallSyntax) -> Result<String, emit::Error> {
+        let CallSyntax { scalar, vector, .. } = *syntax;
         let rays = [("incident", vector), ("normal", vector)];
-        let head = words.head("reflectance", &rays, vector);
-        let call = self.call(words, frame, &self.entry_function()?, &rays);
-        let mut text = format!(
-            "\n// R by {}\n{head} {{\n    return {call};\n}}\n",
-            self.method.name
-        );
+        let head = syntax.head("reflectance", &rays, vector);
+        let call = self.call(syntax, "interface", &rays)?;
+        let method = self.method.name;
+        let mut text = format!("\n// R by {method}\n{head} {{\n    return {call};\n}}\n");
         if self.leaves_a_body() {
-            let takes = [
-                ("direction", vector),
-                ("normal_out", vector),
-                ("eta", scalar),
-            ];
-            let head = words.head("transmittance_out", &takes, scalar);
-            let name = self.exit_function()?.name;
+            let rays = [("direction", vector), ("normal_out", vector)];
+            let takes = [rays.as_slice(), &[("eta", scalar)]].concat();
+            let head = syntax.head("transmittance_out", &takes, scalar);
+            let (name, method) = (self.exit_function()?.name, self.exit_method().name);
             text += &format!(
-                "\n// T where light leaves, by {}\n{head} {{\n    return {name}(direction, normal_out, eta);\n}}\n",
-                self.exit_method().name
+                "\n// T where light leaves, by {method}\n{head} {{\n    return {name}(direction, normal_out, eta);\n}}\n"
             );
         }
         if self.is_rough() {
             let takes = ["n_dot_v", "n_dot_l", "n_dot_h", "v_dot_h", "alpha"];
             let takes = takes.map(|name| (name, scalar));
-            let head = words.head("specular", &takes, vector);
-            let call = self.call(words, frame, &self.rough_function()?, &takes);
+            let head = syntax.head("specular", &takes, vector);
+            let call = self.call(syntax, "ggx_specular", &takes)?;
             text += &format!("\n{head} {{\n    return {call};\n}}\n");
         }
         Ok(text)
     }
 
-    /// The call of a function that needs R: its own arguments, then the method's inputs. Where it returns one value, that value
-    /// serves all channels.
+    /// The call of an effect's function that needs R: its own arguments, then the method's inputs. Where it returns one value, that
+    /// value serves all channels.
     fn call(
         &self,
-        words: &Words,
-        frame: &str,
-        function: &EmittedFunction,
+        syntax: &CallSyntax,
+        effect: &str,
         own: &[(&str, &str)],
-    ) -> String {
+    ) -> Result<String, emit::Error> {
+        let function = self.surface_function(effect)?;
         let own = own.iter().map(|(name, _)| (*name).to_owned());
         let places = self.method.inputs.iter().enumerate();
-        let inputs = places.map(|(place, input)| self.argument(frame, place, input));
+        let inputs = places.map(|(place, input)| self.argument(syntax.frame, place, input));
         let arguments: Vec<String> = own.chain(inputs).collect();
         let call = format!("{}({})", function.name, arguments.join(", "));
-        match function.function.ty() {
-            Ty::Scalar => format!("{}({call})", words.vector),
+        Ok(match function.function.ty() {
+            Ty::Scalar => format!("{}({call})", syntax.vector),
             _ => call,
-        }
+        })
     }
 
     /// Where a call reads an input: in the frame's block, with green's value where one R serves all channels. A row of the effect
@@ -256,7 +224,7 @@ impl RowText {
         for function in &functions {
             text += &effect_function_text(wgsl, function)?;
         }
-        Ok(text + FRAME + &self.calls()? + self.row.text)
+        Ok(text + FRAME + &self.calls(&WGSL_CALLS)? + self.row.text)
     }
 
     /// The values of the method's inputs, in the layout of the block.

@@ -9,7 +9,7 @@ use fresnel_gen::physics::spectra::Space;
 use fresnel_gen::pictures::gallery::{
     FunctionTexts, Gallery, GalleryRow, gallery, methods_of, rows,
 };
-use fresnel_gen::pictures::scene::{FRAME, RowText};
+use fresnel_gen::pictures::scene::{FRAME, RowText, WGSL_CALLS};
 
 fn made() -> Gallery {
     gallery(&subjects()[..1], Space::Srgb, &mut |_, _, _| {}).expect("it is made")
@@ -79,7 +79,7 @@ fn functions_stand_in_programs_byte_for_byte() {
             let module = module(row, method.name, &wgsl);
             let faults = validate_wgsl(&module).err();
             assert_eq!(faults, None, "{} by {}", row.name, method.name);
-            assert!(module.contains(&text.calls().unwrap()));
+            assert!(module.contains(&text.calls(&WGSL_CALLS).unwrap()));
             for pass in 0..row.passes.len() {
                 let fragment = fragment(row, pass, method.name, &gles);
                 for (name, text) in &gles {

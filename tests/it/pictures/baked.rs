@@ -6,7 +6,7 @@ use half::f16;
 use serde_json::Value;
 
 use super::Fact;
-use super::Shown;
+use super::PictureFile;
 use super::check_all;
 use crate::cli::Place;
 
@@ -60,7 +60,7 @@ pub struct Texels {
 }
 
 impl Texels {
-    fn new(shown: &Shown) -> Texels {
+    fn new(shown: &PictureFile) -> Texels {
         let bytes = shown.bytes();
         match shown.file.rsplit('.').next() {
             Some("png") => png_texels(&bytes),
@@ -146,7 +146,7 @@ fn ktx2_texels(bytes: &[u8]) -> Texels {
 }
 
 /// The rows that the JSON beside it tells of this file.
-fn told(shown: &Shown) -> Vec<Value> {
+fn told(shown: &PictureFile) -> Vec<Value> {
     let name = shown.file.rsplit('/').next().unwrap();
     let json = shown
         .file
@@ -162,7 +162,7 @@ fn told(shown: &Shown) -> Vec<Value> {
     own.cloned().collect()
 }
 
-fn rows_are_their_materials(shown: &Shown) {
+fn rows_are_their_materials(shown: &PictureFile) {
     let (texels, rows) = (Texels::new(shown), told(shown));
     assert_eq!(rows.len(), texels.height, "{}", shown.file);
     for row in &rows {
@@ -200,7 +200,7 @@ fn row_is_its_materials(material: &str, line: &[[f64; 3]]) {
 }
 
 /// With the first term alone, which has no factor, F is 1. A file of the fourth term holds it in every channel.
-fn white_loses_what_masking_takes(shown: &Shown) {
+fn white_loses_what_masking_takes(shown: &PictureFile) {
     let texels = Texels::new(shown);
     if shown.file.contains("_t3.") {
         let grey = |texel: &[f64; 4]| texel[0] == texel[1] && texel[1] == texel[2];

@@ -6,7 +6,7 @@ use roxmltree::Document;
 use tempfile::TempDir;
 
 use super::Fact;
-use super::Shown;
+use super::PictureFile;
 use super::check_all;
 use super::reader::Pixels;
 use super::reader::Scale;
@@ -99,7 +99,7 @@ const MIDDLE: f64 = 475.0;
 const SHADES: usize = 48;
 
 impl Read {
-    fn new(shown: &Shown) -> Read {
+    fn new(shown: &PictureFile) -> Read {
         let name = shown.name();
         let precision = if name.ends_with("_f16") {
             Precision::F16

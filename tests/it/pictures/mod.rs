@@ -28,11 +28,11 @@ struct Fact {
     /// The fact in words.
     says: &'static str,
     /// Panics where the picture does not show it.
-    holds: fn(&Shown),
+    holds: fn(&PictureFile),
 }
 
 /// A picture's file.
-struct Shown {
+struct PictureFile {
     folder: PathBuf,
     file: String,
 }
@@ -51,7 +51,7 @@ static FACTS: [&[Fact]; 8] = [
 /// What pictures are kept in. Arrays for C, Rust and JavaScript are held to the bit by the test `lut`.
 const ENDINGS: [&str; 5] = ["svg", "png", "html", "exr", "ktx2"];
 
-impl Shown {
+impl PictureFile {
     fn bytes(&self) -> Vec<u8> {
         self.beside(&self.file)
             .unwrap_or_else(|| panic!("{} is not there", self.file))
@@ -118,7 +118,7 @@ fn pictures(folder: &Path, below: &str) -> Vec<String> {
 fn check(folder: &Path, files: &[String]) {
     assert!(!files.is_empty(), "nothing was drawn");
     for file in files {
-        let shown = Shown {
+        let shown = PictureFile {
             folder: folder.to_owned(),
             file: file.clone(),
         };

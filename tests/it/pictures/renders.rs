@@ -1,7 +1,7 @@
 //! Effects as they are drawn, beside their truth: what a physicist sees in the panels of the committed pictures.
 
 use super::Fact;
-use super::Shown;
+use super::PictureFile;
 use super::reader::Pixels;
 
 pub static FACTS: &[Fact] = &[
@@ -168,7 +168,7 @@ pub static FACTS: &[Fact] = &[
     },
 ];
 
-fn one_surface_magnifies(shown: &Shown) {
+fn one_surface_magnifies(shown: &PictureFile) {
     let read = Panels::new(shown);
     assert!(read.blueness(1, BOTTOM) > read.blueness(0, BOTTOM) + 15.0);
 }
@@ -196,7 +196,7 @@ struct Panels {
 }
 
 impl Panels {
-    fn new(shown: &Shown) -> Panels {
+    fn new(shown: &PictureFile) -> Panels {
         let pixels = Pixels::new(&shown.bytes());
         let size = pixels.height;
         assert_eq!(pixels.width, 3 * size);

@@ -1,7 +1,7 @@
 //! Errors in pictures: what a physicist sees in the reflectance of an object, and in what Schlick misses.
 
 use super::Fact;
-use super::Shown;
+use super::PictureFile;
 use super::baked::exr_texels;
 use super::check_all;
 use super::reader::Pixels;
@@ -76,14 +76,14 @@ pub static FACTS: &[Fact] = &[
     },
 ];
 
-fn colours(shown: &Shown) -> Vec<[u8; 3]> {
+fn colours(shown: &PictureFile) -> Vec<[u8; 3]> {
     let pixels = Pixels::new(&shown.bytes());
     let places = (0..pixels.width * pixels.height).map(|i| (i % pixels.width, i / pixels.width));
     places.map(|(x, y)| pixels.at(x as f64, y as f64)).collect()
 }
 
 /// The least channel of the brightest pixel.
-fn brightest(shown: &Shown) -> u8 {
+fn brightest(shown: &PictureFile) -> u8 {
     let least = |colour: &[u8; 3]| colour.iter().copied().min();
     colours(shown).iter().filter_map(least).max().unwrap()
 }

@@ -3,7 +3,7 @@
 use roxmltree::{Document, Node};
 
 use super::Fact;
-use super::Shown;
+use super::PictureFile;
 use super::check_all;
 use super::reader::Pixels;
 use super::reader::Plot;
@@ -151,7 +151,7 @@ struct Swatch {
 
 impl Sheet {
     #[track_caller]
-    fn new(shown: &Shown) -> Sheet {
+    fn new(shown: &PictureFile) -> Sheet {
         Sheet::of(&shown.text())
     }
 
@@ -272,7 +272,7 @@ fn swatches(panel: Node) -> Vec<Swatch> {
 
 /// The same drawing lies beside it as SVG, whose places count.
 #[track_caller]
-fn pixels_are_the_drawing(shown: &Shown) {
+fn pixels_are_the_drawing(shown: &PictureFile) {
     let svg = String::from_utf8(shown.beside(&shown.ending("svg")).unwrap()).unwrap();
     let (sheet, pixels) = (Sheet::of(&svg), Pixels::new(&shown.bytes()));
     let scale = pixels.width as f64 / sheet.size;

@@ -3,7 +3,7 @@
 use roxmltree::Document;
 
 use super::Fact;
-use super::Shown;
+use super::PictureFile;
 use super::check_all;
 use super::reader::Plot;
 use super::reader::plots;
@@ -108,7 +108,7 @@ pub static FACTS: &[Fact] = &[
     },
 ];
 
-fn read(shown: &Shown) -> Plot {
+fn read(shown: &PictureFile) -> Plot {
     let text = shown.text();
     let document = Document::parse(&text).unwrap();
     let plot = plots(&document).remove(0);
@@ -121,7 +121,7 @@ fn read(shown: &Shown) -> Plot {
 }
 
 /// n and k as the title has them.
-fn caption(shown: &Shown) -> (f64, f64) {
+fn caption(shown: &PictureFile) -> (f64, f64) {
     let text = shown.text();
     let value = |name: &str| {
         let rest = text.split(&format!("{name} = ")).nth(1)?;

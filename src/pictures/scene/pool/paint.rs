@@ -24,8 +24,6 @@ const ABSORPTION: DVec3 = DVec3::new(0.25, 0.045, 0.027);
 /// Cells of the floor in which photons are counted, and photons along each side of a cell.
 const CELLS: [usize; 2] = [512, 384];
 const PHOTONS: usize = 3;
-/// How many times neighbouring cells are averaged, for the width of the sun.
-const BLURS: usize = 1;
 const TILE: f64 = 0.25;
 const GROUT: f64 = 0.014;
 
@@ -58,14 +56,11 @@ fn radiance(part: Part, at: DVec2, light: &Texels) -> DVec3 {
     let (place, normal) = part.in_world(at);
     let depth = (-place.y).max(0.0);
     let sky = SKY * (0.5 + 0.5 * normal.y) * dimmed(depth);
-    let cosine = normal.dot(to_sun()).max(0.0);
-    let sun = match part {
-        Part::Floor => {
-            let gathered = light.at(at).x * to_sun().y;
-            SUN * gathered * dimmed(1.2 * depth)
-        }
-        _ => SUN * cosine * dimmed(1.2 * depth),
+    let gathered = match part {
+        Part::Floor => light.at(at).x * to_sun().y,
+        _ => normal.dot(to_sun()).max(0.0),
     };
+    let sun = SUN * gathered * dimmed(1.2 * depth);
     albedo(part, at, place) * (sky + sun)
 }
 
@@ -149,18 +144,13 @@ fn post(at: DVec2, y: f64) -> DVec3 {
 }
 
 fn ball(at: DVec2) -> DVec3 {
-    const COLOURS: [DVec3; 6] = [
-        DVec3::new(0.85, 0.1, 0.08),
-        DVec3::new(0.88, 0.87, 0.84),
-        DVec3::new(0.95, 0.62, 0.05),
-        DVec3::new(0.88, 0.87, 0.84),
-        DVec3::new(0.06, 0.22, 0.6),
-        DVec3::new(0.88, 0.87, 0.84),
-    ];
-    if (0.08..0.92).contains(&at.y) {
-        COLOURS[((at.x * 6.0) as usize).min(5)]
-    } else {
-        COLOURS[1]
+    const WHITE: DVec3 = DVec3::new(0.88, 0.87, 0.84);
+    const RED: DVec3 = DVec3::new(0.85, 0.1, 0.08);
+    const YELLOW: DVec3 = DVec3::new(0.95, 0.62, 0.05);
+    const BLUE: DVec3 = DVec3::new(0.06, 0.22, 0.6);
+    match (0.08..0.92).contains(&at.y) {
+        true => [RED, WHITE, YELLOW, WHITE, BLUE, WHITE][((at.x * 6.0) as usize).min(5)],
+        false => WHITE,
     }
 }
 
@@ -170,13 +160,10 @@ fn sun_on_floor(waves: &Waves) -> Texels {
     let [along, across] = CELLS;
     let size = BASIN_MAX - BASIN_MIN;
     let row = |row: usize| -> Vec<(DVec2, f64)> {
+        let x = BASIN_MIN.x + (row as f64 + 0.5) / (across * PHOTONS) as f64 * size.x;
         let photons = (0..along * PHOTONS).filter_map(|column| {
-            let share = DVec2::new(
-                (row as f64 + 0.5) / (across * PHOTONS) as f64,
-                (column as f64 + 0.5) / (along * PHOTONS) as f64,
-            );
-            let x = BASIN_MIN.x + share.x * size.x;
-            landing(waves, DVec2::new(x, BASIN_MIN.z + share.y * size.z))
+            let z = BASIN_MIN.z + (column as f64 + 0.5) / (along * PHOTONS) as f64 * size.z;
+            landing(waves, DVec2::new(x, z))
         });
         photons.collect()
     };
@@ -193,9 +180,8 @@ fn sun_on_floor(waves: &Waves) -> Texels {
             cells[cell] += share * weight / (PHOTONS * PHOTONS) as f64;
         }
     }
-    for _ in 0..BLURS {
-        cells = blurred(&cells, along, across);
-    }
+    // For the width of the sun.
+    let cells = blurred(&cells, along, across);
     Texels::baked(CELLS, |column, row| {
         glam::DVec4::splat(cells[row * along + column])
     })
