@@ -178,7 +178,6 @@ fn chart(material: &str, curves: &[Curve], low: f64) -> LineChart {
         x: ChartAxis::angle_of_incidence(),
         y: ChartAxis::new("reflectance", [low, 1.0], 6, ""),
         series: series.collect(),
-        marks: Vec::new(),
-        foot: String::new(),
+        ..LineChart::default()
     }
 }

@@ -85,12 +85,8 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
     let key = key(view);
     layout.paragraph(&SUBTITLE, &key);
     let bottom = FRAME.height - BELOW - FOOT_ROOM;
-    let area = Area {
-        left: FRAME.margin + LEFT - 30.0,
-        top: layout.bottom + 12.0,
-        right: FRAME.right() - 8.0,
-        bottom,
-    };
+    let across = [FRAME.margin + LEFT - 30.0, FRAME.right() - 8.0];
+    let area = Area::between(across, [layout.bottom + 12.0, bottom]);
     let plane = Plane::new(&points, area);
     let mut elements = plane.axes.grid(&plane.x, &plane.y);
     elements.extend(plane.axes.tick_labels(&plane.x, &plane.y));
@@ -270,12 +266,8 @@ const GAP: f64 = 3.0;
 
 /// The area with these half sizes around a point.
 fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
-    Area {
-        left: x - half_width,
-        top: y - half_height,
-        right: x + half_width,
-        bottom: y + half_height,
-    }
+    let across = [x - half_width, x + half_width];
+    Area::between(across, [y - half_height, y + half_height])
 }
 
 /// A place for the name of each of these points, by its width and the height of all, in order, so that no name covers any of all

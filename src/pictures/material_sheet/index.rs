@@ -4,17 +4,8 @@ use crate::physics::materials::{DispersionCurve, Extrapolate};
 use crate::pictures::material_sheet::{DrawnMaterial, axis};
 use crate::pictures::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 
-const N: Look = Look {
-    colour: BLUE,
-    dashes: "",
-    width: 2.2,
-    dots: false,
-};
-const K: Look = Look {
-    colour: VERMILION,
-    dashes: "9 4",
-    ..N
-};
+const N: Look = Look::new(BLUE, "", 2.2);
+const K: Look = Look::new(VERMILION, "9 4", 2.2);
 /// Dashes of lines that only join points.
 const JOINT: &str = "2 5";
 /// A k below this is not distinguished from 0 in a chart with n.
@@ -57,8 +48,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
         x: axis::wavelength_axis(range),
         y,
         series,
-        marks: Vec::new(),
-        foot: String::new(),
+        ..LineChart::default()
     }
 }
 

@@ -48,8 +48,7 @@ pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
         x: axis::wavelength_axis(range),
         y: axis::reflectance(&series),
         series: series.to_vec(),
-        marks: Vec::new(),
-        foot: String::new(),
+        ..LineChart::default()
     }
 }
 
@@ -94,19 +93,10 @@ const POINTS: u32 = 361;
 /// Red is solid below, and the others are dashed above it with one period. Where the three coincide, each still shows on a third
 /// of the line.
 const CHANNELS: [(&str, Look); 3] = [
-    ("red", look("#d5432a", "", 3.6)),
-    ("green", look(GREEN, "14 7", 2.8)),
-    ("blue", look("#1f5fd0", "7 14", 2.8)),
+    ("red", Look::new("#d5432a", "", 3.6)),
+    ("green", Look::new(GREEN, "14 7", 2.8)),
+    ("blue", Look::new("#1f5fd0", "7 14", 2.8)),
 ];
-
-const fn look(colour: &'static str, dashes: &'static str, width: f64) -> Look {
-    Look {
-        colour,
-        dashes,
-        width,
-        dots: false,
-    }
-}
 
 /// The reflected share of unpolarised light in each channel, by the exact law.
 pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
@@ -130,8 +120,7 @@ pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
         x: ChartAxis::angle_of_incidence(),
         y: axis::reflectance(&series),
         series: series.to_vec(),
-        marks: Vec::new(),
-        foot: String::new(),
+        ..LineChart::default()
     }
 }
 

@@ -131,12 +131,7 @@ fn draw(swatches: &[Swatch], frame: PanelFrame, top: f64) -> (Vec<String>, f64) 
         below.extend(TICK.wrap(&swatch.clipped().unwrap_or_default(), width - 4.0));
         elements.extend(TICK.draw(&below, middle, numbers, "middle"));
     }
-    let outline = Area {
-        left,
-        top: colours,
-        right: frame.right(),
-        bottom: colours + height,
-    };
+    let outline = Area::between([left, frame.right()], [colours, colours + height]);
     elements.push(outline.outline());
     (elements, numbers + LINES_BELOW * TICK.leading)
 }

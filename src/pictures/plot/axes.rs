@@ -51,6 +51,16 @@ pub struct Axes {
 }
 
 impl Area {
+    /// The rectangle between these edges.
+    pub fn between([left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> Area {
+        Area {
+            left,
+            top,
+            right,
+            bottom,
+        }
+    }
+
     /// Whether the interiors of two areas overlap.
     pub fn meets(&self, other: &Area) -> bool {
         let across = self.left < other.right && other.left < self.right;
@@ -106,16 +116,20 @@ impl Axes {
 
     /// The outline of the area, and a short line outwards at each tick.
     pub fn outer_ticks(&self, x: &[Tick], y: &[Tick]) -> Vec<String> {
-        let below = x.iter().map(|tick| {
-            let (at, bottom) = (self.x.at(tick.value), self.area.bottom);
-            outer_tick(at, bottom, [0.0, TICK_LENGTH])
-        });
-        let beside = y.iter().map(|tick| {
-            let left = self.area.left - TICK_LENGTH;
-            outer_tick(left, self.y.at(tick.value), [TICK_LENGTH, 0.0])
-        });
-        let outline = [self.area.outline()].into_iter();
-        outline.chain(below).chain(beside).collect()
+        let Area { left, bottom, .. } = self.area;
+        let mut elements = vec![self.area.outline()];
+        for tick in x {
+            elements.push(outer_tick(
+                self.x.at(tick.value),
+                bottom,
+                [0.0, TICK_LENGTH],
+            ));
+        }
+        for tick in y {
+            let at = self.y.at(tick.value);
+            elements.push(outer_tick(left - TICK_LENGTH, at, [TICK_LENGTH, 0.0]));
+        }
+        elements
     }
 
     /// Ticks with their labels on the right of the area, as a colour bar has them.
@@ -160,22 +174,18 @@ fn outer_tick(x: f64, y: f64, [right, down]: [f64; 2]) -> String {
 pub struct Scale {
     is_log: bool,
     /// The values at both ends, or their logarithms.
-    low: f64,
-    high: f64,
+    values: [f64; 2],
     /// The coordinates of both ends.
-    from: f64,
-    to: f64,
+    coordinates: [f64; 2],
 }
 
 impl Scale {
     /// Values from `low` to `high`, evenly from one coordinate to the other.
-    pub fn linear([low, high]: [f64; 2], [from, to]: [f64; 2]) -> Scale {
+    pub fn linear(values: [f64; 2], coordinates: [f64; 2]) -> Scale {
         Scale {
             is_log: false,
-            low,
-            high,
-            from,
-            to,
+            values,
+            coordinates,
         }
     }
 
@@ -189,7 +199,8 @@ impl Scale {
 
     /// The place of a value on the scale: 0 at the low end, 1 at the high end.
     pub fn fraction(&self, value: f64) -> f64 {
-        let span = self.high - self.low;
+        let [low, high] = self.values;
+        let span = high - low;
         if span == 0.0 {
             return 0.5;
         }
@@ -198,7 +209,7 @@ impl Scale {
         } else {
             value
         };
-        (value - self.low) / span
+        (value - low) / span
     }
 
     /// Whether a value lies between the ends, give or take rounding.
@@ -208,7 +219,8 @@ impl Scale {
 
     /// The coordinate of a value, clamped near the picture, since viewers fail on huge numbers.
     pub fn at(&self, value: f64) -> f64 {
-        (self.from + (self.to - self.from) * self.fraction(value)).clamp(-9999.0, 9999.0)
+        let [from, to] = self.coordinates;
+        (from + (to - from) * self.fraction(value)).clamp(-9999.0, 9999.0)
     }
 }
 

@@ -74,21 +74,27 @@ pub struct Look {
     pub dots: bool,
 }
 
-impl Style {
-    fn look(self) -> Look {
-        let (colour, dashes, width) = match self {
-            Style::Exact => (INK, "", 3.0),
-            Style::Approximate(number) => {
-                let dashes = DASHES[number % DASHES.len()];
-                (COLOURS[number % COLOURS.len()], dashes, 2.2)
-            }
-            Style::Own(look) => return look,
-        };
+impl Look {
+    /// A line without dots.
+    pub const fn new(colour: &'static str, dashes: &'static str, width: f64) -> Look {
         Look {
             colour,
             dashes,
             width,
             dots: false,
+        }
+    }
+}
+
+impl Style {
+    fn look(self) -> Look {
+        match self {
+            Style::Exact => Look::new(INK, "", 3.0),
+            Style::Approximate(number) => {
+                let dashes = DASHES[number % DASHES.len()];
+                Look::new(COLOURS[number % COLOURS.len()], dashes, 2.2)
+            }
+            Style::Own(look) => look,
         }
     }
 

@@ -147,12 +147,7 @@ impl Panel {
 
 /// The area of a panel's plot, or of its colour bar.
 fn area(left: f64, width: f64) -> Area {
-    Area {
-        left,
-        top: TOP,
-        right: left + width,
-        bottom: TOP + PLOT.1,
-    }
+    Area::between([left, left + width], [TOP, TOP + PLOT.1])
 }
 
 /// The axes of a map. A value stands in the middle of its cell.

@@ -80,12 +80,7 @@ impl LineChart {
         let foot = paragraph_height(&FOOT, &FOOT.wrap(&self.foot, frame.room()));
         let bottom = (frame.height - (below + foot + frame.lower)).max(top + LEAST_HEIGHT);
         let axes = Axes {
-            area: Area {
-                left,
-                top,
-                right,
-                bottom,
-            },
+            area: Area::between([left, right], [top, bottom]),
             x,
             y: self.y.scale([bottom, top]),
         };

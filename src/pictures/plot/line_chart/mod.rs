@@ -7,7 +7,7 @@ use crate::pictures::plot::palette::Style;
 use crate::pictures::plot::ticks::{decimals, label, ticks};
 
 /// A line chart: the curves, and the words that say what they are.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineChart {
     /// What the chart shows, in one line if possible.
     pub title: String,
@@ -27,7 +27,7 @@ pub struct LineChart {
 }
 
 /// The range of one axis and where it is labelled.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ChartAxis {
     /// The quantity along the axis.
     pub label: String,
