@@ -19,20 +19,20 @@ pub fn admitted(
     language: Language,
     defines: &[Define],
 ) -> Result<Preprocessed, Error> {
-    let told = |found: Option<TextFault>| found.map_or(Ok(()), |fault| Err(error(file, fault)));
-    told(no_text(text))?;
+    let refuse = |found: Option<TextFault>| found.map_or(Ok(()), |fault| Err(error(file, fault)));
+    refuse(no_text(text))?;
     let joined = if language.has_preprocessor() {
-        told(ambiguous(text))?;
+        refuse(ambiguous(text))?;
         joined_comments(&joined_lines(text))
     } else {
         text.to_owned()
     };
     let live = preprocessed(&bare(&joined, false), language, defines);
     let live = live.map_err(|fault| error(file, fault))?;
-    told(own_name(&live.text))?;
+    refuse(own_name(&live.text))?;
     if language.has_preprocessor() {
         // The body of a macro is checked where the function needs it.
-        told(directives::fault(&without_definitions(&live.text)))?;
+        refuse(directives::fault(&without_definitions(&live.text)))?;
     }
     Ok(live)
 }

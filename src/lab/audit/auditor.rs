@@ -19,8 +19,9 @@ use super::ours::{CostedMethods, Ours};
 use super::program::AuditProgram;
 use super::request::Audit;
 use super::row::{AuditRow, Audited, Ran};
-use super::runner::{RunError, Runner};
+use super::runner::Runner;
 use super::slice::{Slice, SlicedText};
+use super::worker::RunError;
 use super::{admission, edges};
 use crate::generator::emit::FunctionForm;
 use crate::generator::reference::MaterialInMedium;
@@ -105,7 +106,7 @@ impl<'a> Auditor<'a> {
         let mut verdicts = self.accepted(&self.program(&bound).0)?.verdicts;
         let ran = match self.runner(&bound)? {
             Ok(runner) => self.ran(&runner, &bound, subject)?,
-            Err(trouble) => Err(trouble),
+            Err(error) => Err(error),
         };
         self.accept(&mut verdicts, &ran);
         let (costs, ours) = match &ran {
@@ -179,7 +180,7 @@ impl<'a> Auditor<'a> {
     ) -> Result<Result<Ran, RunError>, Error> {
         let mut ran = match self.measured(runner, bound, subject) {
             Ok(ran) => ran,
-            Err(trouble) => return Ok(Err(trouble)),
+            Err(error) => return Ok(Err(error)),
         };
         ran.computes = computed(runner, bound, subject);
         if ran.computes.is_none() {
@@ -197,10 +198,10 @@ impl<'a> Auditor<'a> {
         bound: &Bound,
         subject: &MaterialInMedium,
     ) -> Result<Ran, RunError> {
-        let most = most(bound);
+        let largest = largest_valid(bound);
         let results = runner.run(&edges::cosines())?;
-        let mut edges = edges::judged(&results, most);
-        let between = edges::FaultBetweenEdges::new(most);
+        let mut edges = edges::judged(&results, largest);
+        let between = edges::FaultBetweenEdges::new(largest);
         let error = runner.error(&subject.reference, &|cosines, got| {
             between.look(cosines, got)
         })?;
@@ -378,7 +379,7 @@ fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Opt
 }
 
 /// The largest valid result of each channel: 1, or a given F0 above 1, up to [`BRIGHTEST`]. Our own functions take such an F0 too.
-fn most(bound: &Bound) -> [f32; 3] {
+fn largest_valid(bound: &Bound) -> [f32; 3] {
     let raises = |argument: &&BoundArgument| {
         let meaning = argument.meaning();
         meaning.is_some_and(|quantity| quantity.input.raises_limit)
@@ -387,8 +388,8 @@ fn most(bound: &Bound) -> [f32; 3] {
         .arguments
         .iter()
         .filter(raises)
-        .fold([1.0; 3], |most, argument| {
-            each_channel(|i| most[i].max(argument.value[i].min(BRIGHTEST)))
+        .fold([1.0; 3], |largest, argument| {
+            each_channel(|i| largest[i].max(argument.value[i].min(BRIGHTEST)))
         })
 }
 

@@ -30,7 +30,7 @@ pub fn choose(
         },
         _ => Err(Error::SeveralFunctions {
             file: file.to_owned(),
-            names: told_apart(&candidates, language),
+            names: distinct_names(&candidates, language),
         }),
     }
 }
@@ -87,7 +87,7 @@ fn named(file: &str, found: &[FunctionHead], name: &str) -> Result<Vec<FunctionH
 }
 
 /// Names of functions. A name that several share comes with their lines and typed arguments.
-fn told_apart(functions: &[FunctionHead], language: Language) -> Vec<String> {
+fn distinct_names(functions: &[FunctionHead], language: Language) -> Vec<String> {
     let words = |one: &FunctionHead| {
         let is_other = |other: &&FunctionHead| other.path() == one.path();
         if functions.iter().filter(is_other).count() == 1 {

@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_dominate_are_told_the_farthest_first() {
+    fn all_that_dominate_are_listed_the_farthest_first() {
         let competitors = competitors();
         let (found, with_more) = dominating(&own(12, 0.2, 40.0), &competitors);
         assert!(with_more.is_empty());
@@ -323,7 +323,7 @@ mod tests {
 
     /// Functions with different numbers of inputs are not compared as equals.
     #[test]
-    fn what_takes_more_numbers_dominates_nothing_and_is_told() {
+    fn what_takes_more_numbers_dominates_nothing_and_is_named() {
         let (few, competitors) = (own(3, 0.09, 28.0), competitors());
         let (found, with_more) = dominating(&few, &competitors);
         assert!(found.is_empty());

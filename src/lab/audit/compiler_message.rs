@@ -106,19 +106,19 @@ mod tests {
         let dxc = "shader.hlsl:2:9: error: use of undeclared identifier 'x'\n  return x;";
         let glslang = "shader.vert\nERROR: 0:2: 'x' : undeclared identifier";
         let slangc = "error[E30015]: undefined identifier\n --> shader.slang:3:12\n  |";
-        let told = |words| placed("f.x", 5, words);
+        let shown_at = |words| placed("f.x", 5, words);
         assert_eq!(
-            told(naga),
+            shown_at(naga),
             "f.x:2:12: no definition in scope for identifier: `x`"
         );
-        assert_eq!(told(mesa), "f.x:3:7: `x' undeclared");
-        assert_eq!(told(dxc), "f.x:2:9: use of undeclared identifier 'x'");
-        assert_eq!(told(glslang), "f.x:2: 'x' : undeclared identifier");
+        assert_eq!(shown_at(mesa), "f.x:3:7: `x' undeclared");
+        assert_eq!(shown_at(dxc), "f.x:2:9: use of undeclared identifier 'x'");
+        assert_eq!(shown_at(glslang), "f.x:2: 'x' : undeclared identifier");
         assert_eq!(
-            told(slangc),
+            shown_at(slangc),
             "f.x:3:12: error[E30015]: undefined identifier"
         );
-        assert_eq!(told("gone"), "f.x: gone");
+        assert_eq!(shown_at("gone"), "f.x: gone");
         assert!(
             [naga, mesa, dxc, glslang, slangc]
                 .into_iter()

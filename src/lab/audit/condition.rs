@@ -235,22 +235,9 @@ impl Expression<'_> {
 /// The result of a binary operator. GLSL's compilers compute in 32 bits and others in 64. Where that could change the result, it
 /// is an error.
 fn combined(operator: &str, a: i64, b: i64) -> Result<i64, String> {
-    let is_wide = |x: i64| i32::try_from(x).is_err();
-    let compares = ["<", ">", "<=", ">="].contains(&operator);
-    let computes = ["<<", ">>", "+", "-", "*", "/", "%"].contains(&operator);
-    let value = combined_in_64(operator, a, b)?;
-    if compares && (is_wide(a) || is_wide(b)) || computes && (is_wide(a) || is_wide(value)) {
-        return Err(
-            "it takes a number beyond 32 bits, of which compilers make different ones".to_owned(),
-        );
-    }
-    Ok(value)
-}
-
-fn combined_in_64(operator: &str, a: i64, b: i64) -> Result<i64, String> {
     let by_zero = || "it divides by 0".to_owned();
     let bits = u32::try_from(b.clamp(0, 63)).unwrap_or(0);
-    Ok(match operator {
+    let value = match operator {
         "||" => i64::from(a != 0 || b != 0),
         "&&" => i64::from(a != 0 && b != 0),
         "|" => a | b,
@@ -269,7 +256,19 @@ fn combined_in_64(operator: &str, a: i64, b: i64) -> Result<i64, String> {
         "*" => a.wrapping_mul(b),
         "/" => a.checked_div(b).ok_or_else(by_zero)?,
         _ => a.checked_rem(b).ok_or_else(by_zero)?,
-    })
+    };
+    let is_wide = |x: i64| i32::try_from(x).is_err();
+    let beyond = match operator {
+        "<" | ">" | "<=" | ">=" => is_wide(a) || is_wide(b),
+        "<<" | ">>" | "+" | "-" | "*" | "/" | "%" => is_wide(a) || is_wide(value),
+        _ => false,
+    };
+    if beyond {
+        return Err(
+            "it takes a number beyond 32 bits, of which compilers make different ones".to_owned(),
+        );
+    }
+    Ok(value)
 }
 
 /// `12`, `0x1F`, `017`, `300u`, `1L`.
@@ -323,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_expression_is_told() {
+    fn what_is_no_expression_is_refused() {
         for text in ["", "1 +", "(1", "1 2", "1 / 0", "1.5", "defined", "? 1"] {
             let value = condition_value(&words(&tokens(text)), &Macros::new());
             assert!(value.is_err(), "{text}");

@@ -41,8 +41,8 @@ pub const EDGES: [Edge; 12] = [
 const ROUNDING: f32 = 1e-6;
 
 /// Why a result is not a reflectance. None where it is one.
-fn fault(rgb: [f32; 3], most: [f32; 3]) -> Option<&'static str> {
-    Failure::of_result(rgb, most, ROUNDING)?.predicate()
+fn fault(rgb: [f32; 3], largest: [f32; 3]) -> Option<&'static str> {
+    Failure::of_result(rgb, largest, ROUNDING)?.predicate()
 }
 
 /// Three numbers for people. The sign of a zero is shown.
@@ -84,10 +84,10 @@ pub fn cosines() -> Vec<f32> {
 }
 
 /// Judges the results at all edges.
-pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
+pub fn judged(results: &[[f32; 3]], largest: [f32; 3]) -> Edges {
     let mut edges = Edges::default();
     for (edge, rgb) in EDGES.iter().zip(results) {
-        let fault = fault(*rgb, most);
+        let fault = fault(*rgb, largest);
         let number = |value: f32| value.is_finite().then_some(f64::from(value));
         edges.rows.push(EdgeRow {
             cos_theta: edge.name,
@@ -111,7 +111,7 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
 /// The first result between the edges that is not a reflectance, and how many there are.
 #[derive(Debug)]
 pub struct FaultBetweenEdges {
-    most: [f32; 3],
+    largest: [f32; 3],
     first: RefCell<Option<FirstFault>>,
 }
 
@@ -126,9 +126,9 @@ struct FirstFault {
 
 impl FaultBetweenEdges {
     /// A search that has seen no results yet.
-    pub fn new(most: [f32; 3]) -> FaultBetweenEdges {
+    pub fn new(largest: [f32; 3]) -> FaultBetweenEdges {
         FaultBetweenEdges {
-            most,
+            largest,
             first: RefCell::new(None),
         }
     }
@@ -138,7 +138,7 @@ impl FaultBetweenEdges {
         let mut first = self.first.borrow_mut();
         for (cosine, rgb) in cosines.iter().zip(results) {
             let is_end = *cosine == 0.0 || *cosine == 1.0;
-            let Some(fault) = fault(*rgb, self.most).filter(|_| !is_end) else {
+            let Some(fault) = fault(*rgb, self.largest).filter(|_| !is_end) else {
                 continue;
             };
             let seen = first.get_or_insert(FirstFault {
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_reflectance_is_told() {
+    fn what_is_no_reflectance_is_a_fault() {
         let of = |value| fault([0.5, value, 0.5], [1.0; 3]);
         assert_eq!(of(0.0), None);
         assert_eq!(of(1.0 + 1e-7), None);

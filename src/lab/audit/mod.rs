@@ -50,7 +50,7 @@ pub use given::Given;
 pub use language::Language;
 pub use preprocess::{Condition, Define};
 pub use request::Audit;
-pub use row::{AuditRow, Checked};
+pub use row::{AuditRow, CheckResults};
 pub use worker::serve;
 
 /// The rows of an audit.

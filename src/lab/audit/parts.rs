@@ -458,7 +458,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_glsl_are_told_apart() {
+    fn parts_of_glsl_are_distinguished() {
         check(
             Language::Gles,
             "precision highp float; uniform mediump vec3 a, b[2]; layout(std140) uniform B { vec3 c; float d; } b; in vec2 uv; const float t[2] = float[](1., 2.); struct S { float x, y; }; float g = 1.0; float f(float c);\nfloat f(float c) { } layout(early_fragment_tests) in;",
@@ -493,7 +493,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_hlsl_are_told_apart() {
+    fn parts_of_hlsl_are_distinguished() {
         check(
             Language::Hlsl,
             "float a = 0.02; static const float t[2] = { 1, 2 }; cbuffer B : register(b0) { float4 c : packoffset(c0); float d; }\n[[vk::binding(3)]] Texture2D<float4> tex : register(t0); ConstantBuffer<S> s; typedef float3 rgb; static float m; [numthreads(1,1,1)] void main() {}",
@@ -511,7 +511,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_wgsl_are_told_apart() {
+    fn parts_of_wgsl_are_distinguished() {
         check(
             Language::Wgsl,
             "enable f16; struct W { @size(16) a: f32, b: vec3<f32>, } @group(0) @binding(0) var<uniform> w: W; var<private> p: f32 = 1.0; override o: f32 = 0.5; const c = 1.0; var t: texture_2d<f32>; alias r = f32; fn f(c: f32) -> f32 { }",

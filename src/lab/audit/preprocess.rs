@@ -303,12 +303,12 @@ impl Reader {
             "ifndef" => Ok(!self.macros.contains_key(name)),
             _ => {
                 let value = condition_value(&words(rest), &self.macros);
-                let told = |why: String| {
+                let undecided = |why: String| {
                     self.fault(&format!(
                         "the condition cannot be decided: {why}; -D NAME=VALUE gives a name a value"
                     ))
                 };
-                value.map(|value| value != 0).map_err(told)
+                value.map(|value| value != 0).map_err(undecided)
             }
         }
     }
@@ -413,14 +413,14 @@ mod tests {
     #[test]
     fn conditions_say_where_they_end_and_what_they_came_to() {
         let made = preprocessed("#ifdef  A\n#else\nx\n#endif\n", Language::Gles, &[]);
-        let told: Vec<_> = made
+        let found: Vec<_> = made
             .unwrap()
             .conditions
             .into_iter()
             .map(|one| (one.line, one.end, one.text, one.is_taken))
             .collect();
         assert_eq!(
-            told,
+            found,
             [
                 (1, 4, "#ifdef A".to_owned(), false),
                 (2, 4, "#else".to_owned(), true)
@@ -429,7 +429,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_decided_is_told_with_its_line() {
+    fn what_cannot_be_decided_is_refused_with_its_line() {
         for (text, line) in [
             ("x\n#if 1\n", 2),
             ("#endif\n", 1),

@@ -12,8 +12,8 @@ use super::inputs::Initialised;
 use super::ours::Ours;
 use super::preprocess::Condition;
 use super::request::Audit;
-use super::runner::RunError;
 use super::slice::Slice;
+use super::worker::RunError;
 use crate::generator::fit::{ModelError, Perceived};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::CostAndError;
@@ -99,7 +99,7 @@ pub struct AuditRow {
     #[serde(serialize_with = "as_object")]
     pub says: Vec<(String, Option<String>)>,
     /// What was checked.
-    pub checked: Checked,
+    pub checked: CheckResults,
     /// The status by all checks.
     pub status: Status,
     /// Why it is not a pass.
@@ -186,24 +186,22 @@ pub struct Audited<'a> {
 impl Audited<'_> {
     /// The row.
     pub fn audit_row(&self) -> AuditRow {
-        let function = &self.bound.function.name;
+        let function = &self.bound.function;
         let ran = self.ran.as_ref().ok();
         let (status, reasons) = self.judged();
-        let checked = Checked::new(self.verdicts, self.ran, self.audit.max_error);
-        let (dominated_by, better_with_more_inputs) = self.dominating();
         let answer = |(name, verdict): &(String, Verdict)| (name.clone(), verdict.into());
-        AuditRow {
+        let mut row = AuditRow {
             target: self.audit.language.name(),
-            method: function.clone(),
+            method: function.name.clone(),
             material: self.subject.argument.clone(),
             form: "user",
             precision: match self.slice.half {
                 Some(_) => "f16",
                 None => "f32",
             },
-            function: self.bound.function.path(),
-            line: self.bound.function.line,
-            cosine: self.bound.function.params[self.bound.cosine].name.clone(),
+            function: function.path(),
+            line: function.line,
+            cosine: function.params[self.bound.cosine].name.clone(),
             cosine_is: self.bound.form.name(),
             cosine_words: self.bound.cosine_words.clone(),
             language_remark: None,
@@ -228,13 +226,15 @@ impl Audited<'_> {
             cost: self.costs.to_vec(),
             is_cost_comparable: self.cost_remark.is_none(),
             cost_remark: self.cost_remark.clone(),
-            dominated_by,
-            better_with_more_inputs,
-            says: self.sentences(),
-            checked,
+            dominated_by: Vec::new(),
+            better_with_more_inputs: Vec::new(),
+            says: Vec::new(),
+            checked: CheckResults::new(self.verdicts, ran, self.audit.max_error),
             status,
             reason: (!reasons.is_empty()).then(|| reasons.join("\n")),
-        }
+        };
+        self.compare(&mut row);
+        row
     }
 
     /// The inputs from outside and the arguments that keep the text's values, in words.
@@ -270,14 +270,10 @@ impl Audited<'_> {
                 reasons.extend(above.map(|why| format!("{place}: {why}")));
             }
             Err(RunError::Failed(why)) => reasons.push(format!("{place}: {why}")),
-            Err(RunError::Refused(_, words)) if reasons.is_empty() => {
-                return (Status::NotChecked, vec![words.clone()]);
-            }
-            Err(RunError::Refused(..)) => {}
-            Err(RunError::Absent(why)) if reasons.is_empty() => {
+            Err(RunError::Refused(_, why) | RunError::Absent(why)) if reasons.is_empty() => {
                 return (Status::NotChecked, vec![why.clone()]);
             }
-            Err(RunError::Absent(_)) => {}
+            Err(RunError::Refused(..) | RunError::Absent(_)) => {}
         }
         let status = if reasons.is_empty() {
             Status::Pass
@@ -289,46 +285,31 @@ impl Audited<'_> {
 
     /// Why an error is larger than allowed.
     fn above_limit(&self, error: &ModelError) -> Option<String> {
-        let most = self
-            .audit
-            .max_error
-            .filter(|most| !is_within(error, *most))?;
+        let allowed = self.audit.max_error.filter(|max| !is_within(error, *max))?;
         let (max_abs, degrees) = (error.max_abs, libm::acos(error.worst_cos).to_degrees());
         let material = &self.subject.argument;
         Some(format!(
-            "its error for {material} is {max_abs:.6} at {degrees:.1} degrees, and --max-error allows {most}"
+            "its error for {material} is {max_abs:.6} at {degrees:.1} degrees, and --max-error allows {allowed}"
         ))
     }
 
-    /// Our methods on the family with this index. Empty where costs are not compared.
-    fn competitors(&self, place: usize) -> Vec<Competitor> {
-        if self.cost_remark.is_some() {
-            return Vec::new();
-        }
-        let each = self.ours.iter();
-        each.filter_map(|ours| ours.competitor(place)).collect()
-    }
-
-    /// The cost on a family and the error, where both are known.
-    fn point(&self, cost: &AuditCost) -> Option<Own> {
-        Some(Own {
-            inputs: self.bound.input_numbers(),
-            point: CostAndError {
-                error: self.ran.as_ref().ok()?.error.max_abs,
-                cost: cost.net?,
-            },
-            fails: self.judged().0 == Status::Fail,
-        })
-    }
-
-    /// The methods that are no worse in error and cost on a GPU: those with no more inputs, and those with more.
-    fn dominating(&self) -> (Vec<Dominating>, Vec<Dominating>) {
-        let (mut as_few, mut more) = (Vec::new(), Vec::new());
+    /// Enters into the row what the function's costs say beside those of our methods, for each GPU where its cost and error are
+    /// known.
+    fn compare(&self, row: &mut AuditRow) {
+        let Ok(ran) = self.ran else { return };
         for (place, cost) in self.costs.iter().enumerate() {
-            let Some(own) = self.point(cost) else {
-                continue;
+            let Some(net) = cost.net else { continue };
+            let own = Own {
+                inputs: row.input_numbers,
+                point: CostAndError {
+                    error: ran.error.max_abs,
+                    cost: net,
+                },
+                fails: row.status == Status::Fail,
             };
-            let row = |one: &Comparison| Dominating {
+            let all = self.ours.iter().filter(|_| row.is_cost_comparable);
+            let all: Vec<Competitor> = all.filter_map(|ours| ours.competitor(place)).collect();
+            let dominates = |one: &Comparison| Dominating {
                 method: one.other.method,
                 form: one.other.form,
                 input_numbers: one.other.inputs,
@@ -336,24 +317,14 @@ impl Audited<'_> {
                 cost_times: one.cost_times(),
                 gpu: cost.gpu,
             };
-            let competitors = self.competitors(place);
-            let (with_as_few, with_more) = dominating(&own, &competitors);
-            as_few.extend(with_as_few.iter().map(row));
-            more.extend(with_more.iter().map(row));
+            let (with_as_few, with_more) = dominating(&own, &all);
+            row.dominated_by.extend(with_as_few.iter().map(dominates));
+            row.better_with_more_inputs
+                .extend(with_more.iter().map(dominates));
+            let known = (!all.is_empty()).then(|| sentence(&own, &all));
+            let says = row.cost_remark.clone().or(known);
+            row.says.push((cost.gpu.to_owned(), says));
         }
-        (as_few, more)
-    }
-
-    /// For each GPU a sentence: whether one of our methods dominates the function, or why they are not compared.
-    fn sentences(&self) -> Vec<(String, Option<String>)> {
-        let each = self.costs.iter().enumerate().filter_map(|(place, cost)| {
-            let own = self.point(cost)?;
-            let others = self.competitors(place);
-            let known = (!others.is_empty()).then(|| sentence(&own, &others));
-            let known = self.cost_remark.clone().or(known);
-            Some((cost.gpu.to_owned(), known))
-        });
-        each.collect()
     }
 }
 
@@ -371,7 +342,7 @@ fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
 
 /// The results of the checks. None where one was not made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Checked {
+pub struct CheckResults {
     /// Whether compilers accept it.
     pub accepted: Option<bool>,
     /// Whether its results are reflectances: numbers from 0 to 1, or to an F0 above 1.
@@ -382,13 +353,13 @@ pub struct Checked {
     pub within_max_error: Option<bool>,
 }
 
-impl Checked {
+impl CheckResults {
     /// What was checked of a function.
     pub fn new(
         verdicts: &[(String, Verdict)],
-        ran: &Result<Ran, RunError>,
+        ran: Option<&Ran>,
         max_error: Option<f64>,
-    ) -> Checked {
+    ) -> CheckResults {
         let refuses = |(_, verdict): &(String, Verdict)| matches!(verdict, Err(Fault::Failed(_)));
         let accepts = |(_, verdict): &(String, Verdict)| verdict.is_ok();
         let accepted = if verdicts.iter().any(refuses) {
@@ -396,34 +367,32 @@ impl Checked {
         } else {
             verdicts.iter().any(accepts).then_some(true)
         };
-        let ran = ran.as_ref().ok();
-        Checked {
+        CheckResults {
             accepted,
             within_range: ran.map(|ran| ran.edges.findings.is_empty() && ran.error.undefined == 0),
             max_error,
             within_max_error: ran
                 .zip(max_error)
-                .map(|(ran, most)| is_within(&ran.error, most)),
+                .map(|(ran, max)| is_within(&ran.error, max)),
         }
     }
 
     /// In words, for a function that has this status.
     pub fn words(&self, status: Status) -> String {
+        let says = |result: Option<bool>, yes: &str, no: &str| {
+            result.map(|is| if is { yes } else { no }.to_owned())
+        };
         let parts = [
-            self.accepted.map(|accepted| {
-                if accepted {
-                    "compilers accept it".to_owned()
-                } else {
-                    "a compiler refuses it".to_owned()
-                }
-            }),
-            self.within_range.map(|within| {
-                if within {
-                    "all results are reflectances".to_owned()
-                } else {
-                    "a result is no reflectance".to_owned()
-                }
-            }),
+            says(
+                self.accepted,
+                "compilers accept it",
+                "a compiler refuses it",
+            ),
+            says(
+                self.within_range,
+                "all results are reflectances",
+                "a result is no reflectance",
+            ),
             self.error_words(),
         ];
         let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -437,8 +406,8 @@ impl Checked {
 
     fn error_words(&self) -> Option<String> {
         match (self.within_range, self.max_error, self.within_max_error) {
-            (_, Some(most), Some(true)) => Some(format!("its error is at most {most}")),
-            (_, Some(most), Some(false)) => Some(format!("its error is above {most}")),
+            (_, Some(max), Some(true)) => Some(format!("its error is at most {max}")),
+            (_, Some(max), Some(false)) => Some(format!("its error is above {max}")),
             (Some(_), None, _) => {
                 Some("its error is not judged (--max-error sets a limit)".to_owned())
             }
@@ -448,15 +417,15 @@ impl Checked {
 }
 
 /// Whether an error is within the allowed one. A NaN is not.
-pub fn is_within(error: &ModelError, most: f64) -> bool {
-    error.max_abs <= most
+fn is_within(error: &ModelError, max_error: f64) -> bool {
+    error.max_abs <= max_error
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const ALL: Checked = Checked {
+    const ALL: CheckResults = CheckResults {
         accepted: Some(true),
         within_range: Some(true),
         max_error: None,
@@ -469,37 +438,33 @@ mod tests {
             ALL.words(Status::Pass),
             "compilers accept it; all results are reflectances; its error is not judged (--max-error sets a limit)"
         );
-        let above = Checked {
+        let judged = |is_within: bool| CheckResults {
             max_error: Some(0.01),
-            within_max_error: Some(false),
+            within_max_error: Some(is_within),
             ..ALL
         };
         assert_eq!(
-            above.words(Status::Fail),
+            judged(false).words(Status::Fail),
             "fail: compilers accept it; all results are reflectances; its error is above 0.01"
         );
-        let within = Checked {
-            within_max_error: Some(true),
-            ..above
-        };
-        assert!(
-            within
-                .words(Status::Pass)
-                .ends_with("its error is at most 0.01")
-        );
+        let within = judged(true).words(Status::Pass);
+        assert!(within.ends_with("its error is at most 0.01"));
     }
 
     /// A function that never ran has no statement about its results or its error.
     #[test]
     fn what_was_not_checked_is_not_said() {
-        let refused = Checked {
+        let refused = CheckResults {
             accepted: Some(false),
             max_error: Some(0.01),
-            ..Checked::default()
+            ..CheckResults::default()
         };
         assert_eq!(refused.words(Status::Fail), "fail: a compiler refuses it");
-        assert_eq!(Checked::default().words(Status::NotChecked), "not checked");
-        let failed = Checked::default().words(Status::Fail);
+        assert_eq!(
+            CheckResults::default().words(Status::NotChecked),
+            "not checked"
+        );
+        let failed = CheckResults::default().words(Status::Fail);
         assert_eq!(failed, "fail");
     }
 }

@@ -6,7 +6,7 @@ use core::time::Duration;
 use super::compilers::ProgramCode;
 use super::cosine::CosineForm;
 use super::loops::{MARK, TURNS};
-use super::worker::{AuditRequest, AuditResponse, UniformBits};
+use super::worker::{AuditRequest, AuditResponse, RunError, UniformBits};
 use crate::generator::fit::{ModelError, Perceived, error_of, perceived};
 use crate::generator::reference::ReferenceCurve;
 use crate::lab::gpu::Uniform;
@@ -17,17 +17,6 @@ use crate::physics::spectra::Space;
 
 /// A callback that sees cosines and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
-
-/// Why there are no results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum RunError {
-    /// Something is missing on this machine.
-    Absent(String),
-    /// A compiler or driver refuses it: its name, and its message.
-    Refused(String, String),
-    /// It timed out, or crashed its process.
-    Failed(String),
-}
 
 /// A process that has compiled the function.
 pub struct Runner {
@@ -90,7 +79,7 @@ impl Runner {
                 device,
                 points: Cell::new(0),
             }),
-            Ok(response) => Err(trouble(response)),
+            Ok(response) => Err(run_error(response)),
             // The function has not run yet: its compiler, the driver or the machine may be at fault.
             Err(silence) => Err(RunError::Absent(unprepared(&silence, limit))),
         })
@@ -113,7 +102,7 @@ impl Runner {
                 let results = results.into_iter().map(|rgb| rgb.map(f32::from_bits));
                 ended(cosines, results.collect())
             }
-            other => Err(trouble(other)),
+            other => Err(run_error(other)),
         }
     }
 
@@ -156,8 +145,8 @@ impl Runner {
             // After a failure it is not asked again, since each timeout costs time.
             let got = match failed.get() {
                 Some(_) => nothing(),
-                None => self.run_as(form, &single).unwrap_or_else(|trouble| {
-                    let _ = failed.set(trouble);
+                None => self.run_as(form, &single).unwrap_or_else(|error| {
+                    let _ = failed.set(error);
                     nothing()
                 }),
             };
@@ -183,10 +172,9 @@ fn ended(cosines: &[f32], results: Vec<[f32; 3]>) -> Result<Vec<[f32; 3]>, RunEr
     })
 }
 
-fn trouble(response: AuditResponse) -> RunError {
+fn run_error(response: AuditResponse) -> RunError {
     match response {
-        AuditResponse::Absent(why) => RunError::Absent(why),
-        AuditResponse::Refused(who, words) => RunError::Refused(who, words),
+        AuditResponse::NoResult(error) => error,
         _ => RunError::Failed("it answers another question".to_owned()),
     }
 }

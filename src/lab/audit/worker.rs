@@ -37,12 +37,21 @@ pub enum AuditResponse {
     Module(Result<Vec<u8>, Fault>),
     /// It is compiled, for this device.
     Ready(String),
-    /// Something is missing on this machine.
-    Absent(String),
-    /// A compiler refused it, or the device failed: its name, and its message.
-    Refused(String, String),
     /// The results.
     Ran(Vec<[u32; 3]>),
+    /// Why it cannot be compiled, or has no results.
+    NoResult(RunError),
+}
+
+/// Why a function has no results.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum RunError {
+    /// Something is missing on this machine.
+    Absent(String),
+    /// A compiler or driver refuses it: its name, and its message.
+    Refused(String, String),
+    /// It timed out, or crashed its process.
+    Failed(String),
 }
 
 /// A uniform with its value as bits.
@@ -102,7 +111,7 @@ pub fn serve() -> io::Result<()> {
                     ready = Some((kernel, uniforms));
                     AuditResponse::Ready(device)
                 }
-                Err(refusal) => refusal,
+                Err(error) => AuditResponse::NoResult(error),
             }
         }
         AuditRequest::Run(bits) => run(ready.as_ref(), &bits),
@@ -113,15 +122,15 @@ fn prepare(
     devices: &Devices,
     code: &ProgramCode,
     uniforms: &[Uniform],
-) -> Result<(Kernel, String), AuditResponse> {
+) -> Result<(Kernel, String), RunError> {
     if let ProgramCode::Wgsl(text) = code {
-        validate_wgsl(text).map_err(|words| AuditResponse::Refused("naga".to_owned(), words))?;
+        validate_wgsl(text).map_err(|words| RunError::Refused("naga".to_owned(), words))?;
     }
     let device = match code {
         ProgramCode::Gles(_) => devices.gles(),
         ProgramCode::Wgsl(_) | ProgramCode::Spirv(_) => devices.compute(),
     };
-    let device = device.map_err(|fault| AuditResponse::Absent(fault.to_string()))?;
+    let device = device.map_err(|fault| RunError::Absent(fault.to_string()))?;
     let (code, entry) = match code {
         ProgramCode::Wgsl(text) => (gpu::ShaderCode::Wgsl(text), ENTRY),
         ProgramCode::Gles(text) => (gpu::ShaderCode::Gles(text), "main"),
@@ -136,26 +145,27 @@ fn prepare(
     let name = device.adapter.to_string();
     match device.prepare(&program) {
         Ok(kernel) => Ok((kernel, name)),
-        Err(fault) => Err(refusal(&name, fault)),
+        Err(fault) => Err(run_error(&name, fault)),
     }
 }
 
-fn refusal(who: &str, fault: Fault) -> AuditResponse {
+fn run_error(who: &str, fault: Fault) -> RunError {
     match fault {
-        Fault::Absent(why) => AuditResponse::Absent(why),
-        Fault::Failed(words) => AuditResponse::Refused(who.to_owned(), words),
+        Fault::Absent(why) => RunError::Absent(why),
+        Fault::Failed(words) => RunError::Refused(who.to_owned(), words),
     }
 }
 
 fn run(ready: Option<&(Kernel, Vec<Uniform>)>, bits: &[u32]) -> AuditResponse {
     let Some((kernel, uniforms)) = ready else {
-        return AuditResponse::Absent("there is nothing to run".to_owned());
+        let why = "there is nothing to run".to_owned();
+        return AuditResponse::NoResult(RunError::Absent(why));
     };
     let cosines: Vec<f32> = bits.iter().copied().map(f32::from_bits).collect();
     match kernel.run(&cosines, uniforms, None) {
         Ok(results) => {
             AuditResponse::Ran(results.iter().map(|rgb| rgb.map(f32::to_bits)).collect())
         }
-        Err(fault) => refusal("the device", fault),
+        Err(fault) => AuditResponse::NoResult(run_error("the device", fault)),
     }
 }

@@ -120,7 +120,7 @@ impl ChartedFunction {
 mod tests {
     use super::*;
     use crate::generator::fit::{ModelError, Perceived};
-    use crate::lab::audit::{AuditCost, Checked};
+    use crate::lab::audit::{AuditCost, CheckResults};
     use crate::lab::cost::{CostFigures, Counts, find};
 
     fn cost(gpu: &str, net: Option<f64>) -> AuditCost {
@@ -182,7 +182,7 @@ mod tests {
             dominated_by: Vec::new(),
             better_with_more_inputs: Vec::new(),
             says: Vec::new(),
-            checked: Checked::default(),
+            checked: CheckResults::default(),
             status,
             reason: Some("one\ntwo".to_owned()),
         }
