@@ -10,6 +10,11 @@ use crate::generator::output::manifest::{self, Manifest};
 use crate::generator::output::tree::TreePlan;
 use crate::generator::output::write::try_file;
 
+fn fault(place: &Path, why: &'static str) -> Error {
+    let place = place.to_path_buf();
+    RequestFault::Place { place, why }.into()
+}
+
 /// Refuses an output that lies where an input of the run does, and two outputs in one place.
 pub fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
     let is_page = |output: &Path| output.extension().is_some_and(|ending| ending == "yml");
@@ -19,11 +24,10 @@ pub fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
                 || is_page(output) && input.is_dir() && is_below(input, output)
         };
         if named.inputs.iter().any(is_read) {
-            return Err(RequestFault::Place {
-                place: output.to_path_buf(),
-                why: "this run reads that file; write to another place",
-            }
-            .into());
+            return Err(fault(
+                output,
+                "this run reads that file; write to another place",
+            ));
         }
     }
     refuse_one_place(&named.outputs)?;
@@ -78,11 +82,10 @@ fn refuse_listed(named: &Path) -> Result<(), Error> {
 fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
     for (i, file) in files.iter().enumerate() {
         if files[..i].iter().any(|other| is_same_file(other, file)) {
-            return Err(RequestFault::Place {
-                place: file.to_path_buf(),
-                why: "two outputs of this run would be written there; give each a place of its own",
-            }
-            .into());
+            return Err(fault(
+                file,
+                "two outputs of this run would be written there; give each a place of its own",
+            ));
         }
     }
     Ok(())
@@ -106,11 +109,10 @@ pub fn refuse_place_of(places: &[PathBuf], named: &Path) -> Result<(), Error> {
     if !places.iter().any(is_taken) {
         return Ok(());
     }
-    Err(RequestFault::Place {
-        place: named.to_path_buf(),
-        why: "a file of the generated tree lies there; write to another place",
-    }
-    .into())
+    Err(fault(
+        named,
+        "a file of the generated tree lies there; write to another place",
+    ))
 }
 
 /// Refuses paths that cannot be written, before the work: a report's, and another file's.

@@ -253,23 +253,15 @@ impl Request {
 /// the method's.
 fn check_not_a_method(name: &str) -> Result<(), Error> {
     let stem = name.strip_suffix("_scalar").unwrap_or(name);
-    if name.ends_with(Precision::F16.suffix()) {
-        let meaning = "a function in half precision";
-        return Err(RequestFault::NameTaken {
-            name: name.to_owned(),
-            meaning,
-        }
-        .into());
-    }
-    if methods::find(stem).is_none() {
+    let meaning = if name.ends_with(Precision::F16.suffix()) {
+        "a function in half precision"
+    } else if methods::find(stem).is_some() {
+        "a method's function"
+    } else {
         return Ok(());
-    }
-    let meaning = "a method's function";
-    Err(RequestFault::NameTaken {
-        name: name.to_owned(),
-        meaning,
-    }
-    .into())
+    };
+    let name = name.to_owned();
+    Err(RequestFault::NameTaken { name, meaning }.into())
 }
 
 /// Refuses a medium that absorbs: no light comes through a metal or a semiconductor.
