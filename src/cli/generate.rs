@@ -1,7 +1,6 @@
-//! `fresnel-gen` without a subcommand: generates, checks or lists files. Also the remarks on fitted methods that a user named for
-//! a material, although the method of the material's own class fits it far better: `fitted` for water.
+//! `fresnel-gen` without a subcommand: generates, checks or lists files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -13,34 +12,29 @@ use crate::cli::flags::choice::{
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{TreeFlags, file_only};
 use crate::cli::flags::viewing::GamutFlags;
-use crate::cli::lists::requested_targets;
+use crate::cli::method_remarks::{budget_remarks, unsuited};
 use crate::cli::output::Output;
 use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
 use crate::cli::plan_file::{material_paths, planned};
 use crate::generator::bake::as_tables_are_seen;
-use crate::generator::emit::Artifact;
-use crate::generator::emit::{HeaderForm, fitted_error};
-use crate::generator::fit::{ModelError, rounded_up};
+use crate::generator::emit::{Artifact, HeaderForm};
+use crate::generator::error::RequestFault;
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::catalogue::add_catalogue;
-use crate::generator::generate::kept;
 use crate::generator::generate::tables::add_tables;
-use crate::generator::generate::{Generated, KeptMethods, generate_beside, generate_single};
+use crate::generator::generate::{Generated, KeptMethods, generate_beside, generate_single, kept};
 use crate::generator::output::depfile;
 use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::manifest::Manifest;
 use crate::generator::output::tree::{self, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
-use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Methods, Request};
-use crate::lab::budget::{
-    Budget, BudgetCandidate, BudgetRow, Spread, choose_within, rounded_error,
-};
+use crate::lab::budget::{Budget, BudgetRow, choose_within};
 use crate::lab::cost::{self, Family};
 use crate::language::effects::Effect;
 use crate::language::methods::{self, Method};
-use crate::language::targets::Target;
-use crate::physics::foreign::{Foreign, one_line};
+use crate::language::targets::{self, Target};
+use crate::physics::foreign::{self, Foreign, one_line};
 
 /// The flags of generation.
 #[derive(Args, Debug)]
@@ -253,6 +247,52 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
     })
 }
 
+/// The targets of a request: those of `--target`, or the one of the file's extension. Empty where neither names one.
+///
+/// # Errors
+/// No language's files have this extension, or the extension is of another language than `--target`.
+fn requested_targets(
+    words: &[Choice<&'static Target>],
+    file: Option<&Path>,
+) -> Result<Vec<&'static Target>, Error> {
+    let named = Choice::targets(words);
+    let Some(file) = file.filter(|file| *file != Path::new("-")) else {
+        return Ok(named);
+    };
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    let ending = ending.map(str::to_lowercase);
+    let of_ending = of_ending(ending.as_deref().unwrap_or_default());
+    // If two languages share the extension, the default one.
+    let usual = of_ending.iter().find(|target| target.by_default);
+    match (usual.or(of_ending.first()), words) {
+        (Some(first), []) => Ok(vec![*first]),
+        (None, []) if ending.is_some() => Err(no_language(file).into()),
+        (Some(first), [Choice::One(one, _)]) if of_ending.iter().all(|it| it.name != one) => {
+            let (file, language) = (foreign::path(&file), first.name);
+            let why = format!("`{file}` ends as a file of {language}, and --target is {one}");
+            Err(Error::usage(why))
+        }
+        _ => Ok(named),
+    }
+}
+
+/// The targets whose files have this extension.
+fn of_ending(ending: &str) -> Vec<&'static Target> {
+    let all = targets::ALL.iter().copied();
+    all.filter(|target| target.endings().any(|one| one == ending))
+        .collect()
+}
+
+fn no_language(file: &Path) -> RequestFault {
+    let endings: BTreeSet<&str> = targets::ALL.iter().flat_map(|it| it.endings()).collect();
+    let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+    RequestFault::refused(format!(
+        "`{}` says no language by its ending; name one with --target, or end the file in {}",
+        foreign::path(&file),
+        endings.join(", ")
+    ))
+}
+
 fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
     let mut files = depfile(flags, &[file.display().to_string()])?;
@@ -346,7 +386,7 @@ fn written(
         .remarks
         .extend(named(plan, flags.tree.overwrite, "replaced"));
     if !flags.quiet {
-        let folder = crate::physics::foreign::path(&out_dir);
+        let folder = foreign::path(&out_dir);
         output.remarks.push(format!(
             "{folder}: {} written, {} unchanged, {} removed",
             counts.written, counts.unchanged, counts.removed
@@ -368,7 +408,7 @@ fn first_steps(flags: &GenerateFlags, generated: &Generated, out_dir: &Path) -> 
         let page = out_dir.join(&page.path);
         format!(
             "next: {} says how the host takes the files, with an example",
-            crate::physics::foreign::path(&page)
+            foreign::path(&page)
         )
     });
     // An adapter's folder holds no functions for `verify`.
@@ -395,7 +435,7 @@ fn first_function<'g>(
     vec![
         format!(
             "for example {}: {}",
-            crate::physics::foreign::path(&file),
+            foreign::path(&file),
             function.signature
         ),
         next_step(flags),
@@ -441,142 +481,4 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
     inputs.extend(depfile::own_program());
     let rule = depfile::depfile(outputs, &inputs)?;
     Ok(vec![OutputFile::named(file, rule)])
-}
-
-/// Below this share of the difference between published measurements, a smaller error does not matter.
-const NEGLIGIBLE: f64 = 0.1;
-
-/// The remarks on a material's choice, a line each.
-fn budget_remarks(row: &BudgetRow) -> Vec<String> {
-    let (name, choice) = (crate::physics::foreign::Foreign(&row.material), &row.choice);
-    let mut lines = vec![format!(
-        "{name}: {} is the cheapest within {}: {} ({} on {}, as a {} function)",
-        choice.chosen.method,
-        row.budget.most,
-        error_and_cost(&choice.chosen),
-        row.budget.family.columns.measure,
-        row.budget.family.name,
-        row.form.name()
-    )];
-    lines.push(match &choice.cheaper {
-        Some(cheaper) => format!(
-            "{name}: {} is the most accurate of those that cost less: {}",
-            cheaper.method,
-            error_and_cost(cheaper)
-        ),
-        None => format!("{name}: nothing costs less"),
-    });
-    lines.extend(choice.textured.as_ref().map(|table| {
-        let figures = error_and_cost(table);
-        format!(
-            "{name}: {} is within the budget too: {figures}",
-            table.method
-        )
-    }));
-    lines.push(format!(
-        "{name}: {}",
-        measurements(choice.chosen.point.error, row.spread)
-    ));
-    lines
-}
-
-fn error_and_cost(candidate: &BudgetCandidate) -> String {
-    let fetch = if candidate.is_textured {
-        " and a texture fetch, which the count does not include"
-    } else {
-        ""
-    };
-    format!(
-        "error {}, cost {}{fetch}",
-        rounded_error(candidate.point.error),
-        candidate.point.cost
-    )
-}
-
-/// How well the material is known.
-fn measurements(error: f64, spread: Option<Spread>) -> String {
-    let Some(Spread { most, sources }) = spread else {
-        return "how far its measurements differ is not known: the catalogue says so only of materials with two spectra or more"
-            .to_owned();
-    };
-    let differ = format!(
-        "its {sources} measurements differ by up to {}",
-        rounded_error(most)
-    );
-    if error < NEGLIGIBLE * most {
-        format!("{differ}, more than ten times the error: a smaller error gains nothing")
-    } else {
-        differ
-    }
-}
-
-/// A method is reported if its error is at least this many times that of the class's own method.
-const FAR: f64 = 2.0;
-
-/// A sentence for each such method, with the figures of one material. Methods with only slightly larger errors are not reported.
-///
-/// # Errors
-/// The request names something that does not exist, or a material's file has a fault.
-fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
-    let mut named = request.methods.named().unwrap_or_default();
-    named.retain(|method| method.is_fitted() && !method.claims.by_class.is_empty());
-    let is_of_materials = !matches!(request.materials, Materials::None | Materials::Default);
-    if named.is_empty() || !is_of_materials || !request.effects.is_empty() {
-        return Ok(Vec::new());
-    }
-    let subjects = request.subjects()?.materials();
-    Ok(named
-        .into_iter()
-        .filter_map(|method| sentence(method, &subjects))
-        .collect())
-}
-
-/// The sentence on a method and the materials that another method suits.
-fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<String> {
-    let other = |subject: &MaterialInMedium| {
-        // A method with as many coefficients, and so of about the same cost.
-        let other = methods::find(subject.fitted_with_four()?)?;
-        (other.class != method.class).then_some(other)
-    };
-    let mut unsuited = subjects
-        .iter()
-        .filter_map(|subject| Some((subject, other(subject)?)));
-    let (subject, other) = unsuited.next()?;
-    let [own, better] = [method, other].map(|method| fitted_error(subject, method));
-    let (own, better) = (own?, better?);
-    if own.max_abs < FAR * better.max_abs {
-        return None;
-    }
-    let more = match unsuited.count() {
-        0 => String::new(),
-        count => format!("; {count} more of these materials are of such a class"),
-    };
-    let (name, class) = (Foreign(&subject.name), subject.material.kind.name());
-    Some(format!(
-        "for {name}, a {class}, {} errs by {}, and {} by {}{more}",
-        method.name,
-        words(&own),
-        other.name,
-        words(&better)
-    ))
-}
-
-/// An error in words: `0.00349 (6.48 % in the mean)`.
-fn words(error: &ModelError) -> String {
-    let mean = error.mean_rel.map(|share| 100.0 * share);
-    let mean = mean.map_or_else(String::new, |mean| format!(" ({mean:.2} % in the mean)"));
-    rounded_up(error.max_abs) + &mean
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_smaller_error_gains_nothing_below_a_tenth_of_what_is_known() {
-        let spread = |most: f64| Some(Spread { most, sources: 3 });
-        assert!(measurements(0.0019, spread(0.02)).ends_with("gains nothing"));
-        assert!(measurements(0.002, spread(0.02)).ends_with("up to 0.02000"));
-        assert!(measurements(0.002, None).contains("not known"));
-    }
 }

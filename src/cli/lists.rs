@@ -1,18 +1,14 @@
 //! `methods`, `effects` and `targets`: list and show.
 
-use std::collections::BTreeSet;
-use std::path::Path;
-
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::{Choice, one_of};
+use crate::cli::flags::choice::one_of;
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::output::{Output, report};
 use crate::generator::emit;
 use crate::generator::envelope::{Report, SCHEMA};
-use crate::generator::error::RequestFault;
 use crate::language::effects::{self, Effect, EffectFunction};
 use crate::language::methods::{self, Contract, Method};
 use crate::language::targets::{self, Target};
@@ -367,50 +363,4 @@ impl Listed for Target {
             validators: validators.collect(),
         }
     }
-}
-
-/// The targets of a request: those of `--target`, or the one of the file's extension. Empty where neither names one.
-///
-/// # Errors
-/// No language's files have this extension, or the extension is of another language than `--target`.
-pub fn requested_targets(
-    words: &[Choice<&'static Target>],
-    file: Option<&Path>,
-) -> Result<Vec<&'static Target>, Error> {
-    let named = Choice::targets(words);
-    let Some(file) = file.filter(|file| *file != Path::new("-")) else {
-        return Ok(named);
-    };
-    let ending = file.extension().and_then(|ending| ending.to_str());
-    let ending = ending.map(str::to_lowercase);
-    let of_ending = of_ending(ending.as_deref().unwrap_or_default());
-    // If two languages share the extension, the default one.
-    let usual = of_ending.iter().find(|target| target.by_default);
-    match (usual.or(of_ending.first()), words) {
-        (Some(first), []) => Ok(vec![*first]),
-        (None, []) if ending.is_some() => Err(no_language(file).into()),
-        (Some(first), [Choice::One(one, _)]) if of_ending.iter().all(|it| it.name != one) => {
-            let (file, language) = (crate::physics::foreign::path(&file), first.name);
-            let why = format!("`{file}` ends as a file of {language}, and --target is {one}");
-            Err(Error::usage(why))
-        }
-        _ => Ok(named),
-    }
-}
-
-/// The targets whose files have this extension.
-fn of_ending(ending: &str) -> Vec<&'static Target> {
-    let all = targets::ALL.iter().copied();
-    all.filter(|target| target.endings().any(|one| one == ending))
-        .collect()
-}
-
-fn no_language(file: &Path) -> RequestFault {
-    let endings: BTreeSet<&str> = targets::ALL.iter().flat_map(|it| it.endings()).collect();
-    let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
-    RequestFault::refused(format!(
-        "`{}` says no language by its ending; name one with --target, or end the file in {}",
-        crate::physics::foreign::path(&file),
-        endings.join(", ")
-    ))
 }

@@ -22,6 +22,7 @@ mod junit;
 mod lists;
 mod materials;
 mod merge;
+mod method_remarks;
 mod output;
 mod params;
 mod places;
