@@ -67,15 +67,6 @@ const VULKAN_PACKAGES: &str = "mesa-vulkan-drivers libvulkan1";
 pub(super) const OPENGL_PACKAGES: &str = "libegl1 libegl-mesa0 libgles2 libgl1-mesa-dri";
 
 impl Backend {
-    /// All interfaces, the preferred first.
-    pub const ALL: [Backend; 5] = [
-        Backend::Vulkan,
-        Backend::Metal,
-        Backend::Direct3d12,
-        Backend::OpenGl,
-        Backend::Gles,
-    ];
-
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {

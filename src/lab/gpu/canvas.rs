@@ -5,10 +5,10 @@
 
 use std::rc::Rc;
 
-use wgpu::{BufferUsages, Features};
+use wgpu::{BindingResource, BufferUsages, Features};
 
 use super::adapter::Adapter;
-use super::compute::{Compute, SUM};
+use super::compute::{Compute, colour_target};
 use super::texture::{self, Texture};
 use crate::lab::fault::Fault;
 
@@ -104,7 +104,9 @@ impl Canvas {
             .map(|texture| texture::table(compute, texture));
         let table = table.transpose()?;
         compute.guarded(|| {
-            let pipeline = pipeline(compute, shader);
+            let targets = [colour_target(FORMAT, shader.blends)];
+            let entries = [shader.vertex, shader.fragment];
+            let pipeline = compute.render_pipeline(shader.text, entries, None, &[], &targets, None);
             let group = bound(compute, &pipeline, shader.uniforms, table.as_ref());
             Layer { pipeline, group }
         })
@@ -232,54 +234,14 @@ fn bound(
 ) -> Option<wgpu::BindGroup> {
     let block =
         (!uniforms.is_empty()).then(|| compute.filled_buffer(uniforms, BufferUsages::UNIFORM));
-    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-    let mut entries = Vec::new();
+    let mut resources = Vec::new();
     if let Some(block) = &block {
-        entries.push(entry(0, block.as_entire_binding()));
+        resources.push((0, block.as_entire_binding()));
     }
     if let Some((view, sampler)) = table {
-        entries.push(entry(3, wgpu::BindingResource::TextureView(view)));
-        entries.push(entry(4, wgpu::BindingResource::Sampler(sampler)));
+        resources.push((3, BindingResource::TextureView(view)));
+        resources.push((4, BindingResource::Sampler(sampler)));
     }
-    let bind = || {
-        compute
-            .device
-            .create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            })
-    };
-    (!entries.is_empty()).then(bind)
-}
-
-fn pipeline(compute: &Compute, shader: &Shader) -> wgpu::RenderPipeline {
-    let module = compute.module(shader.text);
-    let targets = [Some(wgpu::ColorTargetState {
-        format: FORMAT,
-        blend: shader.blends.then_some(SUM),
-        write_mask: wgpu::ColorWrites::ALL,
-    })];
-    let descriptor = wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some(shader.vertex),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(shader.fragment),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    };
-    compute.device.create_render_pipeline(&descriptor)
+    let layout = || pipeline.get_bind_group_layout(0);
+    (!resources.is_empty()).then(|| compute.bind_group(&layout(), resources))
 }

@@ -3,7 +3,9 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use pollster::block_on;
-use wgpu::{BufferUsages, ErrorFilter, Features, PollType};
+use wgpu::{
+    BindingResource, BindingType, BufferBindingType, BufferUsages, ErrorFilter, Features, PollType,
+};
 
 use super::adapter::{Adapter, AdapterKind, describe};
 use crate::lab::fault::Fault;
@@ -112,6 +114,85 @@ impl Compute {
             })
     }
 
+    /// The layout of bindings, by their numbers in rising order.
+    pub fn group_layout(
+        &self,
+        visibility: wgpu::ShaderStages,
+        kinds: &[(u32, BindingType)],
+    ) -> wgpu::BindGroupLayout {
+        let entry = |(binding, ty): &(u32, BindingType)| wgpu::BindGroupLayoutEntry {
+            binding: *binding,
+            visibility,
+            ty: *ty,
+            count: None,
+        };
+        self.device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: None,
+                entries: &kinds.iter().map(entry).collect::<Vec<_>>(),
+            })
+    }
+
+    /// The layout of a pipeline with this one group.
+    pub fn pipeline_layout(&self, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        self.device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(group)],
+                immediate_size: 0,
+            })
+    }
+
+    /// What a program reads and writes, by the numbers of its bindings.
+    pub fn bind_group<'a>(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: impl IntoIterator<Item = (u32, BindingResource<'a>)>,
+    ) -> wgpu::BindGroup {
+        let resources = resources.into_iter();
+        let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &resources.map(entry).collect::<Vec<_>>(),
+        })
+    }
+
+    /// A pipeline that draws by a text in WGSL with a vertex and a fragment entry point. Without a layout it is derived from the text.
+    pub fn render_pipeline(
+        &self,
+        text: &str,
+        [vertex, fragment]: [&str; 2],
+        layout: Option<&wgpu::PipelineLayout>,
+        buffers: &[Option<wgpu::VertexBufferLayout>],
+        targets: &[Option<wgpu::ColorTargetState>],
+        depth_stencil: Option<wgpu::DepthStencilState>,
+    ) -> wgpu::RenderPipeline {
+        let module = self.module(text);
+        self.device
+            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: None,
+                layout,
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some(vertex),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers,
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(fragment),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+    }
+
     /// Does some work, and returns any error that it raised.
     pub fn guarded<T>(&self, work: impl FnOnce() -> T) -> Result<T, Fault> {
         let filters = [
@@ -165,15 +246,47 @@ fn note(lost: &Mutex<Option<String>>, why: String) {
         .get_or_insert(why);
 }
 
-/// Additive blending.
-pub(super) const SUM: wgpu::BlendState = {
+/// A colour target, which draws are added to or replace.
+pub(super) fn colour_target(
+    format: wgpu::TextureFormat,
+    adds: bool,
+) -> Option<wgpu::ColorTargetState> {
     let sum = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
         dst_factor: wgpu::BlendFactor::One,
         operation: wgpu::BlendOperation::Add,
     };
-    wgpu::BlendState {
+    let blend = wgpu::BlendState {
         color: sum,
         alpha: sum,
+    };
+    Some(wgpu::ColorTargetState {
+        format,
+        blend: adds.then_some(blend),
+        write_mask: wgpu::ColorWrites::ALL,
+    })
+}
+
+/// A uniform block as a binding.
+pub(super) const UNIFORM_BLOCK: BindingType = buffer_binding(BufferBindingType::Uniform);
+
+/// A buffer as a binding.
+pub(super) const fn buffer_binding(ty: BufferBindingType) -> BindingType {
+    BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
     }
-};
+}
+
+/// A sampler that filters, as a binding.
+pub(super) const SAMPLER: BindingType = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+
+/// A texture that is filtered, as a binding.
+pub(super) fn texture_binding(view_dimension: wgpu::TextureViewDimension) -> BindingType {
+    BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension,
+        multisampled: false,
+    }
+}

@@ -29,34 +29,7 @@ pub(super) struct Kernel {
     program: glow::Program,
     uniforms: Vec<Uniform>,
     texture: Option<TextureShape>,
-    attributes: Attributes,
-}
-
-/// The vertex attributes of a point.
-#[derive(Clone, Copy)]
-enum Attributes {
-    /// `cos_theta`, a number.
-    Cosine,
-    /// So many attributes `fg_0`, `fg_1` and so on, of four numbers each.
-    Places(usize),
-}
-
-impl Attributes {
-    /// The attributes' names in the order of their locations, and how many numbers each has.
-    fn names(self) -> (Vec<String>, usize) {
-        match self {
-            Attributes::Cosine => (vec!["cos_theta".to_owned()], 1),
-            Attributes::Places(places) => ((0..places).map(|at| format!("fg_{at}")).collect(), 4),
-        }
-    }
-
-    /// The bytes of a point.
-    fn stride(self) -> usize {
-        match self {
-            Attributes::Cosine => size_of::<f32>(),
-            Attributes::Places(places) => places * PLACE,
-        }
-    }
+    inputs: PointInputs,
 }
 
 /// The objects that a run needs on the device, deleted when the run ends.
@@ -77,25 +50,17 @@ impl Kernel {
         program: &Program,
         inputs: PointInputs,
     ) -> Result<Kernel, Fault> {
-        let attributes = match inputs {
-            PointInputs::Cosines => Attributes::Cosine,
-            PointInputs::Places(places) => Attributes::Places(places),
-            PointInputs::Bits => {
-                let name = &context.adapter.name;
-                return Err(Fault::unable(name, "a stream in OpenGL ES"));
-            }
-        };
         let ShaderCode::Gles(text) = program.code else {
             let name = &context.adapter.name;
             return Err(Fault::unable(name, "anything but GLSL ES in OpenGL ES"));
         };
         let gl = context.enter()?;
         Ok(Kernel {
-            program: link(gl, text, attributes)?,
+            program: link(gl, text, inputs)?,
             context: context.clone(),
             uniforms: program.uniforms.to_vec(),
             texture: program.texture,
-            attributes,
+            inputs,
         })
     }
 
@@ -108,9 +73,9 @@ impl Kernel {
     ) -> Result<Vec<[f32; 3]>, Fault> {
         check_fit(&self.uniforms, uniforms, self.texture, texture)?;
         let gl = self.context.enter()?;
-        let each = self.attributes.stride() / size_of::<f32>();
+        let each = numbers(self.inputs);
         let most = (points.len() / each).min(BLOCK);
-        let objects = Objects::new(gl, most, self.attributes).map_err(Fault::lost)?;
+        let objects = Objects::new(gl, most, self.inputs).map_err(Fault::lost)?;
         // SAFETY: the context is current, and so are all names below.
         unsafe {
             gl.use_program(Some(self.program));
@@ -157,10 +122,11 @@ impl<'a> Objects<'a> {
     fn new(
         gl: &'a glow::Context,
         points: usize,
-        attributes: Attributes,
+        inputs: PointInputs,
     ) -> Result<Objects<'a>, String> {
-        let (names, numbers) = attributes.names();
-        let stride = attributes.stride() as i32;
+        let attributes = attributes(inputs).len();
+        let stride = (numbers(inputs) * size_of::<f32>()) as i32;
+        let size = (numbers(inputs) / attributes.max(1)) as i32;
         // SAFETY: the caller has made the context current. All sizes are those of the buffers they are for.
         unsafe {
             let objects = Objects {
@@ -183,8 +149,8 @@ impl<'a> Objects<'a> {
             );
             gl.bind_vertex_array(Some(objects.array));
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(objects.points));
-            for at in 0..names.len() {
-                let (place, size) = (at as u32, numbers as i32);
+            for at in 0..attributes {
+                let place = at as u32;
                 gl.enable_vertex_attrib_array(place);
                 let offset = (at * PLACE) as i32;
                 gl.vertex_attrib_pointer_f32(place, size, glow::FLOAT, false, stride, offset);
@@ -292,8 +258,24 @@ impl Drop for Objects<'_> {
     }
 }
 
-fn link(gl: &glow::Context, vertex: &str, attributes: Attributes) -> Result<glow::Program, Fault> {
-    let (names, _) = attributes.names();
+/// The names of a point's vertex attributes, in the order of their locations.
+fn attributes(inputs: PointInputs) -> Vec<String> {
+    match inputs {
+        PointInputs::Places(places) => (0..places).map(|at| format!("fg_{at}")).collect(),
+        PointInputs::Cosines | PointInputs::Bits => vec!["cos_theta".to_owned()],
+    }
+}
+
+/// How many numbers a point has.
+fn numbers(inputs: PointInputs) -> usize {
+    match inputs {
+        PointInputs::Places(places) => 4 * places,
+        PointInputs::Cosines | PointInputs::Bits => 1,
+    }
+}
+
+fn link(gl: &glow::Context, vertex: &str, inputs: PointInputs) -> Result<glow::Program, Fault> {
+    let names = attributes(inputs);
     // SAFETY: the caller has made the context current.
     unsafe {
         let program = gl.create_program().map_err(Fault::lost)?;

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use wgpu::{BindingType, BufferBindingType, BufferUsages};
+use wgpu::{BindingResource, BindingType, BufferBindingType, BufferUsages};
 
-use super::compute::Compute;
+use super::compute::{Compute, SAMPLER, UNIFORM_BLOCK, buffer_binding, texture_binding};
 use super::passthrough;
 use super::program::{PointInputs, Program, ShaderCode, Uniform, block, check_fit};
 use super::slot::{BATCH, BLOCK, Block, Slot};
@@ -36,8 +36,7 @@ impl Kernel {
         inputs: PointInputs,
     ) -> Result<Kernel, Fault> {
         let module = module(compute, program)?;
-        let (pipeline, layout) =
-            compute.guarded(|| pipeline(&compute.device, &module, program, inputs))?;
+        let (pipeline, layout) = compute.guarded(|| pipeline(compute, &module, program, inputs))?;
         Ok(Kernel {
             compute: compute.clone(),
             pipeline,
@@ -117,25 +116,19 @@ impl Kernel {
     /// The bindings of one block.
     pub fn bind(
         &self,
-        device: &wgpu::Device,
         resources: &Resources,
-        inputs: wgpu::BindingResource,
-        results: wgpu::BindingResource,
+        inputs: BindingResource,
+        results: BindingResource,
     ) -> wgpu::BindGroup {
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        let mut entries = vec![entry(1, inputs), entry(2, results)];
+        let mut bound = vec![(1, inputs), (2, results)];
         if let Some(block) = &resources.block {
-            entries.push(entry(0, block.as_entire_binding()));
+            bound.push((0, block.as_entire_binding()));
         }
         if let Some((view, sampler)) = &resources.table {
-            entries.push(entry(3, wgpu::BindingResource::TextureView(view)));
-            entries.push(entry(4, wgpu::BindingResource::Sampler(sampler)));
+            bound.push((3, BindingResource::TextureView(view)));
+            bound.push((4, BindingResource::Sampler(sampler)));
         }
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.layout,
-            entries: &entries,
-        })
+        self.compute.bind_group(&self.layout, bound)
     }
 
     /// The commands of one block, up to the results.
@@ -162,29 +155,22 @@ fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, Fa
 
 /// The pipeline of a program. Its layout is explicit, since that of a SPIR-V module cannot be derived.
 fn pipeline(
-    device: &wgpu::Device,
+    compute: &Compute,
     module: &wgpu::ShaderModule,
     program: &Program,
     inputs: PointInputs,
 ) -> (wgpu::ComputePipeline, wgpu::BindGroupLayout) {
-    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+    let kinds = kinds(program, inputs);
+    let layout = compute.group_layout(wgpu::ShaderStages::COMPUTE, &kinds);
+    let descriptor = wgpu::ComputePipelineDescriptor {
         label: None,
-        entries: &entries(program, inputs),
-    });
-    let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&layout)],
-        immediate_size: 0,
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: Some(&whole),
+        layout: Some(&compute.pipeline_layout(&layout)),
         module,
         entry_point: Some(program.entry),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,
-    });
-    (pipeline, layout)
+    };
+    (compute.device.create_compute_pipeline(&descriptor), layout)
 }
 
 /// Whether binding 0 exists. For SPIR-V it always does: wgpu renumbers the bindings of a layout for Vulkan, without gaps, but not
@@ -193,38 +179,20 @@ fn has_block(program: &Program) -> bool {
     !program.uniforms.is_empty() || matches!(program.code, ShaderCode::Spirv(_))
 }
 
-/// The layout's entries, in the order of binding numbers, for the same reason.
-fn entries(program: &Program, inputs: PointInputs) -> Vec<wgpu::BindGroupLayoutEntry> {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty,
-        count: None,
-    };
-    let buffer = |ty| BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    let read_only = |read_only| buffer(BufferBindingType::Storage { read_only });
-    let uniform = buffer(BufferBindingType::Uniform);
+/// The bindings, in the order of their numbers, for the same reason.
+fn kinds(program: &Program, inputs: PointInputs) -> Vec<(u32, BindingType)> {
+    let read_only = |read_only| buffer_binding(BufferBindingType::Storage { read_only });
     let first = match inputs {
         PointInputs::Cosines | PointInputs::Places(_) => read_only(true),
-        PointInputs::Bits => uniform,
+        PointInputs::Bits => UNIFORM_BLOCK,
     };
-    let mut entries = Vec::new();
+    let mut kinds = Vec::new();
     if has_block(program) {
-        entries.push(entry(0, uniform));
+        kinds.push((0, UNIFORM_BLOCK));
     }
-    entries.extend([entry(1, first), entry(2, read_only(false))]);
+    kinds.extend([(1, first), (2, read_only(false))]);
     if let Some(shape) = program.texture {
-        let table = BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: view_dimension(shape),
-            multisampled: false,
-        };
-        let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-        entries.extend([entry(3, table), entry(4, sampler)]);
+        kinds.extend([(3, texture_binding(view_dimension(shape))), (4, SAMPLER)]);
     }
-    entries
+    kinds
 }

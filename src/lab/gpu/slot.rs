@@ -112,7 +112,6 @@ impl Slot {
             compute.queue.write_buffer(&self.inputs, 0, &inputs);
             // The bindings are as long as the block, because the program queries the length.
             let group = kernel.bind(
-                &compute.device,
                 resources,
                 part(&self.inputs, inputs.len() as u64),
                 part(&self.results, bytes),

@@ -82,19 +82,19 @@ impl VulkanCompiler {
         fragment: ModuleEntry,
     ) -> Result<Vec<(String, f64)>, Fault> {
         // SAFETY: as in `open`; the module and the pipeline are destroyed once, when they are no longer needed.
-        let told = unsafe {
+        let statistics = unsafe {
             let module = module(&self.device, fragment.module).map_err(Fault::refused)?;
-            let told = self
+            let measured = self
                 .pipeline(vertex, module, fragment.name)
                 .and_then(|pipeline| {
-                    let told = self.statistics(pipeline);
+                    let statistics = self.statistics(pipeline);
                     self.device.destroy_pipeline(pipeline, None);
-                    told
+                    statistics
                 });
             self.device.destroy_shader_module(module, None);
-            told
+            measured
         };
-        told.map_err(Fault::refused)
+        statistics.map_err(Fault::refused)
     }
 
     unsafe fn pipeline(
@@ -162,24 +162,24 @@ impl VulkanCompiler {
             let info = vk::PipelineExecutableInfoKHR::default()
                 .pipeline(pipeline)
                 .executable_index(index);
-            let told = self.executables.get_pipeline_executable_statistics(&info)?;
-            Ok(told.iter().map(|one| statistic(one)).collect())
+            let statistics = self.executables.get_pipeline_executable_statistics(&info)?;
+            Ok(statistics.iter().map(|one| statistic(one)).collect())
         }
     }
 }
 
 /// A statistic as a name and a number.
-unsafe fn statistic(told: &vk::PipelineExecutableStatisticKHR) -> (String, f64) {
+unsafe fn statistic(one: &vk::PipelineExecutableStatisticKHR) -> (String, f64) {
     // SAFETY: the format says which of the union's members was written.
     let value = unsafe {
-        match told.format {
-            vk::PipelineExecutableStatisticFormatKHR::INT64 => told.value.i64 as f64,
-            vk::PipelineExecutableStatisticFormatKHR::UINT64 => told.value.u64 as f64,
-            vk::PipelineExecutableStatisticFormatKHR::FLOAT64 => told.value.f64,
-            _ => f64::from(told.value.b32),
+        match one.format {
+            vk::PipelineExecutableStatisticFormatKHR::INT64 => one.value.i64 as f64,
+            vk::PipelineExecutableStatisticFormatKHR::UINT64 => one.value.u64 as f64,
+            vk::PipelineExecutableStatisticFormatKHR::FLOAT64 => one.value.f64,
+            _ => f64::from(one.value.b32),
         }
     };
-    (text(told.name_as_c_str().ok()), value)
+    (text(one.name_as_c_str().ok()), value)
 }
 
 fn text(text: Option<&CStr>) -> String {
@@ -193,10 +193,10 @@ unsafe fn describe(
     physical: vk::PhysicalDevice,
 ) -> Option<(String, String)> {
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
-    let mut told = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+    let mut device = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
     // SAFETY: the chain lives to the end of the call.
-    unsafe { instance.get_physical_device_properties2(physical, &mut told) };
-    let name = text(told.properties.device_name_as_c_str().ok());
+    unsafe { instance.get_physical_device_properties2(physical, &mut device) };
+    let name = text(device.properties.device_name_as_c_str().ok());
     let version = text(driver.driver_info_as_c_str().ok());
     let is_this = driver.driver_id == vk::DriverId::MESA_RADV;
     is_this.then(|| (name, format!("RADV, {version}")))
@@ -209,7 +209,7 @@ unsafe fn create(
     let priorities = [1.0];
     let queues = [vk::DeviceQueueCreateInfo::default().queue_priorities(&priorities)];
     let names = [khr::pipeline_executable_properties::NAME.as_ptr()];
-    let mut told = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
+    let mut executables = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
         .pipeline_executable_info(true);
     let mut rendering =
         vk::PhysicalDeviceDynamicRenderingFeatures::default().dynamic_rendering(true);
@@ -225,7 +225,7 @@ unsafe fn create(
         let wanted = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_extension_names(&names)
-            .push_next(&mut told)
+            .push_next(&mut executables)
             .push_next(&mut rendering);
         // Families without 16-bit arithmetic get none.
         let wanted = if has.shader_float16 == vk::TRUE {

@@ -123,13 +123,8 @@ impl Offscreen {
     pub fn draw(&self, draw: &Draw) -> Result<(), Fault> {
         let (compute, device) = (&self.compute, &self.compute.device);
         let block = self.buffer(draw.uniforms, BufferUsages::UNIFORM)?;
-        let kinds = kinds(draw);
-        let layout = compute.guarded(|| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: None,
-                entries: &kinds,
-            })
-        })?;
+        let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let layout = compute.guarded(|| compute.group_layout(stages, &kinds(draw)))?;
         let pipeline = compute.guarded(|| self.pipeline(draw, &layout))?;
         let depth = match (draw.depth, draw.targets.first()) {
             (Depth::Unused, _) | (_, None) => None,

@@ -1,8 +1,8 @@
 //! A draw in wgpu's terms: its layout, its pipeline, its render pass.
 
-use wgpu::TextureFormat;
+use wgpu::{BindingResource, BindingType, TextureFormat};
 
-use super::super::compute::SUM;
+use super::super::compute::{SAMPLER, UNIFORM_BLOCK, colour_target, texture_binding};
 use super::{Depth, Draw, FIRST_IMAGE, Image, Offscreen, VERTEX_FLOATS};
 
 impl Offscreen {
@@ -13,18 +13,11 @@ impl Offscreen {
         block: &wgpu::Buffer,
     ) -> wgpu::BindGroup {
         let views: Vec<wgpu::TextureView> = draw.images.iter().map(|image| image.view()).collect();
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        let mut entries = vec![entry(0, block.as_entire_binding())];
-        let samplers = (1..).zip(&self.samplers);
-        entries.extend(samplers.map(|(i, of)| entry(i, wgpu::BindingResource::Sampler(of))));
-        let images = (FIRST_IMAGE..).zip(&views);
-        entries.extend(images.map(|(i, of)| entry(i, wgpu::BindingResource::TextureView(of))));
-        let device = &self.compute.device;
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout,
-            entries: &entries,
-        })
+        let block = [(0, block.as_entire_binding())].into_iter();
+        let samplers = (1..).zip(self.samplers.iter().map(BindingResource::Sampler));
+        let images = (FIRST_IMAGE..).zip(views.iter().map(BindingResource::TextureView));
+        self.compute
+            .bind_group(layout, block.chain(samplers).chain(images))
     }
 
     pub(super) fn pipeline(
@@ -32,45 +25,15 @@ impl Offscreen {
         draw: &Draw,
         layout: &wgpu::BindGroupLayout,
     ) -> wgpu::RenderPipeline {
-        let device = &self.compute.device;
-        let module = self.compute.module(draw.text);
-        let target = Some(wgpu::ColorTargetState {
-            format: self.format,
-            blend: draw.adds.then_some(SUM),
-            write_mask: wgpu::ColorWrites::ALL,
-        });
-        let targets = vec![target; draw.targets.len()];
-        let buffers = [Some(VERTEX)];
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: None,
-            layout: Some(
-                &device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                    label: None,
-                    bind_group_layouts: &[Some(layout)],
-                    immediate_size: 0,
-                }),
-            ),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(draw.vertex),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: match draw.mesh {
-                    Ok(_) => &buffers,
-                    Err(_) => &[],
-                },
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: draw.depth.state(),
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(draw.fragment),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+        let targets = vec![colour_target(self.format, draw.adds); draw.targets.len()];
+        let buffers: &[_] = match draw.mesh {
+            Ok(_) => &[Some(VERTEX)],
+            Err(_) => &[],
+        };
+        let (compute, entries) = (&self.compute, [draw.vertex, draw.fragment]);
+        let layout = compute.pipeline_layout(layout);
+        let depth = draw.depth.state();
+        compute.render_pipeline(draw.text, entries, Some(&layout), buffers, &targets, depth)
     }
 }
 
@@ -157,29 +120,10 @@ const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2],
 };
 
-/// The layout of a draw's bindings.
-pub(super) fn kinds(draw: &Draw) -> Vec<wgpu::BindGroupLayoutEntry> {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-        ty,
-        count: None,
-    };
-    let block = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    let mut kinds = vec![entry(0, block), entry(1, sampler), entry(2, sampler)];
-    let images = (FIRST_IMAGE..).zip(draw.images);
-    kinds.extend(images.map(|(binding, image)| {
-        let ty = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: image.dimension,
-            multisampled: false,
-        };
-        entry(binding, ty)
-    }));
+/// The bindings of a draw.
+pub(super) fn kinds(draw: &Draw) -> Vec<(u32, BindingType)> {
+    let mut kinds = vec![(0, UNIFORM_BLOCK), (1, SAMPLER), (2, SAMPLER)];
+    let images = draw.images.iter();
+    kinds.extend((FIRST_IMAGE..).zip(images.map(|image| texture_binding(image.dimension))));
     kinds
 }
