@@ -26,12 +26,11 @@ use crate::generator::output::write::OutputFile;
 use crate::generator::request::Request;
 use crate::lab::gpu::{Backend, Wanted};
 use crate::lab::process::{Inbox, Pool};
-use crate::lab::verify::file::VerifyEffort;
 use crate::lab::verify::merge::Whole;
 use crate::lab::verify::requested::{VerifyPlan, plan_of_request};
 use crate::lab::verify::run::Devices;
 use crate::lab::verify::shard::{
-    PartStatement, Shard, ShardOutcome, ShardReport, VARIABLES, WholeRun, devices, shard_of,
+    PartStatement, Shard, ShardOutcome, ShardReport, VARIABLES, devices, shard_of,
 };
 use crate::lab::verify::{
     AllowedError, MachineStatement, Status, VerifyRow, WITHIN, exhaustive_rows, machine, serve,
@@ -153,7 +152,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         backend: flags.backend,
         name: flags.adapter.clone(),
     };
-    let effort = effort(flags)?;
+    check_points(flags.points)?;
     let plan = plan_of_request(&request, &flags.out_dir)?;
     if plan.files.is_empty() {
         return Err(RequestFault::NothingToDo {
@@ -164,7 +163,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     }
     if let Some(inbox) = inbox {
         let devices = Devices::new(wanted);
-        let served = serve(inbox, &plan, &devices, effort, shard.is_some());
+        let served = serve(inbox, &plan, &devices, flags.points, shard.is_some());
         // The supervisor is gone.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -223,18 +222,16 @@ fn request(flags: &VerifyFlags) -> Result<Request, Error> {
     })
 }
 
-fn effort(flags: &VerifyFlags) -> Result<VerifyEffort, Error> {
-    if !POINTS.contains(&flags.points) {
-        return Err(RequestFault::OutOfRange {
-            flag: "points",
-            value: flags.points.to_string(),
-            allowed: "is 100 to 10000000".to_owned(),
-        }
-        .into());
+fn check_points(points: usize) -> Result<(), Error> {
+    if POINTS.contains(&points) {
+        return Ok(());
     }
-    Ok(VerifyEffort {
-        points: flags.points,
-    })
+    Err(RequestFault::OutOfRange {
+        flag: "points",
+        value: points.to_string(),
+        allowed: "is 100 to 10000000".to_owned(),
+    }
+    .into())
 }
 
 /// The report and the exit code.
@@ -257,12 +254,9 @@ fn reported(
             whole_report(whole, &flags.report)?
         }
         Some(shard) => {
-            let whole = WholeRun {
-                command,
-                inputs: plan.hash(),
-                require_all: flags.require_all,
-            };
-            shard_report(whole, shard, outcome, &flags.report)?
+            let (inputs, require_all) = (plan.hash(), flags.require_all);
+            let report = ShardReport::new(command, inputs, require_all, shard, outcome);
+            shard_report(&report, shard, &flags.report)?
         }
     };
     let left_out = plan
@@ -300,24 +294,21 @@ fn unasked_words(files: &[String]) -> String {
 
 /// The report of a shard, and its exit code.
 fn shard_report(
-    whole: WholeRun,
+    report: &ShardReport,
     shard: Shard,
-    outcome: ShardOutcome,
     files: &CheckReportFlags,
 ) -> Result<Output, Error> {
-    let rows = outcome.bare_rows();
-    let code = code(&rows, whole.require_all, Some(&outcome.machine));
-    let (dealt, places) = (outcome.parts.len(), outcome.plan.len());
-    let unrun = remarks_on_parts_without_rows(&outcome.parts);
-    let full = ShardReport::new(whole, shard, outcome);
-    let mut output = told(&rows, &full, files)?;
+    let rows: Vec<VerifyRow> = report.rows.iter().map(|one| one.row.clone()).collect();
+    let (dealt, places) = (report.parts.len(), report.places);
+    let mut output = in_all_formats(&rows, report, files)?;
+    let unrun = remarks_on_parts_without_rows(&report.parts);
     output.remarks.extend(unrun);
     output.remarks.push(format!(
         "shard {} of {}: {dealt} of {places} parts of the run; `fresnel-gen merge` puts the JSON reports of all shards together",
         shard.index(),
         shard.count()
     ));
-    output.code = code;
+    output.code = code(&rows, report.require_all, Some(&report.machine));
     Ok(output)
 }
 
@@ -325,7 +316,7 @@ fn shard_report(
 pub(super) fn whole_report(whole: Whole, files: &CheckReportFlags) -> Result<Output, Error> {
     let rows = whole.rows;
     let full = Report::new(whole.command, rows.clone()).with_device(devices(&rows));
-    let mut output = told(&rows, &full, files)?;
+    let mut output = in_all_formats(&rows, &full, files)?;
     let unrun = remarks_on_parts_without_rows(&whole.parts);
     output.remarks.extend(unrun);
     output.code = code(&rows, whole.require_all, None);
@@ -348,7 +339,7 @@ fn remarks_on_parts_without_rows(parts: &[PartStatement]) -> Vec<String> {
 }
 
 /// A report in all its formats.
-fn told<T: Serialize>(
+fn in_all_formats<T: Serialize>(
     rows: &[VerifyRow],
     full: &T,
     files: &CheckReportFlags,

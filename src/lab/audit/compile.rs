@@ -80,13 +80,13 @@ impl Compilers {
         language: Language,
     ) -> Result<Result<AuditResponse, String>, Error> {
         let response = self.worker.borrow_mut().ask(request, self.limit)?;
-        Ok(response.map_err(|silence| reason(&silence, self.limit, language)))
+        Ok(response.map_err(|no_answer| reason(&no_answer, self.limit, language)))
     }
 }
 
-fn reason(silence: &NoAnswer, limit: Duration, language: Language) -> String {
+fn reason(no_answer: &NoAnswer, limit: Duration, language: Language) -> String {
     let compiler = compiler_name(language);
-    match silence {
+    match no_answer {
         NoAnswer::TooLong => format!(
             "{compiler} did not end within {} s, which is all that --limit allows",
             limit.as_secs()

@@ -30,8 +30,8 @@ pub struct Runner {
     pub points: Cell<usize>,
 }
 
-fn reason(silence: &NoAnswer, limit: Duration) -> RunError {
-    RunError::Failed(match silence {
+fn reason(no_answer: &NoAnswer, limit: Duration) -> RunError {
+    RunError::Failed(match no_answer {
         NoAnswer::TooLong => format!(
             "it did not end within {} s: a loop without end, or more work than --limit allows",
             limit.as_secs()
@@ -44,8 +44,8 @@ fn reason(silence: &NoAnswer, limit: Duration) -> RunError {
     })
 }
 
-fn unprepared(silence: &NoAnswer, limit: Duration) -> String {
-    match silence {
+fn unprepared(no_answer: &NoAnswer, limit: Duration) -> String {
+    match no_answer {
         NoAnswer::TooLong => format!(
             "the driver's compiler did not end within {} s, which is all that --limit allows",
             limit.as_secs()
@@ -81,7 +81,7 @@ impl Runner {
             }),
             Ok(response) => Err(run_error(response)),
             // The function has not run yet: its compiler, the driver or the machine may be at fault.
-            Err(silence) => Err(RunError::Absent(unprepared(&silence, limit))),
+            Err(no_answer) => Err(RunError::Absent(unprepared(&no_answer, limit))),
         })
     }
 
@@ -96,7 +96,7 @@ impl Runner {
         let request = AuditRequest::Run(taken.collect());
         let response = self.worker.borrow_mut().ask(&request, self.limit);
         let response = response.map_err(|error| RunError::Failed(error.to_string()))?;
-        match response.map_err(|silence| reason(&silence, self.limit))? {
+        match response.map_err(|no_answer| reason(&no_answer, self.limit))? {
             AuditResponse::Ran(results) if results.len() == cosines.len() => {
                 self.points.set(self.points.get() + cosines.len());
                 let results = results.into_iter().map(|rgb| rgb.map(f32::from_bits));

@@ -126,9 +126,9 @@ impl<'a> CompilerSession<'a> {
 
     fn ask(&mut self, request: &CompilerRequest) -> Result<CompilerResponse, CompilerError> {
         let answer: Result<CompilerAnswer, NoAnswer> = self.worker.ask(request, self.limit)?;
-        let answer = answer.unwrap_or_else(|silence| {
-            self.hangs += usize::from(silence == NoAnswer::TooLong);
-            Err(reason(&silence, self.limit))
+        let answer = answer.unwrap_or_else(|no_answer| {
+            self.hangs += usize::from(no_answer == NoAnswer::TooLong);
+            Err(reason(&no_answer, self.limit))
         });
         answer.map_err(CompilerError::Compiler)
     }
@@ -179,8 +179,8 @@ fn another_question() -> CompilerError {
 }
 
 /// Why a compiler gave no answer.
-fn reason(silence: &NoAnswer, limit: Duration) -> String {
-    match silence {
+fn reason(no_answer: &NoAnswer, limit: Duration) -> String {
+    match no_answer {
         NoAnswer::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
         NoAnswer::Ended(status) => format!("the process with the compiler ended ({status})"),
     }

@@ -319,11 +319,6 @@ mod tests {
         sweep(place.path());
         assert!(link.exists() && elsewhere.path().join(LOCK).exists());
     }
-}
-
-#[cfg(test)]
-mod tools_tests {
-    use super::*;
 
     #[test]
     fn tools_of_a_build_lie_beside_its_profiles() {

@@ -204,7 +204,7 @@ enum LineEvent {
 }
 
 /// A line with the time that its answer may take.
-pub fn framed(line: &str, limit: Duration) -> String {
+fn framed(line: &str, limit: Duration) -> String {
     format!("{} {line}", limit.as_millis())
 }
 

@@ -18,30 +18,23 @@ use crate::language::ir::Column;
 use crate::language::targets::Stack;
 use crate::physics::num::each_channel;
 
-/// How much work a trial of a file takes.
-#[derive(Clone, Copy, Debug)]
-pub struct VerifyEffort {
-    /// Cosines for each function and material.
-    pub points: usize,
-}
-
-/// The rows of a file.
+/// The rows of a file, with this number of cosines for each function and material.
 pub fn file_rows(
     plan: &VerifyPlan,
     file: &PlannedFile,
     devices: &Devices,
-    effort: VerifyEffort,
+    points: usize,
 ) -> Vec<VerifyRow> {
     let accepts = accepts(file);
     let mut rows = Vec::new();
     for (index, emitted) in file.functions.iter().enumerate() {
         if let Some(part) = emitted.effect {
-            let tried = FileTrial::new(file, index, emitted, devices, effort);
+            let tried = FileTrial::new(file, index, emitted, devices, points);
             rows.push(tried.effect_row(plan, part, &accepts));
             continue;
         }
         let cases = cases(plan, file, emitted);
-        let tried = FileTrial::new(file, index, emitted, devices, effort);
+        let tried = FileTrial::new(file, index, emitted, devices, points);
         for (place, case) in cases.iter().enumerate() {
             rows.push(tried.case_row(case, &accepts, place == 0));
         }
@@ -85,7 +78,7 @@ pub(super) struct FileTrial<'a> {
     pub emitted: &'a EmittedFunction,
     entry: &'a str,
     pub devices: &'a Devices,
-    effort: VerifyEffort,
+    points: usize,
     /// The text compiled for running, once for all cases.
     own: OnceCell<Result<Runnable, Fault>>,
 }
@@ -96,7 +89,7 @@ impl<'a> FileTrial<'a> {
         index: usize,
         emitted: &'a EmittedFunction,
         devices: &'a Devices,
-        effort: VerifyEffort,
+        points: usize,
     ) -> FileTrial<'a> {
         let entry = file
             .run_page()
@@ -108,7 +101,7 @@ impl<'a> FileTrial<'a> {
             emitted,
             entry,
             devices,
-            effort,
+            points,
             own: OnceCell::new(),
         }
     }
@@ -168,7 +161,7 @@ impl<'a> FileTrial<'a> {
         if self.emitted.precision.is_half() {
             return run::run_in_half(runnable, &shown, &case.trial);
         }
-        let mut points = cosines_around(self.effort.points, &case.limits);
+        let mut points = cosines_around(self.points, &case.limits);
         points.extend(beyond());
         let expected = case.trial.expected(&points);
         let got = runnable.run(&case.trial, &expected.cosines)?;

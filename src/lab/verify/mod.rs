@@ -1,8 +1,7 @@
 //! Verification of generated code: its results compared with what it means.
 //!
-//! A [`Trial`] is a function with the values of its arguments. What it means at its inputs, in f64, is [`Expected`]. With the
-//! feature `compilers`, independent compilers check the text. With the feature `gpu`, the text itself runs on a real graphics
-//! stack.
+//! A [`Trial`] is a function with the values of its arguments. What it means at its inputs, in f64, is [`Expected`]. Independent
+//! compilers check the text, and the text itself runs on a real graphics stack.
 //!
 //! Shaders run in processes of their own, so that one that hangs or crashes its driver costs no more than a row of the report. All
 //! processes make the same [`VerifyPlan`](requested::VerifyPlan) from the same flags, and a number names one of its files.
@@ -38,14 +37,8 @@ pub use cases::material_trial;
 pub use code_error::{ABSOLUTE_FLOOR, CodeError};
 pub use half::{HalfError, HalfTrial, halves, halves_beyond, nearest_half};
 pub use machine::MachineStatement;
-pub use points::{
-    Random, WITHIN, beyond, cosines, cosines_around, limits, share, worst_cases, worst_cosines,
-    worst_media,
-};
-pub use row::{
-    AllowedError, Answer, CodeErrorFigures, Emulation, Error, ModelErrorFigures, SecondOpinion,
-    Status, VerifyRow, WORST, as_object,
-};
+pub use points::{Random, WITHIN, beyond, cosines, cosines_around, limits, share, worst_media};
+pub use row::{AllowedError, Answer, Error, Status, VerifyRow, as_object};
 pub use supervise::{serve, supervise};
-pub use sweep::{count, exhaustive_rows, sweep};
+pub use sweep::exhaustive_rows;
 pub use trial::{Expected, Miss, Outcome, Trial, result_range};

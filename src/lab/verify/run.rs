@@ -262,7 +262,7 @@ impl Devices {
                 shape,
                 filter: TextureFilter::Linear,
             });
-            Ok(batch.run(&trial.places(), texture.as_ref())?)
+            batch.run(&trial.places(), texture.as_ref())
         };
         if let Stack::SpirvModule = shown.target.stack {
             return run(ShaderCode::Spirv(shown.bytes), shown.entry);
@@ -349,7 +349,7 @@ impl Runnable {
                 shape: TextureShape::Flat,
                 filter: TextureFilter::Linear,
             });
-        Ok(self.kernel.run(cosines, &uniforms, texture.as_ref())?)
+        self.kernel.run(cosines, &uniforms, texture.as_ref())
     }
 }
 

@@ -239,29 +239,25 @@ pub struct ShardReport {
     pub rows: Vec<PlacedRow>,
 }
 
-/// The whole run that a shard is a part of.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WholeRun {
-    /// The command, without the flags of shards.
-    pub command: String,
-    /// The hash of the files and materials that it is about.
-    pub inputs: String,
-    /// Whether checks that could not be made end it with exit code 3.
-    pub require_all: bool,
-}
-
 impl ShardReport {
-    /// The report of a shard's outcome.
-    pub fn new(whole: WholeRun, shard: Shard, outcome: ShardOutcome) -> ShardReport {
+    /// The report of a shard's outcome. `command` is that of the whole run, without the flags of shards, and `inputs` the hash of
+    /// the files and materials that it is about.
+    pub fn new(
+        command: String,
+        inputs: String,
+        require_all: bool,
+        shard: Shard,
+        outcome: ShardOutcome,
+    ) -> ShardReport {
         ShardReport {
             tool: TOOL.to_owned(),
             schema: SCHEMA,
-            command: whole.command,
+            command,
             shard: shard.index(),
             shards: shard.count(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            inputs: whole.inputs,
-            require_all: whole.require_all,
+            inputs,
+            require_all,
             device: devices(&outcome.bare_rows()),
             machine: outcome.machine,
             places: outcome.plan.len(),
@@ -392,11 +388,6 @@ mod tests {
         assert_eq!(Shard::new(0, 0), None);
         assert!(Shard::new(usize::MAX - 1, usize::MAX).is_some());
     }
-}
-
-#[cfg(test)]
-mod dealt_tests {
-    use super::*;
 
     const SLURM: &str = VARIABLES[0];
     const KUBERNETES: &str = VARIABLES[1];

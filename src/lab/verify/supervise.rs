@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::file::{VerifyEffort, file_rows};
+use super::file::file_rows;
 use super::judge::unfinished;
 use super::machine::MachineStatement;
 use super::requested::VerifyPlan;
@@ -31,40 +31,39 @@ pub fn supervise(
 ) -> Result<ShardOutcome, Error> {
     let surroundings = Surroundings::new(tools)?;
     let launch = Launch::with_own_words(&surroundings);
-    let dealt = (0..plan.files.len()).filter(|file| shard.takes(*file));
-    let requests: Vec<FileRequest> = dealt.map(|file| FileRequest { file }).collect();
+    let all = 0..plan.files.len();
+    let dealt: Vec<usize> = all.filter(|place| shard.takes(*place)).collect();
     let task = Task {
-        jobs: &requests,
+        jobs: &dealt,
         launch: &|_| launch.clone(),
-        work: &|worker, request, tick| {
-            let answer = worker.ask(request, pool.limit)?;
+        work: &|worker, place, tick| {
+            let answer = worker.ask(place, pool.limit)?;
             tick();
-            let file = &plan.files[request.file];
-            Ok(answer.unwrap_or_else(|silence| FileAnswer {
-                rows: unfinished(file, &reason(&silence, pool.limit)),
+            Ok(answer.unwrap_or_else(|why| FileAnswer {
+                rows: unfinished(&plan.files[*place], &reason(&why, pool.limit)),
                 ..FileAnswer::default()
             }))
         },
     };
-    let (mut count, whole) = (0, requests.len() as u64);
-    let answers = pool.run(&task, &mut |request: &FileRequest| {
+    let (mut count, whole) = (0, dealt.len() as u64);
+    let answers = pool.run(&task, &mut |place: &usize| {
         count += 1;
-        progress(count, whole, &plan.files[request.file].run_page().path);
+        progress(count, whole, &plan.files[*place].run_page().path);
     })?;
     let mut outcome = ShardOutcome {
         plan: plan.planned_rows(),
         ..ShardOutcome::default()
     };
-    for (request, answer) in requests.iter().zip(answers) {
-        outcome.add(request.file, &plan.files[request.file], answer.rows);
+    for (place, answer) in dealt.into_iter().zip(answers) {
+        outcome.add(place, &plan.files[place], answer.rows);
         outcome.machine.add(answer.machine);
     }
     Ok(outcome)
 }
 
 /// Why there are no rows.
-fn reason(silence: &NoAnswer, limit: Duration) -> String {
-    match silence {
+fn reason(why: &NoAnswer, limit: Duration) -> String {
+    match why {
         NoAnswer::TooLong => format!(
             "it did not end within {} s: a device or a compiler that hangs, or more --points than --limit allows",
             limit.as_secs()
@@ -75,14 +74,7 @@ fn reason(silence: &NoAnswer, limit: Duration) -> String {
     }
 }
 
-/// A request to a worker: the rows of one file.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct FileRequest {
-    /// The file's place in the plan, from 0.
-    pub file: usize,
-}
-
-/// A worker's answer.
+/// A worker's answer to the place of a file in the plan.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct FileAnswer {
     /// The rows of the file.
@@ -92,7 +84,8 @@ pub struct FileAnswer {
     pub machine: MachineStatement,
 }
 
-/// Serves until the supervisor is gone. Only files of the plan have rows, and only a shard states what the machine has.
+/// Serves until the supervisor is gone. Only files of the plan have rows, and only a shard states what the machine has. `points` is
+/// the number of cosines for each function and material.
 ///
 /// # Errors
 /// The pipe is gone.
@@ -100,12 +93,12 @@ pub fn serve(
     inbox: Inbox,
     plan: &VerifyPlan,
     devices: &Devices,
-    effort: VerifyEffort,
+    points: usize,
     is_shard: bool,
 ) -> io::Result<()> {
     let mut stated: BTreeMap<&str, MachineStatement> = BTreeMap::new();
-    inbox.serve(|request: FileRequest| -> FileAnswer {
-        let Some(file) = plan.files.get(request.file) else {
+    inbox.serve(|place: usize| -> FileAnswer {
+        let Some(file) = plan.files.get(place) else {
             return FileAnswer::default();
         };
         let mut machine = MachineStatement::default();
@@ -117,7 +110,7 @@ pub fn serve(
                 .clone();
         }
         FileAnswer {
-            rows: file_rows(plan, file, devices, effort),
+            rows: file_rows(plan, file, devices, points),
             machine,
         }
     })

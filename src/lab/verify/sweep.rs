@@ -36,7 +36,7 @@ const PIECE: usize = 512;
 ///
 /// # Errors
 /// There is no device, or it fails, or the text is refused.
-pub fn sweep(
+fn sweep(
     devices: &Devices,
     shown: &ShippedFunction,
     trial: &Trial,
@@ -71,7 +71,7 @@ pub fn sweep(
 }
 
 /// How many numbers a trial is swept over: a textbook form promises nothing next to 0 and beyond 1.
-pub fn count(trial: &Trial) -> u64 {
+fn count(trial: &Trial) -> u64 {
     if trial.is_guarded {
         ALL
     } else {
@@ -285,8 +285,8 @@ fn run(
         entry: "",
     };
     let all = count(&trial);
-    let told = &mut |done: u64| progress(done / 1024, all / 1024, &emitted.name);
-    let (swept, time) = machine::timed(|| sweep(devices, &shown, &trial, told));
+    let report = &mut |done: u64| progress(done / 1024, all / 1024, &emitted.name);
+    let (swept, time) = machine::timed(|| sweep(devices, &shown, &trial, report));
     let run = swept.and_then(|outcome| {
         Ok(PathRun {
             points: all as usize,

@@ -80,8 +80,7 @@ in highp vec3 at;
 out highp vec4 colour;
 void main() {
     highp vec3 sum = vec3(0.0);
-CALLS
-    colour = vec4(sum, 1.0);
+{calls}    colour = vec4(sum, 1.0);
 }
 ";
 

@@ -204,8 +204,7 @@ SamplerState a_sampler;
 float4 main(float3 at : TEXCOORD0) : SV_Target
 {
     float3 sum = at;
-CALLS
-    return float4(sum, 1.0);
+{calls}    return float4(sum, 1.0);
 }
 ",
 };
@@ -219,8 +218,7 @@ float4 main(float3 wide : TEXCOORD0) : SV_Target
 {
     half3 at = half3(wide);
     half3 sum = 0.0h;
-CALLS
-    return float4(sum, 1.0);
+{calls}    return float4(sum, 1.0);
 }
 ",
 };

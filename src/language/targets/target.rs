@@ -175,7 +175,7 @@ pub struct Validator {
 pub struct Frame {
     /// Texts that may precede the file: a program is made with each.
     pub beginnings: &'static [&'static str],
-    /// The text after it. The line `CALLS` becomes a call of each function, added to `sum`, so that nothing is dead code.
+    /// The text after it. In it `{calls}` is a call of each function, added to `sum`, so that nothing is dead code.
     /// Their arguments are `at` and `at.x`, `a_texture` and `a_sampler`.
     pub ending: &'static str,
 }

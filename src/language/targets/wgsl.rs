@@ -139,8 +139,7 @@ const ENDING: &str = "
 @fragment
 fn main(@location(0) at: vec3<f32>) -> @location(0) vec4<f32> {
     var sum = vec3<f32>();
-CALLS
-    return vec4<f32>(sum, 1.0);
+{calls}    return vec4<f32>(sum, 1.0);
 }
 ";
 
@@ -151,8 +150,7 @@ const HALF_ENDING: &str = "
 fn main(@location(0) wide: vec3<f32>) -> @location(0) vec4<f32> {
     let at = vec3<f16>(wide);
     var sum = vec3<f16>();
-CALLS
-    return vec4<f32>(vec3<f32>(sum), 1.0);
+{calls}    return vec4<f32>(vec3<f32>(sum), 1.0);
 }
 ";
 

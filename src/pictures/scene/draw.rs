@@ -90,7 +90,7 @@ pub fn draw(
             adds: false,
         })?;
     }
-    Ok(offscreen.read(&slots[&Slot::Colour])?)
+    offscreen.read(&slots[&Slot::Colour])
 }
 
 /// The tables that passes read.

@@ -7,7 +7,7 @@ use std::str::Utf8Error;
 use super::call::CompilerInput;
 use crate::lab::verify::function_head::{FunctionHead, function_head};
 use crate::lab::verify::shader_words::{Hidden, behind, code_alone, tokens};
-use crate::language::targets::Frame;
+use crate::language::targets::{Frame, filled};
 
 /// The programs of a file, one for each beginning.
 pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
@@ -17,7 +17,7 @@ pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
     let text = std::str::from_utf8(bytes)?;
     // Only WGSL has this word, and nested comments.
     let nests = frame.ending.contains("fn ");
-    let ending = frame.ending.replace("CALLS\n", &calls(text, nests));
+    let ending = filled(frame.ending, &[("calls", &calls(text, nests))]);
     let program = |beginning: &&str| format!("{beginning}{text}{ending}").into_bytes();
     Ok(frame.beginnings.iter().map(program).collect())
 }
