@@ -280,13 +280,8 @@ fn searched(row: &RenderedRow) -> String {
 pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<Vec<u8>, String> {
     let shown = |radiance: &DVec3| display.shown(*radiance).to_array().map(srgb_byte);
     let error = |error: &f64| shade_bytes(error / ERROR_SCALE);
-    let panels: [Vec<[u8; 3]>; 3] = [
-        picture.drawn.iter().map(shown).collect(),
-        picture.truth.iter().map(shown).collect(),
-        picture.map.iter().map(error).collect(),
-    ];
     let size = picture.row.size;
-    let pixels = beside(&panels, size as usize).concat();
+    let pixels = panels(picture, shown, error).concat();
     rgb_png(&pixels, [3 * size, size], format!("{MARK}: {about}"))
 }
 
@@ -295,14 +290,9 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
 /// # Errors
 /// The picture cannot be encoded; the text says why.
 pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
-    let radiance = |of: &[DVec3]| of.iter().map(|of| of.as_vec3().to_array()).collect();
-    let panels: [Vec<[f32; 3]>; 3] = [
-        radiance(&picture.drawn),
-        radiance(&picture.truth),
-        picture.map.iter().map(|error| [*error as f32; 3]).collect(),
-    ];
+    let radiance = |colour: &DVec3| colour.as_vec3().to_array();
+    let pixels = panels(picture, radiance, |error| [*error as f32; 3]);
     let size = picture.row.size as usize;
-    let pixels = beside(&panels, size);
     let channel = |(i, name): (usize, &'static str)| {
         let samples = pixels.iter().map(|pixel| pixel[i]).collect();
         exr::prelude::AnyChannel::new(name, exr::prelude::FlatSamples::F32(samples))
@@ -318,12 +308,15 @@ pub fn panels_exr(picture: &Picture) -> Result<Vec<u8>, String> {
     Ok(bytes.into_inner())
 }
 
-/// The rows of the square panels, side by side.
-fn beside<T: Copy>(panels: &[Vec<T>; 3], size: usize) -> Vec<T> {
-    let row = |y: usize| {
-        panels
-            .iter()
-            .flat_map(move |panel| &panel[y * size..][..size])
-    };
-    (0..size).flat_map(row).copied().collect()
+/// The pixels of the picture, its truth and its error side by side, row by row.
+fn panels<T>(picture: &Picture, colour: impl Fn(&DVec3) -> T, error: impl Fn(&f64) -> T) -> Vec<T> {
+    let size = picture.row.size as usize;
+    let mut pixels = Vec::with_capacity(3 * size * size);
+    for y in 0..size {
+        let row = y * size..(y + 1) * size;
+        pixels.extend(picture.drawn[row.clone()].iter().map(&colour));
+        pixels.extend(picture.truth[row.clone()].iter().map(&colour));
+        pixels.extend(picture.map[row].iter().map(&error));
+    }
+    pixels
 }

@@ -50,6 +50,10 @@ fn section(rows: &[CostRow]) -> Option<FamilySection> {
     let family = rows.first()?.family;
     let known = rows.iter().find(|row| row.figures.is_ok());
     let longest = rows.iter().filter_map(|row| row.share).fold(0.0, f64::max);
+    let (lines, reason) = match known {
+        Some(_) => (rows.iter().map(|row| line(row, longest)).collect(), None),
+        None => (Vec::new(), rows[0].figures.clone().err()),
+    };
     Some(FamilySection {
         name: family.name,
         gpu: family.gpu,
@@ -58,14 +62,8 @@ fn section(rows: &[CostRow]) -> Option<FamilySection> {
         compiler: known
             .and_then(|row| row.compiler.clone())
             .unwrap_or_default(),
-        lines: match known {
-            Some(_) => rows.iter().map(|row| line(row, longest)).collect(),
-            None => Vec::new(),
-        },
-        reason: match known {
-            Some(_) => None,
-            None => rows[0].figures.clone().err(),
-        },
+        lines,
+        reason,
     })
 }
 

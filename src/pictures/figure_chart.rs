@@ -5,6 +5,7 @@ use crate::pictures::plot::{ChartAxis, LineChart, Series, Style};
 
 /// The chart of a figure.
 pub fn figure_chart(figure: &ThesisFigure) -> LineChart {
+    let series = |curve: &DrawnCurve, style| Series::new(curve.name, style, curve.points.clone());
     let mut all = vec![series(&figure.exact, Style::Exact)];
     for (i, curve) in figure.curves.iter().enumerate() {
         all.push(series(curve, Style::Approximate(i)));
@@ -40,12 +41,4 @@ fn subtitle(figure: &ThesisFigure) -> String {
     }
     parts.retain(|part| !part.is_empty());
     parts.join(" ")
-}
-
-fn series(curve: &DrawnCurve, style: Style) -> Series {
-    Series {
-        name: curve.name.to_owned(),
-        style,
-        points: curve.points.clone(),
-    }
 }

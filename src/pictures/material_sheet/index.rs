@@ -78,16 +78,12 @@ fn joined(
 ) -> Series {
     rgb.sort_by(f64::total_cmp);
     let value = |nm: f64| curve.at(nm, beyond).unwrap_or(f64::NAN);
-    Series {
-        name: name.to_owned(),
-        style: Style::Own(Look {
-            dashes: JOINT,
-            width: 1.4,
-            dots: true,
-            ..look
-        }),
-        points: rgb.map(|nm| (nm, value(nm))).to_vec(),
-    }
+    let look = Look {
+        dots: true,
+        ..Look::new(look.colour, JOINT, 1.4)
+    };
+    let points = rgb.map(|nm| (nm, value(nm))).to_vec();
+    Series::new(name, Style::Own(look), points)
 }
 
 /// A table with its points as dots, or a formula's curve.
@@ -103,11 +99,7 @@ fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f6
         }
     };
     let dots = matches!(curve, DispersionCurve::Table(_));
-    Series {
-        name: name.to_owned(),
-        style: Style::Own(Look { dots, ..look }),
-        points,
-    }
+    Series::new(name, Style::Own(Look { dots, ..look }), points)
 }
 
 /// The points inside a range, and the points where the lines to their neighbours cross its ends.

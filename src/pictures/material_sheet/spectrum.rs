@@ -24,16 +24,16 @@ pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
         Some(rgb) => (Some(axis::around(rgb)), points(drawn)),
         None => measured(drawn),
     };
-    let alone = three.is_some() || indices.len() == 1;
-    let series = ANGLES.map(|(degrees, colour, dashes)| Series {
-        name: format!("{degrees}°"),
-        style: Style::Own(Look {
-            colour,
-            dashes,
-            width: if alone { 1.4 } else { 2.2 },
-            dots: alone,
-        }),
-        points: reflectance(&indices, cosine(degrees)),
+    let dots = three.is_some() || indices.len() == 1;
+    let width = if dots { 1.4 } else { 2.2 };
+    let series = ANGLES.map(|(degrees, colour, dashes)| {
+        let line = Look::new(colour, dashes, width);
+        let points = reflectance(&indices, cosine(degrees));
+        Series::new(
+            &format!("{degrees}°"),
+            Style::Own(Look { dots, ..line }),
+            points,
+        )
     });
     let subtitle = match (three, range) {
         (Some([red, green, blue]), _) => {
@@ -108,11 +108,7 @@ pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
     let series = [0, 1, 2].map(|channel| {
         let (name, look) = CHANNELS[channel];
         let points = colours.iter().map(|(at, colour)| (*at, colour[channel]));
-        Series {
-            name: name.to_owned(),
-            style: Style::Own(look),
-            points: points.collect(),
-        }
+        Series::new(name, Style::Own(look), points.collect())
     });
     LineChart {
         title: "Reflectance against angle".to_owned(),

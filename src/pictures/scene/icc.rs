@@ -35,10 +35,8 @@ fn tag<'a>(profile: &'a [u8], name: &[u8; 4]) -> Option<&'a [u8]> {
     let entry = (0..count)
         .map(|i| 132 + 12 * i)
         .find(|at| profile.get(*at..at + 4) == Some(name))?;
-    let (from, length) = (
-        whole(profile, entry + 4)? as usize,
-        whole(profile, entry + 8)? as usize,
-    );
+    let from = whole(profile, entry + 4)? as usize;
+    let length = whole(profile, entry + 8)? as usize;
     profile.get(from..from.checked_add(length)?)
 }
 

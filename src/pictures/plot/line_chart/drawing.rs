@@ -225,11 +225,7 @@ mod tests {
         let rows = |names: &[&str]| {
             let mut layout = Layout::new(ALONE);
             let start = layout.bottom;
-            let named = |name: &&str| Series {
-                name: (*name).to_owned(),
-                style: Style::Exact,
-                points: vec![],
-            };
+            let named = |name: &&str| Series::new(name, Style::Exact, vec![]);
             set_legend(&mut layout, &names.iter().map(named).collect::<Vec<_>>());
             ((layout.bottom - start) / LEGEND.leading).floor()
         };

@@ -52,6 +52,17 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Series {
+    /// A curve through these points.
+    pub fn new(name: &str, style: Style, points: Vec<(f64, f64)>) -> Series {
+        Series {
+            name: name.to_owned(),
+            style,
+            points,
+        }
+    }
+}
+
 impl LineChart {
     /// What a reader who does not see the chart should hear.
     pub fn description(&self) -> String {
@@ -112,14 +123,6 @@ impl ChartAxis {
 mod tests {
     use super::*;
 
-    fn series(name: &str, style: Style, points: &[(f64, f64)]) -> Series {
-        Series {
-            name: name.into(),
-            style,
-            points: points.to_vec(),
-        }
-    }
-
     fn chart() -> LineChart {
         LineChart {
             title: "Water & <air>".into(),
@@ -127,8 +130,12 @@ mod tests {
             x: ChartAxis::new("Angle", [0.0, 90.0], 5, "°"),
             y: ChartAxis::new("Reflectance", [0.0, 100.0], 5, "%"),
             series: vec![
-                series("fit", Style::Approximate(0), &[(0.0, 5.0), (90.0, 400.0)]),
-                series("exact", Style::Exact, &[(0.0, 2.0), (90.0, 100.0)]),
+                Series::new(
+                    "fit",
+                    Style::Approximate(0),
+                    vec![(0.0, 5.0), (90.0, 400.0)],
+                ),
+                Series::new("exact", Style::Exact, vec![(0.0, 2.0), (90.0, 100.0)]),
             ],
             marks: vec![],
             foot: "make \"it\"".into(),
@@ -173,8 +180,8 @@ mod tests {
     #[test]
     fn points_that_are_not_finite_leave_a_gap() {
         let mut gap = chart();
-        let points = [(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 4.0)];
-        gap.series = vec![series("gap", Style::Exact, &points)];
+        let points = vec![(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 4.0)];
+        gap.series = vec![Series::new("gap", Style::Exact, points)];
         let svg = gap.svg();
         let data = svg.split("stroke-width=\"3\" d=\"").nth(2);
         let data = data.and_then(|rest| rest.split('"').next());
