@@ -166,11 +166,8 @@ impl Function {
     /// Scalar operations of one evaluation. An operation on a colour counts three times; texture fetches do not count.
     pub fn work(&self) -> usize {
         let channels = |node: &Node| {
-            node.args
-                .iter()
-                .map(|a| self.nodes[*a].ty.channels().min(3))
-                .max()
-                .unwrap_or(1)
+            let arguments = node.args.iter().map(|a| self.nodes[*a].ty);
+            arguments.map(|ty| ty.channels().min(3)).max().unwrap_or(1)
         };
         self.nodes
             .iter()

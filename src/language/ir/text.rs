@@ -12,16 +12,13 @@
 
 use std::fmt::Write;
 
-use super::graph::{Function, Letters, Node, Ty};
+use super::graph::{Function, Letters, Node, Param, Ty};
 use super::op::Payload;
 
 /// Prints a function.
 pub fn print(function: &Function) -> String {
-    let params: Vec<String> = function
-        .params
-        .iter()
-        .map(|p| format!("{}: {}", p.name, type_name(function.letters, p.ty)))
-        .collect();
+    let param = |p: &Param| format!("{}: {}", p.name, type_name(function.letters, p.ty));
+    let params: Vec<String> = function.params.iter().map(param).collect();
     let mut out = format!(
         "fn {}({}) -> {}\n",
         function.name,
@@ -29,22 +26,16 @@ pub fn print(function: &Function) -> String {
         type_name(function.letters, function.ty())
     );
     let names = names(function);
-    for (id, node) in function
-        .nodes
-        .iter()
-        .enumerate()
-        .filter(|(_, node)| !node.is_leaf())
-    {
+    let steps = function.nodes.iter().enumerate();
+    for (id, node) in steps.filter(|(_, node)| !node.is_leaf()) {
         let mut words = vec![node.op.info().name.to_owned()];
         if let Payload::Index(index) = node.payload {
             words.push(index.to_string());
         }
         words.extend(node.args.iter().map(|a| names[*a].clone()));
-        let why = node.label.as_ref().map_or("", |label| &label.why);
-        let comment = if why.is_empty() {
-            String::new()
-        } else {
-            format!(" # {why}")
+        let comment = match &node.label {
+            Some(label) if !label.why.is_empty() => format!(" # {}", label.why),
+            _ => String::new(),
         };
         let _ = writeln!(out, "  {} = {}{comment}", names[id], words.join(" "));
     }
