@@ -4,8 +4,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::graph::{Function, Label, Letters, Node, NodeId, Param, Ty};
+use super::graph::{Function, Label, Node, NodeId, Param};
 use super::op::{Op, Payload, Signature};
+use super::ty::{Letters, Ty};
 use crate::physics::num::Precision;
 
 /// Collects the nodes of one function.

@@ -14,8 +14,9 @@
 use std::collections::BTreeSet;
 use std::ops::Deref;
 
-use super::graph::{Function, Node, NodeId, Ty};
+use super::graph::{Function, Node, NodeId};
 use super::op::{Op, Payload, Signature};
+use super::ty::Ty;
 use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 

@@ -1,7 +1,7 @@
 //! The table of operations: name, signature, meaning, work. All code reads this table, except evaluation and
 //! spelling, which define what an operation computes and how a language writes it.
 
-use super::graph::Ty;
+use super::ty::Ty;
 
 /// An operation. Its row in [`OPS`] says the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -12,8 +12,9 @@
 
 use std::fmt::Write;
 
-use super::graph::{Function, Letters, Node, Param, Ty};
+use super::graph::{Function, Node, Param};
 use super::op::Payload;
+use super::ty::{Letters, Ty};
 
 /// Prints a function.
 pub fn print(function: &Function) -> String {

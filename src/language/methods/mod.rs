@@ -45,7 +45,7 @@ pub use surface::KnownSurface;
 /// ```
 pub fn find(name: &str) -> Option<&'static Method> {
     let found = ALL.iter().find(|method| method.name == name).copied();
-    found.or_else(|| renamed::find_renamed(name))
+    found.or_else(|| find(renamed(name, RENAMED)?.new))
 }
 
 impl FromStr for &'static Method {

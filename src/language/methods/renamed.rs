@@ -1,7 +1,5 @@
 //! Renamed methods: the old name works for one minor version, with a remark, and is then removed.
 
-use super::Method;
-
 /// A method's old name and its new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Renamed {
@@ -34,11 +32,6 @@ impl Renamed {
             self.old, self.new
         )
     }
-}
-
-/// The method of an old name.
-pub(super) fn find_renamed(name: &str) -> Option<&'static Method> {
-    super::find(renamed(name, RENAMED)?.new)
 }
 
 #[cfg(test)]

@@ -5,9 +5,7 @@
 
 use super::glsl;
 use super::spelling::Spelling;
-use super::target::{
-    Finish, Frame, GLSLANG, HalfText, Harness, Page, PointHarness, Stack, Target, Validator,
-};
+use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -58,25 +56,10 @@ static HARNESS: Harness = Harness {
     cosine: "cos_theta",
     splat: "{value}",
     converts: false,
-    points: &POINTS,
+    points: &glsl::POINTS,
     after: "
 in highp float cos_theta;
 {block}{texture}out highp vec3 reflectance;
-void main() {
-    reflectance = vec3({value});
-    gl_Position = vec4(0.0);
-}
-",
-};
-
-pub(super) static POINTS: PointHarness = PointHarness {
-    input: "in highp vec4 fg_{at};\n",
-    place: "fg_{at}",
-    matrix: "{type}({columns})",
-    cube: "uniform highp samplerCube fg_cube;\n",
-    cube_argument: "fg_cube",
-    declarations: "\n{inputs}{texture}out highp vec3 reflectance;\n",
-    entry: "
 void main() {
     reflectance = vec3({value});
     gl_Position = vec4(0.0);

@@ -1,7 +1,9 @@
 //! GLSL 4.50, for desktop OpenGL and for front ends of Vulkan.
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
+use super::target::{
+    Finish, Frame, GLSLANG, HalfText, Harness, Page, PointHarness, Stack, Target, Validator,
+};
 use crate::language::ir::Op;
 use crate::physics::num::Precision;
 
@@ -47,7 +49,7 @@ pub static DESKTOP: Harness = Harness {
     cosine: "fg_cosines[gl_GlobalInvocationID.x]",
     splat: "vec3({value})",
     converts: false,
-    points: &super::gles::POINTS,
+    points: &POINTS,
     after: "
 {block}layout(std430, set = 0, binding = 1) readonly buffer FgCosines { float fg_cosines[]; };
 layout(std430, set = 0, binding = 2) buffer FgReflectances { vec4 fg_reflectances[]; };
@@ -58,6 +60,22 @@ void main()
     {
         fg_reflectances[gl_GlobalInvocationID.x] = vec4({value}, 1.0);
     }
+}
+",
+};
+
+/// Shared with GLSL ES.
+pub(super) static POINTS: PointHarness = PointHarness {
+    input: "in highp vec4 fg_{at};\n",
+    place: "fg_{at}",
+    matrix: "{type}({columns})",
+    cube: "uniform highp samplerCube fg_cube;\n",
+    cube_argument: "fg_cube",
+    declarations: "\n{inputs}{texture}out highp vec3 reflectance;\n",
+    entry: "
+void main() {
+    reflectance = vec3({value});
+    gl_Position = vec4(0.0);
 }
 ",
 };

@@ -2,8 +2,9 @@
 
 use crate::language::ir::build::Expr;
 use crate::language::ir::evaluate::{Column, Value, evaluate_nodes};
-use crate::language::ir::graph::{Function, Node, Ty};
+use crate::language::ir::graph::{Function, Node};
 use crate::language::ir::op::Op;
+use crate::language::ir::ty::Ty;
 use crate::physics::num::{Interval, Precision, each_channel};
 
 /// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either.
