@@ -33,7 +33,7 @@ pub use check::{BrokenRule, Checked, RULES, check, check_in};
 pub use evaluate::{Column, Value, evaluate};
 pub use fold::{USED_TWICE, fold, fold_in, specialise, specialise_in};
 pub use graph::{COSINE, Function, Label, Node, NodeId, Param};
-pub use op::{OPS, Op, OpInfo, Payload, Signature};
+pub use op::{OPS, Op, Payload, Signature};
 pub use text::print;
 pub use texture::{CubeTexels, Filter, Texels, Weights, filtered};
 pub use ty::{Letters, Ty};

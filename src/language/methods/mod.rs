@@ -21,18 +21,15 @@ mod renamed;
 mod shape;
 mod surface;
 
-pub use affine::{Affine, Basis, MOST_TERMS};
-pub use claims::{ByClass, Claim, Claims, ColourClaim, Spread};
+pub use affine::{Basis, MOST_TERMS};
+pub use claims::{ByClass, ColourClaim, Spread};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
-pub use half::{HALF_AIM, HalfClaim, InHalf};
+pub use half::{HALF_AIM, InHalf};
 pub use input::{Input, InputSource, Inputs, Range};
 pub use media::{Class, MediaSet};
-pub use method::{
-    CoefficientsFromInputs, Contract, FittedAverage, Forms, Light, Method, Origin, Replacement,
-    Values,
-};
+pub use method::{Contract, Forms, Light, Method, Origin, Values};
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 pub use surface::KnownSurface;
