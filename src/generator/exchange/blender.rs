@@ -40,11 +40,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
                 fields.push(Field::colour("Base Color", [1.0; 3]));
                 fields.push(Field::number("Transmission Weight", 1.0));
             }
-            let node = Node {
-                name: PRINCIPLED,
-                fields,
-                model: Model::dielectric(ior),
-            };
+            let node = Node::new(PRINCIPLED, fields, Model::dielectric(ior));
             Sheet {
                 nodes: vec![node],
                 remarks: Vec::new(),
@@ -75,11 +71,7 @@ fn metal(material: &EngineMaterial) -> Sheet {
             ],
         ),
     ];
-    let node = |(name, fields)| Node {
-        name,
-        fields,
-        model: Model::f82_tint(material.f0, tint),
-    };
+    let node = |(name, fields)| Node::new(name, fields, Model::f82_tint(material.f0, tint));
     Sheet {
         nodes: nodes.map(node).into(),
         remarks: remark.into_iter().collect(),

@@ -45,11 +45,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     };
     let words = "Schlick's approximation, F90 by min(16.5 (R + G + B) of F0, 1)";
     let f90 = (F90_SHARE * f0.iter().sum::<f64>()).min(1.0);
-    let node = Node {
-        name: "material",
-        fields,
-        model: Model::schlick_f90(words, f0, f90),
-    };
+    let node = Node::new("material", fields, Model::schlick_f90(words, f0, f90));
     let remark = "a material that sets reflectance too takes F0 from that: leave it out";
     let is_dielectric = material.body != Body::Conductor;
     Sheet {

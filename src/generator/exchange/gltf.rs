@@ -75,11 +75,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             (fields, colour.map(|colour| (colour * grey).min(1.0)))
         }
     };
-    let node = Node {
-        name: "material",
-        fields,
-        model: Model::schlick(f0),
-    };
+    let node = Node::new("material", fields, Model::schlick(f0));
     Sheet {
         nodes: vec![node],
         remarks,

@@ -7,7 +7,7 @@
 //! not colours: the space `none` keeps them unchanged. Yet the F computed from them is a colour of the document's space.
 //! Roughness is .05 by default, .3 in OpenPBR.
 
-use super::engine_material::{Body, EngineMaterial};
+use super::engine_material::{Body, EngineMaterial, rounded};
 use super::format::{Format, Notes};
 use super::head;
 use super::model::Model;
@@ -42,7 +42,8 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     let mut nodes = vec![surface];
     let mut remarks: Vec<String> = remark.into_iter().collect();
     if material.body == Body::Conductor {
-        let Conductor { n, k } = conductor(material);
+        let channels = &material.subject.effective.channels;
+        let [n, k] = [channels.n, channels.k].map(|index| index.map(rounded));
         nodes.push(Node {
             name: "generalized_schlick_bsdf",
             fields: vec![
@@ -142,18 +143,4 @@ fn input(document: &mut XmlDocument, field: &Field) {
         attributes.push(("colorspace", "none"));
     }
     document.empty("input", &attributes);
-}
-
-/// The index of each channel as it is written.
-struct Conductor {
-    n: [f64; 3],
-    k: [f64; 3],
-}
-
-fn conductor(material: &EngineMaterial) -> Conductor {
-    let channels = &material.subject.effective.channels;
-    Conductor {
-        n: channels.n.map(super::engine_material::rounded),
-        k: channels.k.map(super::engine_material::rounded),
-    }
 }

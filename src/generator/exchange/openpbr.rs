@@ -76,11 +76,7 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
             (fields, Model::dielectric(ior), None)
         }
     };
-    let node = Node {
-        name,
-        fields,
-        model,
-    };
+    let node = Node::new(name, fields, model);
     (node, remark)
 }
 

@@ -24,6 +24,17 @@ pub struct Node {
     pub model: Model,
 }
 
+impl Node {
+    /// A node with these numbers, which computes this model.
+    pub fn new(name: &'static str, fields: Vec<Field>, model: Model) -> Node {
+        Node {
+            name,
+            fields,
+            model,
+        }
+    }
+}
+
 /// A named number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {

@@ -42,11 +42,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             fields
         }
     };
-    let node = Node {
-        name: "UsdPreviewSurface",
-        fields,
-        model: Model::schlick(material.f0),
-    };
+    let node = Node::new("UsdPreviewSurface", fields, Model::schlick(material.f0));
     Sheet {
         nodes: vec![node],
         remarks: Vec::new(),
