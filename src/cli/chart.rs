@@ -80,8 +80,10 @@ const NO_MATERIALS: &str = "a chart is of materials; `none` leaves nothing to sh
 
 /// Draws.
 pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
-    let place = |all: &[&str], name: &str| all.iter().position(|other| *other == name);
-    let place = |all: &[&str], name| place(all, name).expect("the command line has names of these");
+    let place = |all: &[&str], name: &str| {
+        let found = all.iter().position(|other| *other == name);
+        found.expect("the command line has names of these")
+    };
     let error = place(&ERRORS.map(|error| error.name), flags.error.name);
     let cost = place(&cost_names(), flags.gpu);
     let folder = flags.pictures.folder();
@@ -95,11 +97,11 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     };
     let found = request.subjects()?;
     let remarks = found.left_out_lines();
-    let subjects = found.materials();
-    check_shown(flags, &subjects)?;
+    let materials = found.materials();
+    check_shown(flags, &materials)?;
     let space = request.viewing.integration.space;
     let command = flags.command_line();
-    let data = chart_data(&subjects, space, None, command.clone().into(), progress);
+    let data = chart_data(&materials, space, None, command.clone().into(), progress);
     let set = set(flags, &data)?;
     let view = ChartView {
         data: &data,
@@ -185,11 +187,11 @@ fn set(flags: &ChartFlags, data: &ChartData) -> Result<usize, Error> {
 }
 
 /// Refuses, before the work, a set that is not among the materials.
-fn check_shown(flags: &ChartFlags, subjects: &[MaterialInMedium]) -> Result<(), Error> {
+fn check_shown(flags: &ChartFlags, materials: &[MaterialInMedium]) -> Result<(), Error> {
     let Some(show) = &flags.show else {
         return Ok(());
     };
-    let alone = subjects.iter().map(|subject| subject.argument.as_str());
+    let alone = materials.iter().map(|material| material.argument.as_str());
     let all: Vec<&str> = MaterialClass::ALL
         .map(MaterialClass::name)
         .into_iter()
@@ -202,7 +204,7 @@ fn check_shown(flags: &ChartFlags, subjects: &[MaterialInMedium]) -> Result<(), 
 }
 
 /// The points by cost with the frontier marked, and the headline.
-pub fn chart_text(view: &ChartView) -> String {
+fn chart_text(view: &ChartView) -> String {
     let head = [
         "",
         "method",

@@ -19,13 +19,14 @@ use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::request::Request;
 use crate::lab::cost::{
-    CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers,
-    cost_rows, functions, functions_of_effect, records, serve,
+    CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers, cost_rows,
+    functions, functions_of_effect, records, serve,
 };
 use crate::lab::process::{Pool, Surroundings};
 use crate::lab::verify::machine;
 use crate::language::effects::{self, Effect, USUAL_METHOD};
 use crate::language::methods::{self, Method};
+use crate::physics::foreign;
 use crate::physics::num::Precision;
 use crate::pictures::cost_page::{cost_page, percent, short};
 use crate::pictures::table;
@@ -127,17 +128,15 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         table.iter().flatten().collect::<Vec<&CostRow>>(),
     );
     let (text, checked) = if flags.check {
-        check(&table)
+        let mut checked = RecordCheck::new(&table);
+        (std::mem::take(&mut checked.text), checked)
     } else {
-        (cost_text(&table), Checks::NONE)
+        (cost_text(&table), RecordCheck::NONE)
     };
     let page = page.map(|page| paged(flags, &table, page)).transpose()?;
-    let said = page.as_ref().map(|page| {
-        format!(
-            "{}: a page with all figures",
-            crate::physics::foreign::path(page.path())
-        )
-    });
+    let said = page
+        .as_ref()
+        .map(|page| format!("{}: a page with all figures", foreign::path(page.path())));
     let files = page.into_iter().collect();
     let mut output = report_beside(text, &json, flags.report.json(), files)?;
     output.remarks.splice(0..0, left_out);
@@ -147,16 +146,16 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
 }
 
 /// The exit code: 1 where a check found something; 3 where something that can be measured was not, and all was required.
-fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
+fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &RecordCheck) -> u8 {
     let is_lacking = |row: &CostRow| {
         let cannot = row.id.precision.is_half() && !row.family.half;
         row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
     };
-    let is_lacking = !checked.whole || table.iter().flatten().any(is_lacking);
+    let is_lacking = !checked.is_whole || table.iter().flatten().any(is_lacking);
     match checked.differ {
         0 if flags.require_all && is_lacking => 3,
         // A check that compared nothing has not checked anything.
-        0 if flags.check && checked.agree == 0 && !checked.whole => 3,
+        0 if flags.check && checked.agree == 0 && !checked.is_whole => 3,
         0 => 0,
         _ => 1,
     }
@@ -221,104 +220,94 @@ fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
     Ok(functions)
 }
 
-/// Compares fresh counts with the record: what differs, by how much, and whether everything that has a compiler was compared.
-fn check(table: &[Vec<CostRow>]) -> (String, Checks) {
-    let (mut text, mut all) = (String::new(), Checks::NONE);
-    for rows in table {
-        let Some(first) = rows.first() else { continue };
-        let found = RecordComparison::new(rows, &records(first.family.name));
-        all.agree += found.agree;
-        all.differ += found.differences.len();
-        all.whole &= found.unchecked.is_none() || first.family.compiler.dialect().is_none();
-        text += &found.text(first.family.name);
-    }
-    (text, all)
-}
-
-/// The result of `--check` over all families.
-struct Checks {
+/// The comparison of fresh counts with the record, over all families.
+struct RecordCheck {
     /// How many counts agree with the record, and how many differ.
     agree: usize,
     differ: usize,
     /// Whether every family with a compiler was measured.
-    whole: bool,
+    is_whole: bool,
+    /// What differs, by how much, and a line for each family.
+    text: String,
 }
 
-impl Checks {
-    const NONE: Checks = Checks {
+impl RecordCheck {
+    /// The result where nothing was to be compared.
+    const NONE: RecordCheck = RecordCheck {
         agree: 0,
         differ: 0,
-        whole: true,
+        is_whole: true,
+        text: String::new(),
     };
-}
 
-/// The comparison of a family's fresh counts with its record.
-#[derive(Default)]
-struct RecordComparison {
-    agree: usize,
-    unknown: usize,
-    differences: Vec<String>,
-    unchecked: Option<String>,
-}
-
-impl RecordComparison {
-    fn new(rows: &[CostRow], record: &CostRecord) -> RecordComparison {
-        let fresh = rows
-            .iter()
-            .find(|row| row.source == Some(CostSource::Compiler));
-        let compiler = fresh.and_then(|row| row.compiler.as_deref());
-        let mut checked = RecordComparison::default();
-        match compiler {
-            _ if record.compiler.is_empty() => {
-                checked.unchecked = Some(
-                    "this program holds no record of it: run `tests/costs`, then build it again"
-                        .to_owned(),
-                );
+    fn new(table: &[Vec<CostRow>]) -> RecordCheck {
+        let mut all = RecordCheck::NONE;
+        for rows in table {
+            if let Some(first) = rows.first() {
+                all.add_family(first.family, rows);
             }
-            None => checked.unchecked = Some(unasked(rows)),
-            Some(compiler) if compiler != record.compiler => {
-                let recorded = &record.compiler;
-                checked.unchecked = Some(format!("here is {compiler}, and recorded {recorded}"));
-            }
-            Some(_) => rows.iter().for_each(|row| checked.add(row, record)),
         }
-        checked
+        all
     }
 
-    fn add(&mut self, row: &CostRow, record: &CostRecord) {
-        let key = row.id.to_string();
-        let Some(hash) = record.functions.get(&key) else {
-            self.unknown += 1;
+    fn add_family(&mut self, family: &Family, rows: &[CostRow]) {
+        let (name, record) = (family.name, records(family.name));
+        if let Some(why) = not_comparable(rows, &record) {
+            self.is_whole &= family.compiler.dialect().is_none();
+            self.text += &format!("{name}: not checked: {why}\n");
             return;
-        };
-        let known = record.figures.get(hash);
-        if row.shader.as_ref() != Some(hash) {
-            self.differences
-                .push(format!("{key}: the shader is another one"));
-        } else if row.figures.as_ref().ok() != known {
-            let text = |figures: Option<&CostFigures>| {
-                figures.map_or("nothing".to_owned(), CostFigures::text)
-            };
-            let (now, then) = (text(row.figures.as_ref().ok()), text(known));
-            self.differences
-                .push(format!("{key}: recorded is {then}, and now it is {now}"));
-        } else {
-            self.agree += 1;
         }
+        let (mut agree, mut differ, mut unknown) = (0, 0, 0);
+        for row in rows {
+            match difference(row, &record) {
+                None => unknown += 1,
+                Some(Ok(())) => agree += 1,
+                Some(Err(why)) => {
+                    differ += 1;
+                    self.text += &format!("{name}: {}: {why}\n", row.id);
+                }
+            }
+        }
+        self.text += &format!("{name}: {agree} agree, {differ} differ, {unknown} not recorded\n");
+        self.agree += agree;
+        self.differ += differ;
     }
+}
 
-    fn text(&self, family: &str) -> String {
-        if let Some(why) = &self.unchecked {
-            return format!("{family}: not checked: {why}\n");
-        }
-        let differences = self.differences.iter();
-        let lines: String = differences
-            .map(|line| format!("{family}: {line}\n"))
-            .collect();
-        let (agree, differ) = (self.agree, self.differences.len());
-        let unknown = self.unknown;
-        format!("{lines}{family}: {agree} agree, {differ} differ, {unknown} not recorded\n")
+/// Why fresh counts of a family cannot be compared with its record, if they cannot.
+fn not_comparable(rows: &[CostRow], record: &CostRecord) -> Option<String> {
+    if record.compiler.is_empty() {
+        let why = "this program holds no record of it: run `tests/costs`, then build it again";
+        return Some(why.to_owned());
     }
+    let mut fresh = rows
+        .iter()
+        .filter(|row| row.source == Some(CostSource::Compiler));
+    match fresh.next().and_then(|row| row.compiler.as_deref()) {
+        None => Some(unasked(rows)),
+        Some(compiler) if compiler != record.compiler => {
+            let recorded = &record.compiler;
+            Some(format!("here is {compiler}, and recorded {recorded}"))
+        }
+        Some(_) => None,
+    }
+}
+
+/// How a count differs from the record, if it does. None where the function is not recorded.
+fn difference(row: &CostRow, record: &CostRecord) -> Option<Result<(), String>> {
+    let hash = record.functions.get(&row.id.to_string())?;
+    if row.shader.as_ref() != Some(hash) {
+        return Some(Err("the shader is another one".to_owned()));
+    }
+    let (now, then) = (row.figures.as_ref().ok(), record.figures.get(hash));
+    if now == then {
+        return Some(Ok(()));
+    }
+    let [now, then] = [now, then].map(|figures| match figures {
+        Some(figures) => figures.text(),
+        None => "nothing".to_owned(),
+    });
+    Some(Err(format!("recorded is {then}, and now it is {now}")))
 }
 
 /// Why a family has no fresh counts.
@@ -335,7 +324,7 @@ fn paged(flags: &CostFlags, table: &[Vec<CostRow>], file: PathBuf) -> Result<Out
 }
 
 /// The rows of each family. All families have the same functions in the same order.
-pub fn cost_text(families: &[Vec<CostRow>]) -> String {
+fn cost_text(families: &[Vec<CostRow>]) -> String {
     match families {
         [one] => format!(
             "{}\nThe shader's figures are of a chain of evaluations, four or, in GLSL ES 1.00, one.\n{}\n",

@@ -213,12 +213,9 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
     let named = request.methods.named();
     let methods = named.unwrap_or_else(|| methods::ALL.to_vec());
     let rows = choose_within(budget, methods, &subjects, &request.viewing)?;
-    let chosen = |row: &BudgetRow| {
-        let method = methods::find(row.choice.chosen.method);
-        Some((row.material.clone(), method?))
-    };
+    let chosen = |row: &BudgetRow| (row.material.clone(), row.choice.chosen.method);
     let request = Request {
-        chosen: rows.iter().filter_map(chosen).collect(),
+        chosen: rows.iter().map(chosen).collect(),
         methods: Methods::Default,
         ..request
     };

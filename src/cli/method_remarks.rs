@@ -18,8 +18,8 @@ pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
     let (name, choice) = (Foreign(&row.material), &row.choice);
     let mut lines = vec![format!(
         "{name}: {} is the cheapest within {}: {} ({} on {}, as a {} function)",
-        choice.chosen.method,
-        row.budget.most,
+        choice.chosen.method.name,
+        row.budget.max_error,
         error_and_cost(&choice.chosen),
         row.budget.family.columns.measure,
         row.budget.family.name,
@@ -28,7 +28,7 @@ pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
     lines.push(match &choice.cheaper {
         Some(cheaper) => format!(
             "{name}: {} is the most accurate of those that cost less: {}",
-            cheaper.method,
+            cheaper.method.name,
             error_and_cost(cheaper)
         ),
         None => format!("{name}: nothing costs less"),
@@ -37,7 +37,7 @@ pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
         let figures = error_and_cost(table);
         format!(
             "{name}: {} is within the budget too: {figures}",
-            table.method
+            table.method.name
         )
     }));
     lines.push(format!(
@@ -48,7 +48,7 @@ pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
 }
 
 fn error_and_cost(candidate: &BudgetCandidate) -> String {
-    let fetch = if candidate.is_textured {
+    let fetch = if candidate.method.is_textured() {
         " and a texture fetch, which the count does not include"
     } else {
         ""
@@ -62,15 +62,19 @@ fn error_and_cost(candidate: &BudgetCandidate) -> String {
 
 /// How well the material is known.
 fn measurements(error: f64, spread: Option<Spread>) -> String {
-    let Some(Spread { most, sources }) = spread else {
+    let Some(Spread {
+        max_difference,
+        sources,
+    }) = spread
+    else {
         return "how far its measurements differ is not known: the catalogue says so only of materials with two spectra or more"
             .to_owned();
     };
     let differ = format!(
         "its {sources} measurements differ by up to {}",
-        rounded_error(most)
+        rounded_error(max_difference)
     );
-    if error < NEGLIGIBLE * most {
+    if error < NEGLIGIBLE * max_difference {
         format!("{differ}, more than ten times the error: a smaller error gains nothing")
     } else {
         differ
@@ -141,7 +145,12 @@ mod tests {
 
     #[test]
     fn a_smaller_error_gains_nothing_below_a_tenth_of_what_is_known() {
-        let spread = |most: f64| Some(Spread { most, sources: 3 });
+        let spread = |max_difference: f64| {
+            Some(Spread {
+                max_difference,
+                sources: 3,
+            })
+        };
         assert!(measurements(0.0019, spread(0.02)).ends_with("gains nothing"));
         assert!(measurements(0.002, spread(0.02)).ends_with("up to 0.02000"));
         assert!(measurements(0.002, None).contains("not known"));

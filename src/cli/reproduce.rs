@@ -88,7 +88,7 @@ fn figures(flags: &ReproduceFlags, reproduced: &Reproduction) -> Vec<OutputFile>
     let (folder, overwrite) = (&flags.figures.out_dir, flags.figures.overwrite);
     let figures = reproduced.figures.iter().map(|figure| {
         let picture = figure_chart(figure).svg();
-        OutputFile::of_report(folder.join(figure.file), picture, overwrite)
+        OutputFile::of_report(folder.join(figure.plan.file), picture, overwrite)
     });
     figures.collect()
 }
@@ -97,7 +97,7 @@ fn figures(flags: &ReproduceFlags, reproduced: &Reproduction) -> Vec<OutputFile>
 const WIDTH: usize = 110;
 
 /// The report. If it has all parts, it also states what is not among them.
-pub fn reproduction_text(reproduced: &Reproduction) -> String {
+fn reproduction_text(reproduced: &Reproduction) -> String {
     let sections = &reproduced.sections;
     let mut texts: Vec<String> = sections.iter().map(section).collect();
     if sections.len() == Part::ALL.len() {

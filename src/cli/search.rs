@@ -24,14 +24,14 @@ pub(super) fn run(
 ) -> Result<Output, Error> {
     let terms = flags.terms.map_or(vec![4, 5], |terms| vec![terms]);
     try_places(flags.report.json(), None)?;
-    let (subjects, mut remarks) = subjects(flags)?;
-    let outside = subjects
+    let (materials, mut remarks) = subjects(flags)?;
+    let outside = materials
         .iter()
-        .filter(|subject| MaterialClass::containing(subject).is_none());
-    remarks.extend(outside.map(|subject| {
+        .filter(|material| MaterialClass::containing(material).is_none());
+    remarks.extend(outside.map(|material| {
         format!(
             "left out: {}: {OUTSIDE}",
-            crate::physics::foreign::Foreign(&subject.argument)
+            crate::physics::foreign::Foreign(&material.argument)
         )
     }));
     let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();
@@ -39,7 +39,7 @@ pub(super) fn run(
     let cost = |method| library_cost(method, flags.gpu, &record);
     let mut results = Vec::new();
     for class in &SEARCHED {
-        let tried = tried_shapes(class, &subjects, &shapes, aim, progress);
+        let tried = tried_shapes(class, &materials, &shapes, aim, progress);
         let result = |tried| SearchResult::new(class, &tried, &terms, aim.weight, &cost);
         results.extend(tried.map(result));
     }
@@ -62,29 +62,25 @@ const OUTSIDE: &str = "gases, dielectrics that absorb, and what is known at thre
 /// All shapes, tried on the materials of a class; `None` where it has no materials.
 fn tried_shapes(
     class: &SearchedClass,
-    subjects: &[MaterialInMedium],
+    materials: &[MaterialInMedium],
     shapes: &[Candidate],
     aim: FitObjective,
     progress: Progress,
 ) -> Option<TriedShapes> {
-    let own = subjects.iter().filter(|subject| class.holds(subject));
+    let own = materials.iter().filter(|material| class.holds(material));
     let own: Vec<&MaterialInMedium> = own.collect();
     let curve = |i: usize| FitCurve::unclipped(own[i]);
     let curves: Vec<FitCurve> = in_parallel(own.len(), &curve, &mut |done, whole| {
         progress(done, whole, "materials");
     });
-    let tasks: Vec<FitProblem> = curves
-        .iter()
-        .map(|curve| FitProblem::new(curve, aim))
-        .collect();
+    let tasks = curves.iter().map(|curve| FitProblem::new(curve, aim));
+    let tasks: Vec<FitProblem> = tasks.collect();
     let tried = search(shapes, &tasks, &mut |done, whole| {
         progress(done, whole, "shapes");
     });
+    let substances = own.iter().map(|material| substance(&material.material));
     (!own.is_empty() && !tried.is_empty()).then(|| TriedShapes {
-        substances: own
-            .iter()
-            .map(|subject| substance(&subject.material))
-            .collect(),
+        substances: substances.collect(),
         tried,
     })
 }
@@ -100,7 +96,7 @@ fn substance(material: &Material) -> String {
 }
 
 /// The report for a terminal. A star marks a shape if none with fewer operations is as accurate.
-pub fn search_text(results: &[SearchResult], gpu: &str) -> String {
+fn search_text(results: &[SearchResult], gpu: &str) -> String {
     let one = |result: &SearchResult| {
         let choices = result.choices.iter();
         let choices = choices.map(|(terms, choice)| match choice {

@@ -71,12 +71,6 @@ fn scanned_method(word: &str) -> Result<Choice<&'static Method>, String> {
 /// Pixels of a map for each unit of its drawing.
 const SCALE: f32 = 1.0;
 
-/// What is scanned.
-struct Asked<'a> {
-    flags: &'a StabilityFlags,
-    study: Study,
-}
-
 /// The page's name in its folder.
 fn index(precision: Precision) -> String {
     format!("index{}.html", precision.suffix())
@@ -88,14 +82,21 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     let is_library = flags.materials.material.is_empty();
     let (methods, left_out) = methods_of(&flags.method, precision, is_library);
     let study = Study { methods, precision };
-    let asked = Asked { flags, study };
     let page = flags
         .pictures
         .folder()
         .map(|folder| folder.join(index(precision)));
     try_places(flags.report.json(), page.as_deref())?;
     try_places_of_ours(page.as_slice(), flags.pictures.overwrite)?;
-    let rows = asked.rows(progress)?;
+    let rows = if is_library {
+        study.library_rows(progress)
+    } else {
+        let request = Request {
+            materials: flags.materials.materials()?,
+            ..Request::default()
+        };
+        study.specialised_rows(&request.subjects()?.materials(), progress)?
+    };
     if rows.is_empty() {
         return Err(RequestFault::NothingToDo {
             work: "scan",
@@ -105,7 +106,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     }
     let json = Report::new(flags.command_line(), rows.clone());
     let (drawn, said) = match flags.pictures.folder() {
-        Some(folder) => asked.drawn(&rows, folder, progress)?,
+        Some(folder) => drawn(flags, &study, &rows, folder, progress)?,
         None => (Vec::new(), None),
     };
     let mut output = report_beside(stability_text(&rows), &json, flags.report.json(), drawn)?;
@@ -134,61 +135,50 @@ fn methods_of(
     if !Choice::is_all(words) || !precision.is_half() {
         return (chosen, Vec::new());
     }
-    let left_out = chosen.iter().filter_map(|method| {
-        refusal(method).map(|why| format!("left out: {}: {why}", method.name))
-    });
-    let left_out = left_out.collect();
-    let kept = chosen
-        .into_iter()
-        .filter(|method| refusal(method).is_none());
-    (kept.collect(), left_out)
+    let (mut written, mut left_out) = (Vec::new(), Vec::new());
+    for method in chosen {
+        match refusal(method) {
+            Some(why) => left_out.push(format!("left out: {}: {why}", method.name)),
+            None => written.push(method),
+        }
+    }
+    (written, left_out)
 }
 
-impl Asked<'_> {
-    fn rows(&self, progress: Progress) -> Result<Vec<StabilityRow>, Error> {
-        if self.flags.materials.material.is_empty() {
-            return Ok(self.study.library_rows(progress));
+/// The maps and the page as files to be written, and the remarks on them.
+fn drawn(
+    flags: &StabilityFlags,
+    study: &Study,
+    rows: &[StabilityRow],
+    folder: &Path,
+    progress: Progress,
+) -> Result<(Vec<OutputFile>, Option<String>), Error> {
+    let Study { methods, precision } = study;
+    let mut pictures = Vec::new();
+    for (i, method) in methods.iter().enumerate() {
+        progress(i as u64, methods.len() as u64, "maps");
+        for map in maps(method, *precision) {
+            let picture = png(&heat_map(method.name, &map), SCALE)?;
+            pictures.push((method.name, map.axis.name, picture));
         }
-        let request = Request {
-            materials: self.flags.materials.materials()?,
-            ..Request::default()
-        };
-        let subjects = request.subjects()?.materials();
-        Ok(self.study.specialised_rows(&subjects, progress)?)
     }
-
-    /// The maps and the page as files to be written, and the remarks on them.
-    fn drawn(
-        &self,
-        rows: &[StabilityRow],
-        folder: &Path,
-        progress: Progress,
-    ) -> Result<(Vec<OutputFile>, Option<String>), Error> {
-        let mut pictures = Vec::new();
-        for (i, method) in self.study.methods.iter().enumerate() {
-            progress(i as u64, self.study.methods.len() as u64, "maps");
-            for map in maps(method, self.study.precision) {
-                let picture = png(&heat_map(method.name, &map), SCALE)?;
-                pictures.push((method.name, map.axis.name, picture));
-            }
-        }
-        let page = stability_page(rows, &pictures, &String::from(self.flags.command_line()))
-            .map_err(Error::usage)?;
-        let suffix = self.study.precision.suffix();
-        let path = |method: &str, over: &str| folder.join(format!("{method}_{over}{suffix}.png"));
-        let index = index(self.study.precision);
-        let said = format!(
-            "{}: {} maps, and {index} that shows them",
-            crate::physics::foreign::path(&folder),
-            pictures.len()
-        );
-        let overwrite = self.flags.pictures.overwrite;
-        let map =
-            |(method, over, bytes)| OutputFile::of_report(path(method, over), bytes, overwrite);
-        let maps = pictures.into_iter().map(map);
-        let page = OutputFile::of_report(folder.join(&index), page, overwrite);
-        Ok((maps.chain([page]).collect(), Some(said)))
-    }
+    let command = String::from(flags.command_line());
+    let page = stability_page(rows, &pictures, &command).map_err(Error::usage)?;
+    let index = index(*precision);
+    let said = format!(
+        "{}: {} maps, and {index} that shows them",
+        crate::physics::foreign::path(&folder),
+        pictures.len()
+    );
+    let overwrite = flags.pictures.overwrite;
+    let suffix = precision.suffix();
+    let map = |(method, over, bytes): (&str, &str, Vec<u8>)| {
+        let path = folder.join(format!("{method}_{over}{suffix}.png"));
+        OutputFile::of_report(path, bytes, overwrite)
+    };
+    let mut files: Vec<OutputFile> = pictures.into_iter().map(map).collect();
+    files.push(OutputFile::of_report(folder.join(&index), page, overwrite));
+    Ok((files, Some(said)))
 }
 
 fn cells(row: &StabilityRow) -> Vec<String> {
@@ -196,14 +186,9 @@ fn cells(row: &StabilityRow) -> Vec<String> {
         None => String::new(),
         Some((name, channel)) => format!("{name}, {channel}"),
     };
-    let mut cells = vec![row.method.to_owned(), about];
+    let mut cells = vec![row.method.name.to_owned(), about];
     match &row.finding {
-        None => cells.extend([
-            "none".to_owned(),
-            String::new(),
-            String::new(),
-            String::new(),
-        ]),
+        None => cells.extend(["none", "", "", ""].map(str::to_owned)),
         Some(finding) => cells.extend([
             finding.failure.words(),
             region(finding),
@@ -223,21 +208,15 @@ fn region(finding: &Finding) -> String {
     }
 }
 
-/// The text of all rows.
-pub fn stability_text(rows: &[StabilityRow]) -> String {
-    let head = ["method", "material", "failure", "where", "of it", "worst"];
-    let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
-    let has_material = rows.iter().any(|row| row.material.is_some());
-    let wanted = |(i, _): &(usize, String)| *i != 1 || has_material;
-    let only = |cells: Vec<String>| -> Vec<String> {
-        cells
-            .into_iter()
-            .enumerate()
-            .filter(wanted)
-            .map(|(_, cell)| cell)
-            .collect()
-    };
-    let head = only(head.iter().map(|cell| (*cell).to_owned()).collect());
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    table::text_table(&head, &cells.into_iter().map(only).collect::<Vec<_>>())
+/// The text of all rows. The column of materials stands where there are any.
+fn stability_text(rows: &[StabilityRow]) -> String {
+    let mut head = vec!["method", "material", "failure", "where", "of it", "worst"];
+    let mut lines: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    if rows.iter().all(|row| row.material.is_none()) {
+        head.remove(1);
+        for line in &mut lines {
+            line.remove(1);
+        }
+    }
+    table::text_table(&head, &lines)
 }

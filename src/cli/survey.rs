@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Serialize;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
 use crate::cli::error::Error;
 use crate::cli::materials::SurveyFlags;
@@ -11,9 +12,7 @@ use crate::cli::output::{Output, Progress, report};
 use crate::generator;
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
-use crate::generator::fit::{
-    PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours, survey_page,
-};
+use crate::generator::fit::{PageOutcome, SURVEYED_ANGLES, SurveyedPage, survey_page};
 use crate::generator::request::source::{pages, read};
 use crate::physics::foreign::one_line;
 use crate::physics::materials::ViewingConditions;
@@ -37,7 +36,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
         progress(done as u64, files.len() as u64, "pages");
         all.push(surveyed(&flags.folder, file, &viewing));
     }
-    let rows: Vec<SurveyRow> = all.iter().map(SurveyRow::new).collect();
+    let rows: Vec<SurveyRow> = all.iter().map(SurveyRow).collect();
     let full = Report::new(CommandLine::new("materials survey").seen_as(&viewing), rows);
     report(survey_text(&all), &full, json)
 }
@@ -67,82 +66,46 @@ fn refused(file: String, why: String) -> SurveyedPage {
 }
 
 /// A page in a JSON report.
-#[derive(Clone, Debug, Serialize)]
-pub struct SurveyRow<'a> {
-    page: &'a str,
-    #[serde(flatten)]
-    colours: Option<ColourColumns<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<&'a str>,
-    status: &'static str,
-    #[serde(flatten)]
-    facts: Option<FactColumns>,
-}
+#[derive(Clone, Copy, Debug)]
+struct SurveyRow<'a>(&'a SurveyedPage);
 
-/// The colours of a page that can be viewed.
-#[derive(Clone, Debug, Serialize)]
-struct ColourColumns<'a> {
-    f0: [f64; 3],
-    f82: [f64; 3],
-    by_degree: &'a [[f64; 3]],
-    extrapolated: Option<&'a str>,
-}
-
-/// The facts about a page that can be used.
-#[derive(Clone, Debug, Serialize)]
-struct FactColumns {
-    class: &'static str,
-    from_nm: f64,
-    to_nm: f64,
-    formula: u8,
-    nd: Option<f64>,
-    nd_difference: Option<f64>,
-}
-
-impl<'a> SurveyRow<'a> {
-    /// The row of a page.
-    pub fn new(surveyed: &'a SurveyedPage) -> SurveyRow<'a> {
-        let (status, colours, reason) = match &surveyed.outcome {
-            PageOutcome::Seen(_, colours) => ("seen", Some(colours), None),
-            PageOutcome::Elsewhere(_, why) => ("elsewhere", None, Some(why.as_str())),
-            PageOutcome::Refused(why) => ("refused", None, Some(why.as_str())),
+impl Serialize for SurveyRow<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut row = to.serialize_map(None)?;
+        row.serialize_entry("page", &self.0.file)?;
+        let status = match &self.0.outcome {
+            PageOutcome::Seen(_, colours) => {
+                row.serialize_entry("f0", &colours.by_degree[0])?;
+                row.serialize_entry("f82", &colours.f82)?;
+                row.serialize_entry("by_degree", &colours.by_degree)?;
+                row.serialize_entry("extrapolated", &colours.held)?;
+                "seen"
+            }
+            PageOutcome::Elsewhere(_, why) => {
+                row.serialize_entry("reason", why)?;
+                "elsewhere"
+            }
+            PageOutcome::Refused(why) => {
+                row.serialize_entry("reason", why)?;
+                "refused"
+            }
         };
-        SurveyRow {
-            page: &surveyed.file,
-            colours: colours.map(ColourColumns::new),
-            reason,
-            status,
-            facts: surveyed.facts().map(FactColumns::new),
+        row.serialize_entry("status", status)?;
+        if let Some(facts) = self.0.facts() {
+            let (nd, nd_difference) = facts.nd.unzip();
+            row.serialize_entry("class", facts.class)?;
+            row.serialize_entry("from_nm", &facts.range_nm.0)?;
+            row.serialize_entry("to_nm", &facts.range_nm.1)?;
+            row.serialize_entry("formula", &facts.formula)?;
+            row.serialize_entry("nd", &nd)?;
+            row.serialize_entry("nd_difference", &nd_difference)?;
         }
-    }
-}
-
-impl ColourColumns<'_> {
-    fn new(colours: &VisibleColours) -> ColourColumns<'_> {
-        ColourColumns {
-            f0: colours.by_degree[0],
-            f82: colours.f82,
-            by_degree: &colours.by_degree,
-            extrapolated: colours.held.as_deref(),
-        }
-    }
-}
-
-impl FactColumns {
-    fn new(facts: &PageFacts) -> FactColumns {
-        FactColumns {
-            class: facts.class,
-            from_nm: facts.range_nm.0,
-            to_nm: facts.range_nm.1,
-            formula: facts.formula,
-            nd: facts.nd.map(|(printed, _)| printed),
-            nd_difference: facts.nd.map(|(_, difference)| difference),
-        }
+        row.end()
     }
 }
 
 /// The survey in words: counts, refusals and their reasons, and how far glasses are from their makers' indices.
-pub fn survey_text(all: &[SurveyedPage]) -> String {
+fn survey_text(all: &[SurveyedPage]) -> String {
     let count =
         |wanted: fn(&PageOutcome) -> bool| all.iter().filter(|s| wanted(&s.outcome)).count();
     let seen = count(|outcome| matches!(outcome, PageOutcome::Seen(..)));
@@ -194,18 +157,18 @@ fn glasses(all: &[SurveyedPage]) -> Vec<String> {
     let mut formulas: BTreeMap<u8, (usize, f64)> = BTreeMap::new();
     for about in all.iter().filter_map(SurveyedPage::facts) {
         if let Some((_, difference)) = about.nd {
-            let (count, most) = formulas.entry(about.formula).or_default();
+            let (count, max_difference) = formulas.entry(about.formula).or_default();
             *count += 1;
-            *most = most.max(difference.abs());
+            *max_difference = max_difference.max(difference.abs());
         }
     }
     let name = |formula: u8| match formula {
         0 => "tables".to_owned(),
         number => format!("formula {number}"),
     };
-    let line = |(formula, (count, most)): (u8, (usize, f64))| {
+    let line = |(formula, (count, max_difference)): (u8, (usize, f64))| {
         format!(
-            "index at the d line, {}: {count} pages within {most:.1e} of what the maker prints",
+            "index at the d line, {}: {count} pages within {max_difference:.1e} of what the maker prints",
             name(formula)
         )
     };

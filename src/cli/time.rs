@@ -18,8 +18,8 @@ use crate::generator::envelope::Origin;
 use crate::generator::error::RequestFault;
 use crate::lab::gpu::{Backend, Wanted};
 use crate::lab::overdraw::{
-    Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Noise, Stop, TimeRequest,
-    TimeRow, TimedFunctions, measure, serve, time_rows, usual_operations,
+    Clock, DeviceFacts, DrawingEffort, DrawingWorker, Noise, Stop, TimeRequest, TimeRow, measure,
+    serve, time_rows, usual_operations,
 };
 use crate::lab::process::Inbox;
 use crate::language::methods::Method;
@@ -173,7 +173,7 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         rounds: flags.rounds,
     };
     let mut output = report(times.text(), &times, flags.report.json())?;
-    output.remarks = remarks(&timed, &measured, &rows, flags.clock);
+    output.remarks = remarks(&timed.left_out, &rows, flags.clock, measured.clock);
     output.code = code(flags, &rows);
     Ok(output)
 }
@@ -232,42 +232,43 @@ fn no_hardware(facts: &DeviceFacts, wanted: &Wanted) -> Error {
 
 /// The failures, each reason once; what was left out; and the clock, where it was not requested.
 fn remarks(
-    timed: &TimedFunctions,
-    measured: &MeasuredDrawings,
+    left_out: &[String],
     rows: &[TimeRow],
-    clock: Option<Clock>,
+    requested: Option<Clock>,
+    clock: Clock,
 ) -> Vec<String> {
-    let faults = |lacking: bool, word: &str| -> BTreeSet<String> {
-        let wanted = rows.iter().filter(|row| row.is_lacking == lacking);
+    let mut remarks = Vec::new();
+    for (is_lacking, word) in [(false, "FAIL"), (true, "not measured")] {
+        let wanted = rows.iter().filter(|row| row.is_lacking == is_lacking);
         let whys = wanted.filter_map(|row| row.figure.as_ref().err());
-        whys.map(|why| format!("{word}: {}", lines(why))).collect()
-    };
-    let mut remarks: Vec<String> = faults(false, "FAIL").into_iter().collect();
-    remarks.extend(faults(true, "not measured"));
-    let left_out = timed.left_out.iter();
+        let whys: BTreeSet<String> = whys.map(|why| format!("{word}: {}", lines(why))).collect();
+        remarks.extend(whys);
+    }
+    let left_out = left_out.iter();
     remarks.extend(left_out.map(|why| format!("left out: {}", one_line(why))));
-    remarks.extend(clock.map_or_else(|| chosen(measured), |_| None));
+    if requested.is_none() {
+        remarks.extend(chosen(clock).map(str::to_owned));
+    }
     remarks
 }
 
-/// The clock that measured, where it was not requested and is not the device's own.
-fn chosen(measured: &MeasuredDrawings) -> Option<String> {
-    let why = match measured.clock {
-        Clock::Gpu => return None,
-        Clock::Cpu => {
-            "the device is software: measured by the processor's time, in which other programs are not; --clock gpu takes its timestamps"
-        }
+/// Why this clock was chosen, if it is not the device's own.
+fn chosen(clock: Clock) -> Option<&'static str> {
+    match clock {
+        Clock::Gpu => None,
+        Clock::Cpu => Some(
+            "the device is software: measured by the processor's time, in which other programs are not; --clock gpu takes its timestamps",
+        ),
         Clock::Wall => {
-            "the device's timestamps do not advance, or it has none: measured by wall time"
+            Some("the device's timestamps do not advance, or it has none: measured by wall time")
         }
-    };
-    Some(why.to_owned())
+    }
 }
 
 /// The exit code: 1 where a shader failed; 3 where this machine cannot run some and all were required.
 fn code(flags: &TimeFlags, rows: &[TimeRow]) -> u8 {
-    let missing = |row: &&TimeRow| row.figure.is_err();
-    if rows.iter().filter(missing).any(|row| !row.is_lacking) {
+    let fails = |row: &TimeRow| row.figure.is_err() && !row.is_lacking;
+    if rows.iter().any(fails) {
         1
     } else if flags.require_all && rows.iter().any(|row| row.is_lacking) {
         3

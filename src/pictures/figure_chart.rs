@@ -11,10 +11,10 @@ pub fn figure_chart(figure: &ThesisFigure) -> LineChart {
         all.push(series(curve, Style::Approximate(i)));
     }
     LineChart {
-        title: format!("Figure {}: {}", figure.number, figure.subject),
+        title: format!("Figure {}: {}", figure.plan.number, figure.plan.subject),
         subtitle: subtitle(figure),
         x: ChartAxis::angle_of_incidence(),
-        y: ChartAxis::new("unpolarised reflectance", [figure.low, 100.0], 5, "%"),
+        y: ChartAxis::new("unpolarised reflectance", [figure.plan.low, 100.0], 5, "%"),
         series: all,
         marks: figure.marks.clone(),
         foot: "fresnel-gen reproduce figures".to_owned(),
@@ -34,10 +34,10 @@ fn subtitle(figure: &ThesisFigure) -> String {
             differences.join("; ")
         ),
         figure.derived.clone(),
-        figure.note.to_owned(),
+        figure.plan.note.to_owned(),
     ];
-    if figure.low > 0.0 {
-        parts.push(format!("The axis starts at {} %.", figure.low));
+    if figure.plan.low > 0.0 {
+        parts.push(format!("The axis starts at {} %.", figure.plan.low));
     }
     parts.retain(|part| !part.is_empty());
     parts.join(" ")

@@ -64,7 +64,7 @@ impl MadeUp {
     fn new(plan: &DrawingPlan) -> MadeUp {
         let mut costs = vec![DRAW; plan.drawings.len()];
         costs[DrawingPlan::HEAVY] = 1e6;
-        for [own, empty] in plan.chains() {
+        for [own, empty] in &plan.chains {
             let chains = [(own, cost(*own)), (empty, 0.0)];
             for (chain, evaluation) in chains
                 .into_iter()
@@ -144,7 +144,7 @@ fn everything_that_is_drawn_is_valid() {
             drawing.name
         );
     }
-    assert_eq!(plan.chains().len(), timed.functions.len());
+    assert_eq!(plan.chains.len(), timed.functions.len());
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn shares_are_found_again_through_noise() {
         let measured = measured(plan, &mut MadeUp::new(plan), Some(clock)).unwrap();
         assert_eq!(measured.clock, clock);
         let figures = measured.figures(plan, PIXELS);
-        for ([own, _], figure) in plan.chains().iter().zip(figures) {
+        for ([own, _], figure) in plan.chains.iter().zip(figures) {
             let figure = figure.unwrap();
             let share = cost(*own) / cost(plan.reference);
             assert!(
@@ -213,7 +213,7 @@ fn a_shader_that_hangs_takes_only_what_needs_it_along() {
         assert!(failed.iter().all(|why| why.contains("it never ends")));
         failed.len()
     };
-    assert_eq!(failing(plan.chains()[0][0].long()), 1);
-    assert_eq!(failing(plan.reference.short), plan.chains().len());
-    assert_eq!(failing(DrawingPlan::HEAVY), plan.chains().len());
+    assert_eq!(failing(plan.chains[0][0].long()), 1);
+    assert_eq!(failing(plan.reference.short), plan.chains.len());
+    assert_eq!(failing(DrawingPlan::HEAVY), plan.chains.len());
 }

@@ -400,15 +400,15 @@ fn figures_are_those_of_the_repository() {
     if std::env::var_os("BLESS").is_some() {
         std::fs::create_dir_all(&folder).unwrap();
         for drawing in &drawings {
-            std::fs::write(folder.join(drawing.file), figure_chart(drawing).svg()).unwrap();
+            std::fs::write(folder.join(drawing.plan.file), figure_chart(drawing).svg()).unwrap();
         }
     }
     for drawing in &drawings {
-        let held = std::fs::read_to_string(folder.join(drawing.file)).unwrap_or_default();
+        let held = std::fs::read_to_string(folder.join(drawing.plan.file)).unwrap_or_default();
         assert!(
             held == figure_chart(drawing).svg(),
             "data/figures/{} differs; BLESS=1 rewrites it",
-            drawing.file
+            drawing.plan.file
         );
     }
     let names = std::fs::read_dir(&folder)

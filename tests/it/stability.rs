@@ -26,9 +26,9 @@ fn scanned(precision: Precision) -> Vec<StabilityRow> {
     for method in methods::ALL.iter().filter(is_written) {
         let found = scan(method, precision, &mut |_, _| {});
         rows.extend(found.into_iter().map(|finding| StabilityRow {
-            method: method.name,
+            method,
             material: None,
-            precision: precision.name(),
+            precision,
             finding: Some(finding),
         }));
     }
@@ -62,7 +62,7 @@ fn the_maps_of_the_document_are_what_is_drawn() {
 }
 
 fn fails(rows: &[StabilityRow], method: &str, failure: Failure) -> bool {
-    let of = |row: &&StabilityRow| row.method == method;
+    let of = |row: &&StabilityRow| row.method.name == method;
     let mut findings = rows
         .iter()
         .filter(of)
@@ -100,7 +100,7 @@ fn what_keeps_the_contract_is_a_reflectance_everywhere() {
 fn half_precision_is_a_reflectance_for_the_media_that_it_is_meant_for() {
     let findings = HALF
         .iter()
-        .filter_map(|row| Some((row.method, row.finding.as_ref()?)));
+        .filter_map(|row| Some((row.method.name, row.finding.as_ref()?)));
     for (method, finding) in
         findings.filter(|(_, finding)| finding.is_media && BROKEN.contains(&finding.failure))
     {
@@ -206,7 +206,7 @@ fn worst_input(row: &StabilityRow) -> Option<WorstInput> {
         inputs.find(|(of, _)| *of == name).map(|(_, value)| *value)
     };
     Some(WorstInput {
-        method: row.method.to_owned(),
+        method: row.method.name.to_owned(),
         failure: finding.failure.words().to_string(),
         n: worst("n").or(worst("eta"))?,
         k: worst("k").unwrap_or(0.0),

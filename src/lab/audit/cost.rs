@@ -9,10 +9,9 @@ use super::compile::Compilers;
 use super::compiler_message::placed;
 use super::language::Language;
 use super::program::AuditProgram;
-use crate::lab::cost::foreign::{self, ForeignFunction};
 use crate::lab::cost::{
-    CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe,
-    launch, told,
+    CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler,
+    MeasuredFunction, Probe, answered, foreign, launch,
 };
 use crate::lab::fault::Fault;
 use crate::lab::process::{Error, Surroundings, Worker};
@@ -42,11 +41,11 @@ pub fn cost(
     };
     let mut worker = Worker::new(launch);
     let mut session = CompilerSession::new(family, dialect, limit, &mut worker);
-    let compiler = match told(session.compiler())? {
+    let compiler = match answered(session.compiler())? {
         Ok(name) => name,
         Err(why) => return Ok(unknown(why)),
     };
-    let figures = told(session.figures_of_shaders(shaders))?;
+    let figures = answered(session.figures_of_shaders(shaders))?;
     Ok(AuditCost::new(family, Some(compiler), figures))
 }
 
@@ -123,7 +122,7 @@ fn shader(
         is_scalar,
         ..
     } = program;
-    let foreign_function = |text| ForeignFunction {
+    let foreign_function = |text| MeasuredFunction {
         text,
         params,
         is_scalar: *is_scalar,
@@ -170,7 +169,7 @@ fn empty(
         name: "cos_theta".to_owned(),
         ty: Ty::Scalar,
     }];
-    let foreign_function = |rgb| ForeignFunction {
+    let foreign_function = |rgb| MeasuredFunction {
         text: if is_scalar {
             foreign::EMPTY_SCALAR
         } else {

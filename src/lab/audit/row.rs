@@ -23,7 +23,7 @@ use crate::lab::verify::{Answer, Status, as_object};
 use crate::physics::foreign::Foreign;
 
 /// A user's function with the values of a material: which compilers accept it, its error against the law, and its cost.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct AuditRow {
     /// The target of its language, or the language where that is no target.
     pub target: &'static str,

@@ -1,31 +1,28 @@
 //! The choice of the cheapest function within a budget, with the errors of cheaper ones, and the reasons why none can be chosen.
 //! Also how far published measurements of a material differ: fitting one of them better than this gains nothing. Pure.
 
-use core::cmp::Ordering;
 use core::fmt;
 
 use crate::generator::emit;
 use crate::generator::fit::{FitCurve, rounded_up};
 use crate::generator::reference::{MaterialInMedium, reference_reflectance};
 use crate::lab::cost::CostAndError;
-use crate::language::methods::Light;
+use crate::language::methods::{Light, Method};
 use crate::physics::materials::{self, Material, Surface, ViewingConditions};
 use crate::physics::num::each_channel;
 use crate::physics::user_text::FileFault;
 
 /// A function that could be chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct BudgetCandidate {
     /// Its method.
-    pub method: &'static str,
+    pub method: &'static Method,
     /// The cost of an evaluation, without texture fetches, and the largest error.
     pub point: CostAndError,
-    /// Whether it reads a texture.
-    pub is_textured: bool,
 }
 
 /// The result of a choice.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct CheapestFunction {
     /// The cheapest function within the budget, and the most accurate of equally cheap ones.
     pub chosen: BudgetCandidate,
@@ -41,18 +38,19 @@ pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<CheapestF
     let within = |is_textured: bool| {
         let own = candidates
             .iter()
-            .filter(|one| one.is_textured == is_textured && one.point.error <= budget);
-        first(own, CostAndError::by_cost)
+            .filter(|one| one.method.is_textured() == is_textured && one.point.error <= budget);
+        own.min_by(|a, b| a.point.by_cost(&b.point)).copied()
     };
     let (plain, textured) = (within(false), within(true));
     let chosen = plain.or(textured)?;
     let costs_less = |one: &BudgetCandidate| one.point.cost < chosen.point.cost;
+    let is_textured = chosen.method.is_textured();
     let cheaper = candidates
         .iter()
-        .filter(|one| costs_less(one) && one.is_textured == chosen.is_textured);
+        .filter(|one| costs_less(one) && one.method.is_textured() == is_textured);
     Some(CheapestFunction {
         cheaper: most_accurate(cheaper),
-        textured: textured.filter(|one| !chosen.is_textured && costs_less(one)),
+        textured: textured.filter(|one| !is_textured && costs_less(one)),
         chosen,
     })
 }
@@ -61,21 +59,16 @@ pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<CheapestF
 pub fn most_accurate<'a>(
     candidates: impl Iterator<Item = &'a BudgetCandidate>,
 ) -> Option<BudgetCandidate> {
-    first(candidates, CostAndError::by_error)
-}
-
-fn first<'a>(
-    candidates: impl Iterator<Item = &'a BudgetCandidate>,
-    order: fn(&CostAndError, &CostAndError) -> Ordering,
-) -> Option<BudgetCandidate> {
-    candidates.min_by(|a, b| order(&a.point, &b.point)).copied()
+    candidates
+        .min_by(|a, b| a.point.by_error(&b.point))
+        .copied()
 }
 
 /// How far published measurements of a substance differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// The largest difference of reflectance between two of them, at one angle in one channel.
-    pub most: f64,
+    pub max_difference: f64,
     /// The number of measurements.
     pub sources: usize,
 }
@@ -83,15 +76,15 @@ pub struct Spread {
 /// The spread of the catalogue's pages of a material's substance under these viewing conditions. None for a user's own file, for
 /// data at three wavelengths only, for a material seen from itself, and where there is only one page.
 pub fn spread(
-    subject: &MaterialInMedium,
+    material: &MaterialInMedium,
     catalogue: &[Material],
     viewing: &ViewingConditions,
 ) -> Option<Spread> {
-    let own = &subject.material;
-    if materials::source(&subject.argument).is_none() || own.rgb_nm.is_some() {
+    let own = &material.material;
+    if materials::source(&material.argument).is_none() || own.rgb_nm.is_some() {
         return None;
     }
-    let medium = subject.medium.as_ref().map(|(_, medium)| medium);
+    let medium = material.medium.as_ref().map(|(_, medium)| medium);
     if medium.is_some_and(|medium| medium.substance == own.substance) {
         return None;
     }
@@ -101,7 +94,7 @@ pub fn spread(
     let pages = materials::surfaces_of(&own.substance, catalogue, medium, viewing);
     let curves: Vec<Vec<[f64; 3]>> = pages.map(curve).collect();
     (curves.len() > 1).then(|| Spread {
-        most: apart(&curves),
+        max_difference: apart(&curves),
         sources: curves.len(),
     })
 }
@@ -127,10 +120,10 @@ const NAMED: usize = 3;
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A budget that is not a positive number.
-    #[error("--budget is {most}; it is an error of reflectance, above 0, such as 0.001")]
+    #[error("--budget is {max_error}; it is an error of reflectance, above 0, such as 0.001")]
     OutOfRange {
         /// The budget.
-        most: f64,
+        max_error: f64,
     },
     /// GPUs for which no costs are recorded.
     #[error("no costs are recorded of {gpu}: {reason}; name another --gpu")]
@@ -146,10 +139,10 @@ pub enum Error {
     )]
     NoMethod,
     /// Materials without a function within the budget.
-    #[error("nothing is within --budget {most}; {}", named(faults))]
+    #[error("nothing is within --budget {max_error}; {}", named(faults))]
     NothingWithin {
         /// The budget.
-        most: f64,
+        max_error: f64,
         /// The materials.
         faults: Vec<NoFunction>,
     },
@@ -187,7 +180,7 @@ impl fmt::Display for NoFunction {
             Some(best) => write!(
                 to,
                 "{material}: {} has the smallest error, {}, and costs {} on {gpu}",
-                best.method,
+                best.method.name,
                 rounded_error(best.point.error),
                 best.point.cost
             ),
@@ -218,56 +211,52 @@ fn named(faults: &[NoFunction]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::methods::find;
 
-    const ALL: [BudgetCandidate; 6] = [
-        of("gaussian", 0.024, 10.0, false),
-        of("schlick", 0.022, 12.0, false),
-        of("rescaled", 0.021, 12.0, false),
-        of("fitted", 0.0019, 22.0, false),
-        of("five", 0.0007, 30.0, false),
-        of("table", 0.0005, 18.0, true),
-    ];
-
-    const fn of(method: &'static str, error: f64, cost: f64, is_textured: bool) -> BudgetCandidate {
-        BudgetCandidate {
-            method,
+    fn all() -> [BudgetCandidate; 6] {
+        [
+            ("schlick_spherical_gaussian", 0.024, 10.0),
+            ("schlick", 0.022, 12.0),
+            ("schlick_rescaled", 0.021, 12.0),
+            ("fitted", 0.0019, 22.0),
+            ("fitted_five", 0.0007, 30.0),
+            ("table", 0.0005, 18.0),
+        ]
+        .map(|(name, error, cost)| BudgetCandidate {
+            method: find(name).unwrap(),
             point: CostAndError { cost, error },
-            is_textured,
-        }
+        })
     }
 
     #[track_caller]
     fn check(budget: f64, chosen: &str, cheaper: Option<&str>, textured: Option<&str>) {
-        let choice = cheapest(&ALL, budget).unwrap();
-        let name = |candidate: Option<BudgetCandidate>| candidate.map(|c| c.method);
-        assert_eq!(choice.chosen.method, chosen);
+        let choice = cheapest(&all(), budget).unwrap();
+        let name = |candidate: Option<BudgetCandidate>| candidate.map(|c| c.method.name);
+        assert_eq!(choice.chosen.method.name, chosen);
         assert_eq!(name(choice.cheaper), cheaper);
         assert_eq!(name(choice.textured), textured);
     }
 
     #[test]
     fn the_cheapest_within_the_budget_is_chosen() {
-        check(1.0, "gaussian", None, None);
-        check(0.023, "rescaled", Some("gaussian"), None);
-        check(0.0215, "rescaled", Some("gaussian"), None);
-        check(0.002, "fitted", Some("rescaled"), Some("table"));
-        check(0.0019, "fitted", Some("rescaled"), Some("table"));
-        check(0.0018, "five", Some("fitted"), Some("table"));
+        let (gaussian, rescaled) = ("schlick_spherical_gaussian", "schlick_rescaled");
+        check(1.0, gaussian, None, None);
+        check(0.023, rescaled, Some(gaussian), None);
+        check(0.0215, rescaled, Some(gaussian), None);
+        check(0.002, "fitted", Some(rescaled), Some("table"));
+        check(0.0019, "fitted", Some(rescaled), Some("table"));
+        check(0.0018, "fitted_five", Some("fitted"), Some("table"));
         check(0.0006, "table", None, None);
     }
 
     #[test]
     fn where_nothing_is_within_the_budget_nothing_is_chosen() {
-        assert_eq!(cheapest(&ALL, 1e-6), None);
-        assert_eq!(cheapest(&[], 1.0), None);
-        assert_eq!(most_accurate(ALL.iter()).map(|c| c.method), Some("table"));
-        assert_eq!(most_accurate([].iter()), None);
+        assert!(cheapest(&all(), 1e-6).is_none());
+        assert!(cheapest(&[], 1.0).is_none());
+        let best = most_accurate(all().iter()).unwrap();
+        assert_eq!(best.method.name, "table");
+        assert!(most_accurate([].iter()).is_none());
     }
-}
-
-#[cfg(test)]
-mod spread_tests {
-    use super::apart;
 
     #[test]
     fn curves_lie_as_far_apart_as_at_their_worst_point() {
@@ -278,11 +267,6 @@ mod spread_tests {
         assert_eq!(apart(&[a]), 0.0);
         assert_eq!(apart(&[]), 0.0);
     }
-}
-
-#[cfg(test)]
-mod error_tests {
-    use super::rounded_error;
 
     #[test]
     fn an_error_is_not_rounded_down() {

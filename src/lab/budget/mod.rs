@@ -21,7 +21,7 @@ pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, Spread, r
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
     /// The largest error of reflectance, over angles and channels.
-    pub most: f64,
+    pub max_error: f64,
     /// The GPUs whose recorded costs decide.
     pub family: &'static Family,
 }
@@ -31,15 +31,15 @@ impl Budget {
     ///
     /// # Errors
     /// The error is not a positive number, or no costs are recorded for these GPUs.
-    pub fn new(most: f64, family: &'static Family) -> Result<Budget, Error> {
-        if !(most > 0.0 && most.is_finite()) {
-            return Err(Error::OutOfRange { most });
+    pub fn new(max_error: f64, family: &'static Family) -> Result<Budget, Error> {
+        if !(max_error > 0.0 && max_error.is_finite()) {
+            return Err(Error::OutOfRange { max_error });
         }
         if let GpuCompiler::None(reason) = family.compiler {
             let gpu = family.name;
             return Err(Error::NoCosts { gpu, reason });
         }
-        Ok(Budget { most, family })
+        Ok(Budget { max_error, family })
     }
 }
 
@@ -65,7 +65,7 @@ pub struct BudgetRow {
 pub fn choose_within(
     budget: Budget,
     methods: Vec<&'static Method>,
-    subjects: &[MaterialInMedium],
+    described: &[MaterialInMedium],
     viewing: &ViewingConditions,
 ) -> Result<Vec<BudgetRow>, Error> {
     let search = Search {
@@ -76,8 +76,8 @@ pub fn choose_within(
         viewing,
         budget,
     };
-    let choose = |i: usize| search.choice_for(&subjects[i]);
-    let found = in_parallel(subjects.len(), &choose, &mut |_, _| {});
+    let choose = |i: usize| search.choice_for(&described[i]);
+    let found = in_parallel(described.len(), &choose, &mut |_, _| {});
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for row in found {
         match row? {
@@ -88,8 +88,8 @@ pub fn choose_within(
     if faults.is_empty() {
         return Ok(rows);
     }
-    let most = budget.most;
-    Err(Error::NothingWithin { most, faults })
+    let max_error = budget.max_error;
+    Err(Error::NothingWithin { max_error, faults })
 }
 
 /// The methods among which a budget chooses: those for unpolarised light that keep the contract.
@@ -116,23 +116,22 @@ struct Search<'a> {
 impl Search<'_> {
     fn choice_for(
         &self,
-        subject: &MaterialInMedium,
+        material: &MaterialInMedium,
     ) -> Result<Result<BudgetRow, NoFunction>, Error> {
-        let (candidates, form) = self.candidates(subject)?;
-        let material = subject.name.clone();
-        let Some(choice) = cheapest(&candidates, self.budget.most) else {
+        let (candidates, form) = self.candidates(material)?;
+        let Some(choice) = cheapest(&candidates, self.budget.max_error) else {
             return Ok(Err(NoFunction {
-                material,
+                material: material.name.clone(),
                 gpu: self.budget.family.name,
                 best: most_accurate(candidates.iter()),
             }));
         };
         Ok(Ok(BudgetRow {
-            material,
+            material: material.name.clone(),
             budget: self.budget,
             choice,
             form,
-            spread: spread(subject, &self.catalogue, self.viewing),
+            spread: spread(material, &self.catalogue, self.viewing),
         }))
     }
 
@@ -140,50 +139,37 @@ impl Search<'_> {
     /// since costs of two forms cannot be compared.
     fn candidates(
         &self,
-        subject: &MaterialInMedium,
+        material: &MaterialInMedium,
     ) -> Result<(Vec<BudgetCandidate>, FunctionForm), Error> {
-        let methods = self.methods.iter().copied();
-        let functions = methods
-            .filter(|method| subject.is_described_by(method))
-            .map(|method| Ok((method, self.function(method, subject)?)))
-            .collect::<Result<Vec<(&'static Method, Checked)>, Error>>()?;
-        let own = |(_, function): &(_, Checked)| {
-            function_cost(function, Precision::F32, self.budget.family, &self.record)
+        let Search { budget, record, .. } = self;
+        let mut functions = Vec::new();
+        for method in self.methods.iter().copied() {
+            if material.is_described_by(method) {
+                let made = specialised_graph(method, material, Precision::F32, &self.bounds)?;
+                let cost = function_cost(&made.function, Precision::F32, budget.family, record);
+                functions.push((method, made.function, cost));
+            }
+        }
+        let form = if functions.iter().all(|(_, _, cost)| cost.is_some()) {
+            FunctionForm::Specialised
+        } else {
+            FunctionForm::Library
         };
-        let specialised: Option<Vec<f64>> = functions.iter().map(own).collect();
-        let library = |method| library_cost(method, self.budget.family, &self.record);
-        let (costs, form): (Vec<Option<f64>>, _) = match specialised {
-            Some(costs) => (
-                costs.into_iter().map(Some).collect(),
-                FunctionForm::Specialised,
-            ),
-            None => (
-                functions
-                    .iter()
-                    .map(|(method, _)| library(method))
-                    .collect(),
-                FunctionForm::Library,
-            ),
-        };
-        let candidate = |((method, function), cost): (&(&'static Method, Checked), Option<f64>)| {
-            let error = single_error(function, &subject.truth_for(method));
+        let candidate = |(method, function, cost): (&'static Method, Checked, Option<f64>)| {
+            let error = single_error(&function, &material.truth_for(method));
+            let cost = match form {
+                FunctionForm::Specialised => cost,
+                _ => library_cost(method, budget.family, record),
+            };
             Some(BudgetCandidate {
-                method: method.name,
+                method,
                 point: CostAndError {
                     cost: cost.filter(|_| error.undefined == 0)?,
                     error: error.max_abs,
                 },
-                is_textured: method.is_textured(),
             })
         };
-        Ok((
-            functions.iter().zip(costs).filter_map(candidate).collect(),
-            form,
-        ))
-    }
-
-    fn function(&self, method: &Method, subject: &MaterialInMedium) -> Result<Checked, Error> {
-        let made = specialised_graph(method, subject, Precision::F32, &self.bounds)?;
-        Ok(made.function)
+        let candidates = functions.into_iter().filter_map(candidate).collect();
+        Ok((candidates, form))
     }
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{ChartData, ChartEntry, CostAxis, FunctionOrigin, UserFunction};
+use super::view::{ChartData, ChartEntry, CostAxis, FunctionOrigin, UserFunction};
 use crate::generator::fit::MethodErrors;
 use crate::lab::audit::AuditRow;
 use crate::lab::verify::Status;
@@ -120,7 +120,7 @@ impl ChartedFunction {
 mod tests {
     use super::*;
     use crate::generator::fit::{ModelError, Perceived};
-    use crate::lab::audit::{AuditCost, CheckResults};
+    use crate::lab::audit::AuditCost;
     use crate::lab::cost::{CostFigures, Counts, find};
 
     fn cost(gpu: &str, net: Option<f64>) -> AuditCost {
@@ -138,28 +138,8 @@ mod tests {
 
     fn row(undefined: usize, net: Option<f64>, status: Status) -> AuditRow {
         AuditRow {
-            target: "wgsl",
-            method: "f".to_owned(),
-            material: "gold".to_owned(),
-            form: "user",
-            precision: "f32",
-            function: "f".to_owned(),
-            line: 1,
-            cosine: "c".to_owned(),
-            cosine_is: "cos",
-            cosine_words: None,
-            language_remark: None,
-            conditions: Vec::new(),
-            file: "f.wgsl".to_owned(),
             channels: 3,
-            input_numbers: 3,
-            arguments: Vec::new(),
-            filled: Vec::new(),
-            initialised: Vec::new(),
-            device: Some("a device".to_owned()),
             points: Some(2000),
-            code_error: None,
-            code_error_reason: "",
             model_error: Some(ModelError {
                 max_abs: 0.1,
                 mean_abs: 0.0,
@@ -171,20 +151,10 @@ mod tests {
                 luminance: 0.05,
                 de2000: 3.0,
             }),
-            computes: None,
-            fits_exactly_with: None,
-            accepts: Vec::new(),
-            edges: None,
-            beyond: None,
             cost: vec![cost("rdna2", net), cost("gcn4", None)],
-            is_cost_comparable: true,
-            cost_remark: None,
-            dominated_by: Vec::new(),
-            better_with_more_inputs: Vec::new(),
-            says: Vec::new(),
-            checked: CheckResults::default(),
             status,
             reason: Some("one\ntwo".to_owned()),
+            ..AuditRow::default()
         }
     }
 

@@ -1,29 +1,42 @@
 //! The sets of materials that errors are shown for: a single material, or a class summarised by a statistic.
 
-use super::MaterialSet;
 use crate::generator::fit::MethodErrors;
 use crate::generator::reference::{MaterialClass, MaterialInMedium};
 use crate::physics::num::statistics::{median, medians, quantile};
+
+/// A material, or a class of materials summarised by a statistic.
+#[derive(Clone, Debug)]
+pub struct MaterialSet {
+    /// Its name on the page: a material's, or a class's with a statistic.
+    pub name: String,
+    /// Its name in words.
+    pub title: String,
+    /// The number of its materials.
+    pub count: usize,
+    /// The errors of each entry. Unknown where the method does not describe the material.
+    pub errors: Vec<MethodErrors>,
+    /// The materials that the method of each entry does not describe.
+    pub undescribed: Vec<Vec<String>>,
+}
 
 /// The statistics of a class: the median of its materials, the 90th percentile, the worst, or the median over substances, each of
 /// which counts once however often it was measured.
 pub const STATISTICS: [&str; 4] = ["median", "p90", "worst", "substances"];
 
 /// The sets of these materials: first the classes that hold more than one, then each material.
-pub fn sets(subjects: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
+pub fn sets(materials: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
+    let alone = |(material, errors): (&MaterialInMedium, &Vec<MethodErrors>)| MaterialSet {
+        count: 1,
+        name: material.argument.clone(),
+        title: material.name.replace('_', " "),
+        undescribed: undescribed(&[(material, errors)]),
+        errors: errors.clone(),
+    };
     let classes = MaterialClass::ALL.into_iter();
-    let classes = classes.flat_map(|class| class_sets(class, subjects, errors));
-    let alone = subjects
-        .iter()
-        .zip(errors)
-        .map(|(subject, errors)| MaterialSet {
-            count: 1,
-            name: subject.argument.clone(),
-            title: subject.name.replace('_', " "),
-            undescribed: undescribed(&[(subject, errors)]),
-            errors: errors.clone(),
-        });
-    classes.chain(alone).collect()
+    classes
+        .flat_map(|class| class_sets(class, materials, errors))
+        .chain(materials.iter().zip(errors).map(alone))
+        .collect()
 }
 
 /// The name of a class's set.
@@ -34,13 +47,13 @@ pub fn set_name(class: MaterialClass, statistic: &str) -> String {
 /// A class by each statistic. Empty for fewer than two materials.
 fn class_sets(
     class: MaterialClass,
-    subjects: &[MaterialInMedium],
+    materials: &[MaterialInMedium],
     errors: &[Vec<MethodErrors>],
 ) -> Vec<MaterialSet> {
-    let own: Vec<(&MaterialInMedium, &Vec<MethodErrors>)> = subjects
+    let own: Vec<(&MaterialInMedium, &Vec<MethodErrors>)> = materials
         .iter()
         .zip(errors)
-        .filter(|(subject, _)| MaterialClass::containing(subject) == Some(class))
+        .filter(|(material, _)| MaterialClass::containing(material) == Some(class))
         .collect();
     if own.len() < 2 {
         return Vec::new();
@@ -62,7 +75,8 @@ fn undescribed(own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<Vec<Strin
         let none = own
             .iter()
             .filter(|(_, errors)| errors[place].max_abs.is_none());
-        none.map(|(subject, _)| subject.argument.clone()).collect()
+        none.map(|(material, _)| material.argument.clone())
+            .collect()
     };
     (0..entries).map(unknown).collect()
 }
@@ -82,29 +96,22 @@ const ALL_BUT: usize = 20;
 
 /// Each entry's errors by a statistic over all materials, or over all but the few that the method does not describe.
 fn together(statistic: &str, own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<MethodErrors> {
-    let taken = |described: &[(&str, MethodErrors)]| {
-        let substances = || described.iter().map(|(substance, _)| *substance);
-        let taken = |errors: &[f64]| match statistic {
+    let entries = own.first().map_or(0, |(_, errors)| errors.len());
+    let entry = |place: usize| {
+        let described = own
+            .iter()
+            .filter(|(_, errors)| errors[place].max_abs.is_some())
+            .map(|(material, errors)| (&*material.material.substance, errors[place]));
+        let (substances, errors): (Vec<&str>, Vec<MethodErrors>) = described.unzip();
+        if ALL_BUT * (own.len() - errors.len()) > own.len() {
+            return MethodErrors::default();
+        }
+        MethodErrors::together(&errors, &|errors| match statistic {
             "median" => median(errors),
             "p90" => quantile(errors, 0.9),
             "worst" => quantile(errors, 1.0),
-            _ => median(&medians(errors, substances())),
-        };
-        let errors: Vec<MethodErrors> = described.iter().map(|(_, errors)| *errors).collect();
-        MethodErrors::together(&errors, &taken)
-    };
-    let entries = own.first().map_or(0, |(_, errors)| errors.len());
-    let entry = |place: usize| {
-        let all = own
-            .iter()
-            .map(|(subject, errors)| (&*subject.material.substance, errors[place]));
-        let described = all.filter(|(_, errors)| errors.max_abs.is_some());
-        let described: Vec<(&str, MethodErrors)> = described.collect();
-        if ALL_BUT * (own.len() - described.len()) <= own.len() {
-            taken(&described)
-        } else {
-            MethodErrors::default()
-        }
+            _ => median(&medians(errors, substances.iter().copied())),
+        })
     };
     (0..entries).map(entry).collect()
 }

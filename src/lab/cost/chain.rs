@@ -37,27 +37,26 @@ pub(super) struct ChainLanguage<'a> {
     pub shader: &'a str,
 }
 
-/// A measured function and how often it is evaluated.
-pub(super) struct Chain<'a> {
+/// A measured function.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredFunction<'a> {
     /// Its text.
-    pub function: &'a str,
-    /// Its arguments. The first comes from the chain.
+    pub text: &'a str,
+    /// Its arguments. The first, its cosine, comes from the chain.
     pub params: &'a [Param],
     /// Whether it returns one number.
     pub is_scalar: bool,
-    /// How often it is evaluated.
-    pub evaluations: usize,
 }
 
-impl Chain<'_> {
-    /// The shader in a language.
-    pub fn shader(&self, language: &ChainLanguage) -> String {
-        let last = format!("{}r{}", language.prefix, self.evaluations - 1);
+impl MeasuredFunction<'_> {
+    /// The shader with a chain of so many evaluations in a language.
+    pub(super) fn shader(&self, language: &ChainLanguage, evaluations: usize) -> String {
+        let last = format!("{}r{}", language.prefix, evaluations - 1);
         let holes: &[(&str, &str)] = &[
             ("arguments", &self.declarations(language)),
-            ("chain", &self.chain(language)),
+            ("chain", &self.chain(language, evaluations)),
             ("last", &last),
-            ("function", self.function),
+            ("function", self.text),
         ];
         filled(language.shader, holes)
     }
@@ -82,7 +81,7 @@ impl Chain<'_> {
         block + texture
     }
 
-    fn chain(&self, language: &ChainLanguage) -> String {
+    fn chain(&self, language: &ChainLanguage, evaluations: usize) -> String {
         let prefix = language.prefix;
         let local = |ty: Ty, name: String, value: &str| {
             let holes: &[(&str, &str)] = &[
@@ -115,7 +114,7 @@ impl Chain<'_> {
             cosine + &local(ty, format!("r{i}"), &self.call(language, i))
         };
         let weights = input(Ty::Vec3, "w", "fg_in.xyz");
-        weights + &(0..self.evaluations).map(step).collect::<String>()
+        weights + &(0..evaluations).map(step).collect::<String>()
     }
 
     fn call(&self, language: &ChainLanguage, i: usize) -> String {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::family::{Dialect, Family};
 use super::function::CostedFunction;
-use super::session::{CompilerFigures, CompilerSession, launch, told};
-use crate::lab::process::{Error, Launch, Pool, Surroundings, Task, Worker};
+use super::session::{CompilerFigures, CompilerSession, answered, launch};
+use crate::lab::process::{Error, Launch, Pool, Surroundings, Task};
 
 /// The answers of a family's compiler.
 #[derive(Clone, Debug)]
@@ -21,12 +21,6 @@ struct Job {
     family: usize,
     launch: Launch,
     functions: std::ops::Range<usize>,
-}
-
-/// The functions, and the families whose compilers are asked about them.
-struct Questions<'a> {
-    families: &'a [&'static Family],
-    functions: &'a [&'a CostedFunction],
 }
 
 /// The number of functions in a job: enough that the start of a process, which takes as long as ten functions, does not matter,
@@ -47,72 +41,53 @@ pub fn ask_compilers(
     surroundings: &Surroundings,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Option<FamilyAnswers>>, Error> {
-    let has_compiler = |family: &&'static Family| family.compiler.dialect().is_some();
+    let asked = families.iter().copied();
+    let asked: Vec<(&'static Family, Dialect)> = asked
+        .filter_map(|family| Some((family, family.compiler.dialect()?)))
+        .collect();
     let (functions, places) = once_each(functions);
-    let questions = Questions {
-        families: &families
-            .iter()
-            .copied()
-            .filter(has_compiler)
-            .collect::<Vec<_>>(),
-        functions: &functions,
+    let launches = asked.iter().map(|(family, _)| launch(family, surroundings));
+    let launches: Vec<Result<Launch, String>> = launches.collect();
+    let size = job_size(functions.len(), pool.workers);
+    let jobs = jobs(&launches, functions.len(), size);
+    let task = Task {
+        jobs: &jobs,
+        launch: &|job: &Job| job.launch.clone(),
+        work: &|worker, job, tick| {
+            let (family, dialect) = asked[job.family];
+            let session = CompilerSession::new(family, dialect, pool.limit, worker);
+            answers(session, &functions[job.functions.clone()], tick)
+        },
     };
-    let answers = questions.ask(pool, surroundings, progress)?;
-    let mut answers = answers.into_iter().map(|answers| answers.at(&places));
-    let of_family = |family| has_compiler(family).then(|| answers.next()).flatten();
+    let (mut count, whole) = (0, (asked.len() * functions.len()) as u64);
+    let done = pool.run(&task, &mut |job: &Job| {
+        count += 1;
+        progress(count, whole, asked[job.family].0.name);
+    })?;
+    let mut answers = gathered(&launches, functions.len(), &jobs, done).into_iter();
+    let of_family = |family: &&'static Family| {
+        family.compiler.dialect()?;
+        Some(answers.next()?.at(&places))
+    };
     Ok(families.iter().map(of_family).collect())
 }
 
-impl Questions<'_> {
-    fn ask(
-        &self,
-        pool: Pool,
-        surroundings: &Surroundings,
-        progress: &mut dyn FnMut(u64, u64, &str),
-    ) -> Result<Vec<FamilyAnswers>, Error> {
-        let launches = self.families.iter();
-        let launches: Vec<_> = launches
-            .map(|family| launch(family, surroundings))
-            .collect();
-        let size = job_size(self.functions.len(), pool.workers);
-        let jobs = jobs(&launches, self.functions.len(), size);
-        let task = Task {
-            jobs: &jobs,
-            launch: &|job: &Job| job.launch.clone(),
-            work: &|worker, job, tick| self.job(pool, job, worker, tick),
-        };
-        let (mut count, whole) = (0, (self.families.len() * self.functions.len()) as u64);
-        let done = pool.run(&task, &mut |job: &Job| {
-            count += 1;
-            progress(count, whole, self.families[job.family].name);
-        })?;
-        Ok(gathered(&launches, self.functions.len(), &jobs, done))
+/// Asks about the functions of a job.
+fn answers(
+    mut session: CompilerSession,
+    functions: &[&CostedFunction],
+    tick: &dyn Fn(),
+) -> Result<FamilyAnswers, Error> {
+    let compiler = match answered(session.compiler())? {
+        Ok(name) => name,
+        Err(why) => return Ok(FamilyAnswers::Absent(why)),
+    };
+    let mut answers = Vec::new();
+    for function in functions {
+        answers.push(session.answer(function)?);
+        tick();
     }
-
-    /// Asks about the functions of a job.
-    fn job(
-        &self,
-        pool: Pool,
-        job: &Job,
-        worker: &mut Worker,
-        tick: &dyn Fn(),
-    ) -> Result<FamilyAnswers, Error> {
-        let family = self.families[job.family];
-        let Some(dialect) = family.compiler.dialect() else {
-            return Ok(FamilyAnswers::Absent("it has no compiler".to_owned()));
-        };
-        let mut session = CompilerSession::new(family, dialect, pool.limit, worker);
-        let compiler = match told(session.compiler())? {
-            Ok(name) => name,
-            Err(why) => return Ok(FamilyAnswers::Absent(why)),
-        };
-        let mut answers = Vec::new();
-        for function in &self.functions[job.functions.clone()] {
-            answers.push(session.answer(function)?);
-            tick();
-        }
-        Ok(FamilyAnswers::Fresh(compiler, answers))
-    }
+    Ok(FamilyAnswers::Fresh(compiler, answers))
 }
 
 /// The functions with distinct shaders, and for each function the index of the one that has its shader.
@@ -147,17 +122,18 @@ impl FamilyAnswers {
 
 /// The jobs of all families whose compilers can be started.
 fn jobs(launches: &[Result<Launch, String>], functions: usize, size: usize) -> Vec<Job> {
-    let started = launches.iter().enumerate();
-    let started = started.filter_map(|(family, launch)| Some((family, launch.as_ref().ok()?)));
-    let parts = |(family, launch): (usize, &Launch)| {
-        let launch = launch.clone();
-        (0..functions).step_by(size).map(move |start| Job {
-            family,
-            launch: launch.clone(),
-            functions: start..functions.min(start + size),
-        })
-    };
-    started.flat_map(parts).collect()
+    let mut jobs = Vec::new();
+    for (family, launch) in launches.iter().enumerate() {
+        let Ok(launch) = launch else { continue };
+        for start in (0..functions).step_by(size) {
+            jobs.push(Job {
+                family,
+                launch: launch.clone(),
+                functions: start..functions.min(start + size),
+            });
+        }
+    }
+    jobs
 }
 
 /// The answers of each family, in the functions' order. If one process could not start and others could, the functions of that

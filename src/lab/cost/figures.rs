@@ -77,82 +77,41 @@ impl CostFigures {
     }
 }
 
-/// The counts among a compiler's statistics. None without a count of instructions.
-fn counts(names: &StatisticNames, statistics: &Statistics) -> Option<Counts> {
-    let value = |name: Option<&str>| name.and_then(|name| statistics.get(name).copied());
-    Some(Counts {
-        instructions: *statistics.get(names.instructions)?,
-        latency: value(names.latency),
-        inverse_throughput: busiest(
-            names
-                .inverse_throughput
-                .iter()
-                .map(|unit| value(Some(unit))),
-        ),
-    })
-}
-
 /// The figures of a function, from the statistics of its shorter and its longer chain and of both chains of the empty function.
-/// `lengths` are the numbers of evaluations in each chain.
+/// `lengths` are the numbers of evaluations in each chain. None without a count of instructions.
 pub fn figures(
     names: &StatisticNames,
     lengths: [usize; 2],
     chains: &[Statistics; 2],
     empty: &[Statistics; 2],
 ) -> Option<CostFigures> {
-    let more = (lengths[1] - lengths[0]) as f64;
-    let [short, long] = chains
-        .each_ref()
-        .map(|statistics| counts(names, statistics));
-    let [bare_short, bare_long] = empty.each_ref().map(|statistics| counts(names, statistics));
-    let (own, bare) = (
-        slope(short?, long?, more),
-        slope(bare_short?, bare_long?, more),
-    );
-    let of_unit = |unit: &&str| {
-        let value = |statistics: &Statistics| statistics.get(*unit).copied();
-        let [[a, b], [c, d]] = [chains, empty].map(|pair| pair.each_ref().map(value));
-        Some(rounded((b? - a? - (d? - c?)) / more))
+    let evaluations = (lengths[1] - lengths[0]) as f64;
+    let in_shader = |name: &str| chains[0].get(name).copied();
+    // What the further evaluations of the longer chain cost, less what they cost in the empty chain.
+    let net = |name: &str| {
+        let more = |[short, long]: &[Statistics; 2]| Some(long.get(name)? - short.get(name)?);
+        Some(rounded((more(chains)? - more(empty)?) / evaluations))
     };
-    let busy = busiest(names.inverse_throughput.iter().map(of_unit));
-    let registers = names.registers;
     Some(CostFigures {
-        shader: short?,
-        registers: registers.and_then(|name| chains[0].get(name).copied()),
-        net: Counts {
-            inverse_throughput: busy,
-            ..less(own, bare)
-        },
+        shader: counts(names, &in_shader)?,
+        registers: names.registers.and_then(in_shader),
+        net: counts(names, &net)?,
     })
 }
 
-/// The cost of one evaluation: the difference of two chains, divided by the difference of their numbers of evaluations.
-fn slope(short: Counts, long: Counts, more: f64) -> Counts {
-    let difference = less(long, short);
-    Counts {
-        instructions: difference.instructions / more,
-        latency: difference.latency.map(|cycles| cycles / more),
-        inverse_throughput: difference.inverse_throughput.map(|cycles| cycles / more),
-    }
-}
-
-/// The cycles of the busiest unit.
-fn busiest(units: impl Iterator<Item = Option<f64>>) -> Option<f64> {
-    units.flatten().reduce(f64::max)
+/// The counts by the statistics of these names. Of several units the busiest counts.
+fn counts(names: &StatisticNames, value: &dyn Fn(&str) -> Option<f64>) -> Option<Counts> {
+    let units = names.inverse_throughput.iter();
+    Some(Counts {
+        instructions: value(names.instructions)?,
+        latency: names.latency.and_then(value),
+        inverse_throughput: units.filter_map(|unit| value(unit)).reduce(f64::max),
+    })
 }
 
 /// Rounds to six decimals, as compilers print cycles, so that fresh and recorded figures are equal.
 fn rounded(value: f64) -> f64 {
     (1e6 * value).round() / 1e6
-}
-
-fn less(counts: Counts, other: Counts) -> Counts {
-    let each = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| rounded(a - b));
-    Counts {
-        instructions: rounded(counts.instructions - other.instructions),
-        latency: each(counts.latency, other.latency),
-        inverse_throughput: each(counts.inverse_throughput, other.inverse_throughput),
-    }
 }
 
 /// The statistics in an OpenGL driver's debug messages about the fragment shader: `FRAG shader: 30 inst, 4 nops, …` or
@@ -190,25 +149,25 @@ fn pairs(list: &str) -> Statistics {
 mod tests {
     use super::*;
 
-    fn told(words: &str) -> Statistics {
+    fn read(words: &str) -> Statistics {
         remarked(&[words.to_owned()]).unwrap_or_default()
     }
 
     #[test]
     fn remarks_of_all_drivers_are_read() {
-        let adreno = told("FRAG shader: 30 inst, 4 nops, 26 non-nops, 2 half, 3 full, 12 (ss)");
+        let adreno = read("FRAG shader: 30 inst, 4 nops, 26 non-nops, 2 half, 3 full, 12 (ss)");
         assert_eq!(adreno["inst"], 30.0);
         assert_eq!(adreno["full"], 3.0);
-        let bifrost = told(
+        let bifrost = read(
             "MESA_SHADER_FRAGMENT shader: 62 tuples, 9 clauses, 2.583333 cycles, 2.583333 arith",
         );
         assert_eq!(bifrost["cycles"], 2.583333);
-        let nvidia = told("type: 4, local: 0, shared: 0, gpr: 9, inst: 41, bytes: 328, cached: 0");
+        let nvidia = read("type: 4, local: 0, shared: 0, gpr: 9, inst: 41, bytes: 328, cached: 0");
         assert_eq!(nvidia["inst"], 41.0);
-        let intel = told("FS SIMD8 shader: 52 inst, 0 loops, 210 cycles, 0:0 spills:fills");
+        let intel = read("FS SIMD8 shader: 52 inst, 0 loops, 210 cycles, 0:0 spills:fills");
         assert_eq!(intel["cycles"], 210.0);
-        assert!(told("FS SIMD16 shader: 52 inst, 0 loops").is_empty());
-        assert!(told("VERT shader: 3 inst, 0 nops").is_empty());
+        assert!(read("FS SIMD16 shader: 52 inst, 0 loops").is_empty());
+        assert!(read("VERT shader: 3 inst, 0 nops").is_empty());
     }
 
     #[test]

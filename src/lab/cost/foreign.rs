@@ -3,9 +3,8 @@
 //!
 //! The function is `fg_measured`. It takes its cosine first and returns one channel or three.
 
-use super::chain::{Chain, ChainLanguage};
+use super::chain::{ChainLanguage, MeasuredFunction};
 use super::probe::{BLOCKS, ENTRY};
-use crate::language::ir::Param;
 use crate::language::targets::{GLES, HLSL};
 use crate::physics::num::Precision;
 
@@ -16,19 +15,8 @@ pub const EMPTY_GLSL: &str = "vec3 fg_measured(float c) { return vec3(c); }\n";
 /// The empty function of one channel, in both languages.
 pub const EMPTY_SCALAR: &str = "float fg_measured(float c) { return c; }\n";
 
-/// A measured function.
-#[derive(Clone, Copy, Debug)]
-pub struct ForeignFunction<'a> {
-    /// Its text.
-    pub text: &'a str,
-    /// Its arguments, the cosine first.
-    pub params: &'a [Param],
-    /// Whether it returns one number.
-    pub is_scalar: bool,
-}
-
 /// A pixel shader in HLSL.
-pub fn hlsl(function: ForeignFunction, evaluations: usize) -> String {
+pub fn hlsl(function: MeasuredFunction, evaluations: usize) -> String {
     let block = format!(
         "struct FgArguments {{\n{{members}}}};\n[[vk::binding(0, 0)]] cbuffer FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
     );
@@ -47,11 +35,11 @@ pub fn hlsl(function: ForeignFunction, evaluations: usize) -> String {
         shader: &shader,
         ..C_LIKE
     };
-    chain(function, evaluations).shader(&language)
+    function.shader(&language, evaluations)
 }
 
 /// A fragment shader in GLSL 4.50 for Vulkan.
-pub fn glsl(function: ForeignFunction, evaluations: usize) -> String {
+pub fn glsl(function: MeasuredFunction, evaluations: usize) -> String {
     let block = format!(
         "struct FgArguments {{\n{{members}}}};\nlayout(std140, set = 0, binding = 0) uniform FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
     );
@@ -70,7 +58,7 @@ layout(location = 0) out vec4 fg_colour;
 ",
         ..C_LIKE
     };
-    chain(function, evaluations).shader(&language)
+    function.shader(&language, evaluations)
 }
 
 /// What HLSL and GLSL share. No user's function reads a texture. Locals have a prefix, because the text may define names of its
@@ -89,20 +77,10 @@ const C_LIKE: ChainLanguage = ChainLanguage {
     shader: "",
 };
 
-fn chain(function: ForeignFunction<'_>, evaluations: usize) -> Chain<'_> {
-    Chain {
-        function: function.text,
-        params: function.params,
-        is_scalar: function.is_scalar,
-        evaluations,
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use crate::language::ir::Ty;
-
     use super::*;
+    use crate::language::ir::{Param, Ty};
 
     #[test]
     fn evaluations_are_chained_and_have_arguments_of_their_own() {
@@ -115,7 +93,7 @@ mod tests {
             param("a0", Ty::Vec3),
             param("a1", Ty::Scalar),
         ];
-        let function = |text, params| ForeignFunction {
+        let function = |text, params| MeasuredFunction {
             text,
             params,
             is_scalar: false,
@@ -124,7 +102,7 @@ mod tests {
         assert!(text.contains("fg_measured(fg_c1, fg_arguments[1].a0.xyz, fg_arguments[1].a1.x)"));
         assert!(text.contains("fg_c1 = fg_r0.x * fg_r0.y - fg_r0.z + fg_w.z;"));
         assert!(!glsl(function(EMPTY_GLSL, &params[..1]), 2).contains("FgArguments"));
-        let scalar = ForeignFunction {
+        let scalar = MeasuredFunction {
             is_scalar: true,
             ..function(EMPTY_SCALAR, &params[..1])
         };

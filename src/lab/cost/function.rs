@@ -3,7 +3,6 @@
 
 use std::sync::OnceLock;
 
-use super::REFERENCE;
 use super::family::Dialect;
 use super::function_id::FunctionId;
 use super::probe::Probe;
@@ -16,6 +15,9 @@ use crate::language::effects::Effect;
 use crate::language::ir::{Checked, Ty};
 use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
+
+/// The method, in its library form of three channels, to which other costs and times are relative.
+pub const REFERENCE: &str = "dielectric_exact";
 
 /// A measured function.
 #[derive(Clone, Debug)]
@@ -38,7 +40,7 @@ pub struct CostedFunction {
 /// A function cannot be made.
 pub fn functions(
     methods: &[&'static Method],
-    subjects: &[MaterialInMedium],
+    materials: &[MaterialInMedium],
     precisions: &[Precision],
 ) -> Result<Vec<CostedFunction>, Error> {
     let bounds = Bounds::recorded();
@@ -54,12 +56,12 @@ pub fn functions(
                 found.extend(library.into_iter().map(CostedFunction::library));
             }
         }
-        for subject in subjects {
+        for material in materials {
             for method in methods.iter().copied() {
                 let refused = precision.is_half() && method.half.refusal().is_some();
-                if subject.is_described_by(method) && !refused {
-                    let made = specialised_graph(method, subject, precision, &bounds)?;
-                    let id = FunctionId::specialised(method, subject, precision);
+                if material.is_described_by(method) && !refused {
+                    let made = specialised_graph(method, material, precision, &bounds)?;
+                    let id = FunctionId::specialised(method, material, precision);
                     found.push(CostedFunction::new(id, made.function));
                 }
             }

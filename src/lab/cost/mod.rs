@@ -13,10 +13,11 @@ mod record;
 mod row;
 mod session;
 mod shapes;
+pub use chain::MeasuredFunction;
 pub use compilers::{FamilyAnswers, ask_compilers};
 pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts};
-pub use function::{CostedFunction, functions, functions_of_effect, input_numbers};
+pub use function::{CostedFunction, REFERENCE, functions, functions_of_effect, input_numbers};
 pub use function_id::FunctionId;
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX};
@@ -25,8 +26,5 @@ pub use record::{
     records,
 };
 pub use row::{CostRow, CostSource, cost_rows};
-pub use session::{CompilerSession, FragmentShader, launch, serve, told};
+pub use session::{CompilerSession, FragmentShader, answered, launch, serve};
 pub use shapes::{ChoiceRow, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow};
-
-/// The method, in its library form of three channels, to which other costs and times are relative.
-pub const REFERENCE: &str = "dielectric_exact";

@@ -76,18 +76,16 @@ pub fn pareto_frontier(points: &[Option<CostAndError>]) -> Vec<usize> {
         .filter_map(|(place, point)| Some((place, (*point)?)))
         .collect();
     known.sort_by(|(_, a), (_, b)| a.by_cost(b));
-    let mut best: Vec<(usize, CostAndError)> = Vec::new();
+    let mut best = Vec::new();
+    let mut last: Option<CostAndError> = None;
     for (place, point) in known {
-        let is_better = |(_, last): &(usize, CostAndError)| {
-            point == *last || point.error * (1.0 + TIE) < last.error
-        };
-        if best.last().is_none_or(is_better) {
-            best.push((place, point));
+        if last.is_none_or(|last| point == last || point.error * (1.0 + TIE) < last.error) {
+            best.push(place);
+            last = Some(point);
         }
     }
-    let mut places: Vec<usize> = best.into_iter().map(|(place, _)| place).collect();
-    places.sort_unstable();
-    places
+    best.sort_unstable();
+    best
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! Interface: location 0 holds weights and the first cosine. Group 0 has the arguments at binding 0 (one block for each evaluation,
 //! [`BLOCKS`] or more in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
-use super::chain::{Chain, ChainLanguage, MEASURED, uniforms, without_numbers};
+use super::chain::{ChainLanguage, MEASURED, MeasuredFunction, uniforms, without_numbers};
 use super::family::Dialect;
 use crate::generator::emit::bare;
 use crate::language::ir::{Checked, Param, Ty};
@@ -158,7 +158,7 @@ impl Probe {
                 spelling.rgb
             ),
         };
-        self.chain(0, evaluations).shader(&language)
+        self.function(0).shader(&language, evaluations)
     }
 
     /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for compilers that support no other. Only names differ.
@@ -191,15 +191,14 @@ impl Probe {
 "
             ),
         };
-        self.chain(1, evaluations).shader(&language)
+        self.function(1).shader(&language, evaluations)
     }
 
-    fn chain(&self, text: usize, evaluations: usize) -> Chain<'_> {
-        Chain {
-            function: &self.texts[text],
+    fn function(&self, text: usize) -> MeasuredFunction<'_> {
+        MeasuredFunction {
+            text: &self.texts[text],
             params: &self.params,
             is_scalar: self.is_scalar,
-            evaluations,
         }
     }
 }

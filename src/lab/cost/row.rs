@@ -4,7 +4,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::compilers::FamilyAnswers;
-use super::family::{Family, GpuCompiler};
+use super::family::{Dialect, Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
 use super::function::CostedFunction;
 use super::function_id::FunctionId;
@@ -106,102 +106,88 @@ pub fn cost_rows(
     record: &CostRecord,
     functions: &[CostedFunction],
 ) -> Vec<CostRow> {
-    let about = |place: usize, function: &CostedFunction| {
-        let row = bare(family, function);
-        if function.id.precision.is_half() && !family.half {
-            let why = "it has no 16-bit arithmetic (shaderFloat16)".to_owned();
-            return CostRow {
-                figures: Err(why),
-                ..row
-            };
-        }
-        match (family.compiler, answers) {
-            (GpuCompiler::Operations, _) => counted(row, function),
-            (GpuCompiler::None(why), _) => CostRow {
-                figures: Err(why.to_owned()),
-                ..row
-            },
-            (_, Some(FamilyAnswers::Fresh(compiler, answers))) => CostRow {
-                compiler: Some(compiler.clone()),
-                source: Some(CostSource::Compiler),
-                figures: answers[place].clone(),
-                ..row
-            },
-            (_, Some(FamilyAnswers::Absent(why))) => recorded(row, function, record, why),
-            (_, None) => recorded(row, function, record, "its compiler was not asked"),
+    let row = |(place, function): (usize, &CostedFunction)| {
+        let dialect = family.compiler.dialect();
+        let (source, compiler, figures) = match (family.compiler, answers) {
+            _ if function.id.precision.is_half() && !family.half => {
+                let why = "it has no 16-bit arithmetic (shaderFloat16)";
+                (None, None, Err(why.to_owned()))
+            }
+            (GpuCompiler::Operations, _) => counted(function),
+            (GpuCompiler::None(why), _) => (None, None, Err(why.to_owned())),
+            (_, Some(FamilyAnswers::Fresh(compiler, answers))) => {
+                let source = CostSource::Compiler;
+                let compiler = Some(compiler.clone());
+                (Some(source), compiler, answers[place].clone())
+            }
+            (_, Some(FamilyAnswers::Absent(why))) => recorded(function, dialect, record, why),
+            (_, None) => recorded(function, dialect, record, "its compiler was not asked"),
+        };
+        CostRow {
+            id: function.id.clone(),
+            fetches: function.graph.fetches(),
+            family,
+            compiler,
+            source,
+            figures,
+            share: None,
+            shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
+            shape: dialect.map(|dialect| function.shape(dialect)),
         }
     };
-    let all = functions.iter().enumerate();
-    let mut rows: Vec<CostRow> = all
-        .map(|(place, function)| about(place, function))
-        .collect();
+    let rows: Vec<CostRow> = functions.iter().enumerate().map(row).collect();
+    let cost = |row: &CostRow| row.figures.as_ref().ok().map(CostFigures::cost);
     let reference = functions.iter().position(CostedFunction::is_reference);
-    let whole =
-        reference.and_then(|place| rows[place].figures.as_ref().ok().map(CostFigures::cost));
-    let mut asked = functions.iter().map(|function| function.is_asked);
-    rows.retain(|_| asked.next().unwrap_or(false));
-    for row in &mut rows {
-        let cost = row.figures.as_ref().ok().map(CostFigures::cost);
-        row.share = cost.zip(whole).map(|(cost, whole)| cost / whole);
-    }
-    rows
+    let whole = reference.and_then(|place| cost(&rows[place]));
+    let asked = rows.into_iter().zip(functions);
+    asked
+        .filter(|(_, function)| function.is_asked)
+        .map(|(row, _)| CostRow {
+            share: cost(&row).zip(whole).map(|(cost, whole)| cost / whole),
+            ..row
+        })
+        .collect()
 }
 
-/// A row of which nothing is known yet.
-fn bare(family: &'static Family, function: &CostedFunction) -> CostRow {
-    let dialect = family.compiler.dialect();
-    CostRow {
-        id: function.id.clone(),
-        fetches: function.graph.fetches(),
-        family,
-        compiler: None,
-        source: None,
-        figures: Err(String::new()),
-        share: None,
-        shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
-        shape: dialect.map(|dialect| function.shape(dialect)),
-    }
-}
+/// Figures with their source and the compiler, or why there are none.
+type KnownFigures = (
+    Option<CostSource>,
+    Option<String>,
+    Result<CostFigures, String>,
+);
 
-fn counted(row: CostRow, function: &CostedFunction) -> CostRow {
+fn counted(function: &CostedFunction) -> KnownFigures {
     let counts = Counts {
         instructions: function.graph.work() as f64,
         ..Counts::default()
     };
-    CostRow {
-        source: Some(CostSource::Graph),
-        figures: Ok(CostFigures {
-            shader: counts,
-            registers: None,
-            net: counts,
-        }),
-        ..row
-    }
+    let figures = CostFigures {
+        shader: counts,
+        registers: None,
+        net: counts,
+    };
+    (Some(CostSource::Graph), None, Ok(figures))
 }
 
-fn recorded(row: CostRow, function: &CostedFunction, record: &CostRecord, absent: &str) -> CostRow {
-    let found = row
-        .shader
-        .as_ref()
-        .and_then(|hash| record.figures.get(hash));
+fn recorded(
+    function: &CostedFunction,
+    dialect: Option<Dialect>,
+    record: &CostRecord,
+    absent: &str,
+) -> KnownFigures {
+    let found = dialect.and_then(|dialect| record.figures.get(function.hash(dialect)));
     if let Some(figures) = found {
-        return CostRow {
-            compiler: Some(record.compiler.clone()),
-            source: Some(CostSource::Record),
-            figures: Ok(*figures),
-            ..row
-        };
+        let compiler = Some(record.compiler.clone());
+        return (Some(CostSource::Record), compiler, Ok(*figures));
     }
     if function.graph.computes_nothing() {
-        return counted(row, function);
+        return counted(function);
     }
-    let why = if record.functions.contains_key(&row.id.to_string()) {
+    let why = if record.functions.contains_key(&function.id.to_string()) {
         "what was recorded is of another shader"
     } else {
         "it is not recorded"
     };
-    CostRow {
-        figures: Err(format!("not measured: {absent}, and {why}")),
-        ..row
-    }
+    let why = format!("not measured: {absent}, and {why}");
+    (None, None, Err(why))
 }

@@ -37,9 +37,9 @@ pub enum CompilerError {
 ///
 /// # Errors
 /// No process can be started.
-pub fn told<T>(asked: Result<T, CompilerError>) -> Result<Result<T, String>, Error> {
+pub fn answered<T>(asked: Result<T, CompilerError>) -> Result<Result<T, String>, Error> {
     match asked {
-        Ok(told) => Ok(Ok(told)),
+        Ok(answered) => Ok(Ok(answered)),
         Err(CompilerError::Compiler(why)) => Ok(Err(why)),
         Err(CompilerError::Process(error)) => Err(error),
     }
@@ -101,7 +101,7 @@ impl<'a> CompilerSession<'a> {
         if function.id.precision.is_half() && !self.family.half {
             return Ok(Err("it has no 16-bit arithmetic".to_owned()));
         }
-        told(self.figures(function))
+        answered(self.figures(function))
     }
 
     /// The compiler's figures from shaders with the shorter and the longer chain of a function, then of the empty function.
@@ -316,21 +316,14 @@ impl Open {
 
     fn measure(&self, shader: &FragmentShader) -> Result<Statistics, String> {
         match (self, shader) {
-            (Open::Radv(null, [vertex, entry]), shader) => {
-                let lowered;
-                let module = match shader {
-                    FragmentShader::Module(module) => module,
-                    FragmentShader::Text(text) => {
-                        lowered = wgsl_to_spirv(text)?;
-                        &lowered
-                    }
-                };
-                let fragment = ModuleEntry {
-                    module,
-                    name: entry,
-                };
-                let told = null.measure(vertex, fragment);
-                told.map(Statistics::from_iter)
+            (Open::Radv(..), FragmentShader::Text(text)) => {
+                self.measure(&FragmentShader::Module(wgsl_to_spirv(text)?))
+            }
+            (Open::Radv(null, [vertex, entry]), FragmentShader::Module(module)) => {
+                let name = entry;
+                let statistics = null.measure(vertex, ModuleEntry { module, name });
+                statistics
+                    .map(Statistics::from_iter)
                     .map_err(|why| why.to_string())
             }
             (Open::Mesa(..), FragmentShader::Module(_)) => {

@@ -33,8 +33,8 @@ pub static SEARCHED: [SearchedClass; 2] = [
 
 impl SearchedClass {
     /// Whether this material is in the class.
-    pub fn holds(&self, subject: &MaterialInMedium) -> bool {
-        let class = MaterialClass::containing(subject);
+    pub fn holds(&self, material: &MaterialInMedium) -> bool {
+        let class = MaterialClass::containing(material);
         class.is_some_and(|class| self.classes.contains(&class))
     }
 }
@@ -58,7 +58,7 @@ pub struct SearchResult {
 
 /// A row of the JSON report.
 #[derive(Clone, Debug, Serialize)]
-#[serde(untagged)]
+#[serde(tag = "row", rename_all = "lowercase")]
 pub enum SearchRow {
     /// A shape.
     Shape(ShapeRow),
@@ -69,7 +69,6 @@ pub enum SearchRow {
 /// A shape with its errors and its cost.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShapeRow {
-    row: &'static str,
     class: &'static str,
     /// Its number of coefficients.
     pub terms: usize,
@@ -96,7 +95,6 @@ pub struct ShapeRow {
 /// The shape that is chosen among those with so many coefficients, and its errors on substances left out of the choice.
 #[derive(Clone, Debug, Serialize)]
 pub struct ChoiceRow {
-    row: &'static str,
     class: &'static str,
     /// The number of coefficients.
     pub terms: usize,
@@ -191,7 +189,6 @@ impl ShapeRow {
     ) -> ShapeRow {
         let candidate = &tried.candidate;
         ShapeRow {
-            row: "shape",
             class: class.name,
             terms: candidate.shape.terms(),
             shape: candidate.shape.to_string(),
@@ -211,14 +208,12 @@ impl ShapeRow {
 
 impl ChoiceRow {
     fn new(class: &'static SearchedClass, terms: usize, left_out: &LeaveOneOut) -> ChoiceRow {
-        let chosen = left_out.chosen.iter();
-        let chosen = chosen.map(|(candidate, substances)| ChosenShape {
+        let chosen = |(candidate, substances): &(Candidate, usize)| ChosenShape {
             shape: candidate.shape.to_string(),
             method: method_name(candidate),
             substances: *substances,
-        });
+        };
         ChoiceRow {
-            row: "choice",
             class: class.name,
             terms,
             by: "p90 over the measurements of all other substances",
@@ -226,7 +221,7 @@ impl ChoiceRow {
             method: method_name(&left_out.choice),
             errors: left_out.seen,
             errors_left_out: left_out.unseen,
-            chosen: chosen.collect(),
+            chosen: left_out.chosen.iter().map(chosen).collect(),
         }
     }
 }

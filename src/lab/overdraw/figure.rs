@@ -104,7 +104,7 @@ impl MeasuredDrawings {
                 .collect(),
             anew: anew.iter().map(|r| self.times(self.clock, r)).collect(),
         };
-        let functions = 0..plan.chains().len();
+        let functions = 0..plan.chains.len();
         functions
             .map(|function| self.figure(plan, function, pixels, &times))
             .collect()

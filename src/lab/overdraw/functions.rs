@@ -65,6 +65,7 @@ impl TimeRequest {
             heavy: library.single(HEAVY)?,
             reference: library.single(REFERENCE)?,
         };
+        let bounds = Bounds::recorded();
         for precision in self.precisions.iter().copied() {
             for method in self.methods.iter().copied() {
                 let why = method.half.library_refusal();
@@ -77,7 +78,7 @@ impl TimeRequest {
                 for method in described.filter(|method| material.is_described_by(method)) {
                     let of = format!(" for {}", material.name);
                     if !timed.is_refused(precision, method, &of, method.half.refusal()) {
-                        let function = specialised(method, material, precision)?;
+                        let function = specialised(method, material, precision, &bounds)?;
                         timed.functions.push(function);
                     }
                 }
@@ -155,8 +156,9 @@ fn specialised(
     method: &'static Method,
     material: &MaterialInMedium,
     precision: Precision,
+    bounds: &Bounds,
 ) -> Result<TimedFunction, Error> {
-    let made = specialised_graph(method, material, precision, &Bounds::recorded())?;
+    let made = specialised_graph(method, material, precision, bounds)?;
     let reference = material.truth_for(method);
     Ok(TimedFunction {
         id: FunctionId::specialised(method, material, precision),

@@ -10,6 +10,8 @@ use crate::physics::num::statistics::{median, quantile};
 
 /// The number of readings by which the count of draws and the clock are chosen.
 const TRIALS: usize = 3;
+/// The number of readings of the heavy shader alone.
+const ALONE: usize = 15;
 /// Nanoseconds that the draws of a reading should take: some hundred times the resolution of a clock.
 const LONG_ENOUGH: f64 = 4e6;
 /// The time of a reading's draws should be this many times the variation of the heavy shader's time.
@@ -156,7 +158,7 @@ pub fn measure(
     };
     let whole = (count * (1 + effort.rounds)) as u64;
     let advances = session.choose_clock(effort)?;
-    let heavy = session.heavy()?;
+    let heavy = session.times(DrawingPlan::HEAVY, 0, ALONE)?;
     for drawing in 1..count {
         progress(drawing as u64, whole, "how often to draw");
         session.calibrate(drawing, &heavy, effort.limit)?;
@@ -165,8 +167,8 @@ pub fn measure(
     for round in 0..effort.rounds {
         let before = (count * (1 + round)) as u64;
         let what = format!("round {} of {}", round + 1, effort.rounds);
-        let mut told = |done: usize| progress(before + done as u64, whole, &what);
-        rounds.push(session.round(round, &mut told)?);
+        let mut report = |done: usize| progress(before + done as u64, whole, &what);
+        rounds.push(session.round(round, &mut report)?);
     }
     Ok(MeasuredDrawings {
         clock: session.clock,
@@ -239,15 +241,14 @@ impl DrawingSession<'_> {
         Ok(gpu)
     }
 
-    /// Readings of the heavy shader alone.
-    fn heavy(&mut self) -> Result<Vec<f64>, Stop> {
-        const ENOUGH: usize = 15;
-        let mut readings = Vec::new();
-        for _ in 0..ENOUGH {
-            let reading = self.read_draws(DrawingPlan::HEAVY, 0)?;
-            readings.extend(reading.map(|reading| self.clock.nanoseconds(&reading)));
+    /// The times of several readings of so many draws. None where the drawing is given up.
+    fn times(&mut self, drawing: usize, draws: u32, readings: usize) -> Result<Vec<f64>, Stop> {
+        let mut times = Vec::new();
+        for _ in 0..readings {
+            let reading = self.read_draws(drawing, draws)?;
+            times.extend(reading.map(|reading| self.clock.nanoseconds(&reading)));
         }
-        Ok(readings)
+        Ok(times)
     }
 
     /// Finds how many times a shader is drawn, so that the draws take long enough and well above the variation of the heavy
@@ -255,17 +256,12 @@ impl DrawingSession<'_> {
     fn calibrate(&mut self, drawing: usize, heavy: &[f64], limit: f64) -> Result<(), Stop> {
         let alone = median(heavy);
         let scatter = quantile(heavy, 0.75) - quantile(heavy, 0.25);
-        let wanted = (ABOVE_NOISE * scatter)
-            .clamp(LONG_ENOUGH, TOO_LONG)
-            .min(limit / 4.0);
+        let wanted = (ABOVE_NOISE * scatter).clamp(LONG_ENOUGH, TOO_LONG);
+        let wanted = wanted.min(limit / 4.0);
         let mut draws = 1;
         loop {
-            let mut times = Vec::new();
-            for _ in 0..TRIALS {
-                let reading = self.read_draws(drawing, draws)?;
-                times.extend(reading.map(|reading| self.clock.nanoseconds(&reading) - alone));
-            }
-            let time = median(&times);
+            let times = self.times(drawing, draws, TRIALS)?;
+            let time = median(&times) - alone;
             if times.is_empty() || draws >= MOST_DRAWS || time >= wanted / 4.0 {
                 let each = (time / f64::from(draws)).max(1.0);
                 self.draws[drawing] = ((wanted / each) as u32).clamp(1, MOST_DRAWS);
@@ -277,8 +273,8 @@ impl DrawingSession<'_> {
 
     /// A round: every drawing once. Reference shaders are drawn again after every few functions, so that a machine that is busy
     /// for a while slows both.
-    fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Round, Stop> {
-        let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed());
+    fn round(&mut self, round: usize, report: &mut dyn FnMut(usize)) -> Result<Round, Stop> {
+        let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed.clone());
         let mut all: Round = vec![Vec::new(); count];
         // Each function has two drawings, one after the other.
         let functions = (count - fixed.end) / 2;
@@ -288,7 +284,7 @@ impl DrawingSession<'_> {
             }
             let short = fixed.end + 2 * place;
             self.read_into(&mut all, short..short + 2)?;
-            told(2 * done);
+            report(2 * done);
         }
         if functions == 0 {
             self.read_into(&mut all, fixed)?;

@@ -1,5 +1,7 @@
 //! The drawings: those of the measured functions, and the reference shaders that they are compared with.
 
+use core::ops::Range;
+
 use half::f16;
 
 use crate::lab::cost::{BLOCKS, FunctionId, Probe, WGSL_VERTEX};
@@ -60,10 +62,10 @@ pub struct DrawingPlan {
     pub reference: DrawnChain,
     /// The chain of the empty shader of three channels in single precision.
     pub empty: DrawnChain,
-    /// The number of drawings before the functions.
-    fixed: usize,
+    /// The indices of the reference shaders, before those of the functions.
+    pub fixed: Range<usize>,
     /// The chain of each function, and of the empty one that belongs to it.
-    chains: Vec<[DrawnChain; 2]>,
+    pub chains: Vec<[DrawnChain; 2]>,
 }
 
 /// Operations in a long chain if none are given. A graphics card hides cheap evaluations behind the draw, a processor does not.
@@ -147,7 +149,7 @@ impl DrawingPlan {
                 empties.push(add(evaluations, &|n| empty(result, precision, n)));
             }
         }
-        let fixed = empties[empties.len() - 1].long() + 1;
+        let fixed = 0..empties[empties.len() - 1].long() + 1;
         let mut chain = |timed: &TimedFunction| {
             let half = usize::from(timed.id.precision.is_half());
             let empty = empties[2 * half + usize::from(timed.id.channels == 1)];
@@ -170,16 +172,6 @@ impl DrawingPlan {
             fixed,
             chains,
         }
-    }
-
-    /// The indices of the reference shaders.
-    pub fn fixed(&self) -> std::ops::Range<usize> {
-        0..self.fixed
-    }
-
-    /// The chain of each function, and of the empty one that belongs to it.
-    pub fn chains(&self) -> &[[DrawnChain; 2]] {
-        &self.chains
     }
 
     /// All chains that a function's figure depends on: its own two, and those of the function whose cost is 1.

@@ -49,28 +49,21 @@ pub enum Figure {
 }
 
 /// The verdict of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComparisonVerdict {
     /// Equal to the last printed digit.
-    #[serde(rename = "agrees")]
     Agrees,
     /// Different, for the reason in the remark.
-    #[serde(rename = "differs, explained")]
     Explained,
     /// Different where it must agree: a finding.
-    #[serde(rename = "differs")]
     Differs,
     /// A claim that is true.
-    #[serde(rename = "holds")]
     Holds,
     /// A claim that is true in one sense and not in another.
-    #[serde(rename = "holds in part")]
     InPart,
     /// A claim that is not true.
-    #[serde(rename = "does not hold")]
     Fails,
     /// Nothing to compare with.
-    #[serde(rename = "")]
     Open,
 }
 
@@ -114,6 +107,21 @@ impl ComparisonRow {
     /// With the verdict.
     pub fn verdict(mut self, verdict: ComparisonVerdict) -> ComparisonRow {
         self.verdict = verdict;
+        self
+    }
+
+    /// With both figures in per cent, which must agree to the printed digit.
+    pub fn percents(self, thesis: f64, ours: f64) -> ComparisonRow {
+        self.thesis(Figure::percent(thesis))
+            .ours(Figure::percent(ours))
+            .verdict(ComparisonVerdict::of_digits(thesis, ours, 2))
+    }
+
+    /// With a difference, if there is one, that the remark explains.
+    pub fn explained(mut self) -> ComparisonRow {
+        if self.verdict == ComparisonVerdict::Differs {
+            self.verdict = ComparisonVerdict::Explained;
+        }
         self
     }
 
@@ -187,23 +195,52 @@ impl ComparisonVerdict {
         }
     }
 
-    /// [`ComparisonVerdict::Agrees`] if both are equal to the printed digit, otherwise a finding.
-    pub fn of_digits(thesis: f64, ours: f64, decimals: usize) -> ComparisonVerdict {
-        if format!("{thesis:.decimals$}") == format!("{ours:.decimals$}") {
+    /// The verdict on two figures that must agree.
+    pub fn of_agreement(agrees: bool) -> ComparisonVerdict {
+        if agrees {
             ComparisonVerdict::Agrees
         } else {
             ComparisonVerdict::Differs
         }
     }
 
+    /// The verdict on two figures that must be equal to the printed digit.
+    pub fn of_digits(thesis: f64, ours: f64, decimals: usize) -> ComparisonVerdict {
+        let agrees = format!("{thesis:.decimals$}") == format!("{ours:.decimals$}");
+        ComparisonVerdict::of_agreement(agrees)
+    }
+
     /// The verdict on a claim that holds or does not.
     pub fn of_claim(holds: bool) -> ComparisonVerdict {
-        if holds {
-            ComparisonVerdict::Holds
-        } else {
-            ComparisonVerdict::Fails
+        ComparisonVerdict::of_cases(usize::from(holds), 1)
+    }
+
+    /// The verdict on a claim that holds in some of these cases.
+    pub fn of_cases(holding: usize, cases: usize) -> ComparisonVerdict {
+        match holding {
+            0 => ComparisonVerdict::Fails,
+            all if all == cases => ComparisonVerdict::Holds,
+            _ => ComparisonVerdict::InPart,
         }
     }
+}
+
+impl Serialize for ComparisonVerdict {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.in_words())
+    }
+}
+
+/// A claim of the text in words, beside our finding.
+pub fn statement(name: &str, section: &str, thesis: &str, ours: String) -> ComparisonRow {
+    ComparisonRow::new("claims", name, section)
+        .thesis(Figure::Words(thesis.to_owned()))
+        .ours(Figure::Words(ours))
+}
+
+/// A figure behind a claim.
+pub fn measured(name: &str, column: &str, ours: Figure) -> ComparisonRow {
+    ComparisonRow::new("claims", name, column).ours(ours)
 }
 
 static RECORD: LazyLock<Value> = LazyLock::new(|| {
@@ -217,10 +254,16 @@ pub const ANGLES: usize = 1_000_000;
 /// cos θ at which λ is matched according to the text: 84.26 degrees (section 3.2.4).
 pub const TEXT_MATCHING_COS: f64 = 0.10;
 
+/// The table of relative times in the record.
+pub const RELATIVE_TIMES: &str = "table6_relative_time_percent";
+/// The channels in the order of the thesis.
+pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
 /// The figure at a path of keys.
 pub fn number(keys: &[&str]) -> f64 {
-    let found = at(keys).as_f64();
-    found.expect("the keys are constants, and a test reads them all")
+    at(keys)
+        .as_f64()
+        .expect("the keys are constants, and a test reads them all")
 }
 
 /// The row of figures at a path of keys.

@@ -5,15 +5,13 @@
 
 use serde::Deserialize;
 
-use super::ThesisSection;
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES};
+use super::section::ThesisSection;
 use crate::lab::cost::{self, GpuCompiler, find};
 use crate::lab::overdraw::{LibraryTime, library_times};
 use crate::language::methods;
 use crate::physics::num::statistics::{least_squares, rank_correlation};
 use crate::physics::records;
-
-const TIMES: &str = "table6_relative_time_percent";
 
 /// The devices of the thesis, and the families whose compilers stand for their GPUs.
 const DEVICES: [(&str, &str); 5] = [
@@ -91,14 +89,10 @@ impl Pairs {
         let share = |count: f64| 100.0 * count / counts[0];
         Some(Pairs {
             printed: METHODS
-                .iter()
                 .map(|method| printed(family, method).map(share))
-                .collect(),
-            times: comparison::numbers(&[TIMES, device]),
-            counts: counts
-                .iter()
-                .map(|count| 100.0 * count / counts[0])
-                .collect(),
+                .to_vec(),
+            times: comparison::numbers(&[RELATIVE_TIMES, device]),
+            counts: counts.iter().copied().map(share).collect(),
         })
     }
 
@@ -113,7 +107,7 @@ impl Pairs {
 }
 
 fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
-    let names = comparison::names(&[TIMES, "columns"]);
+    let names = comparison::names(&[RELATIVE_TIMES, "columns"]);
     let Some(pairs) = Pairs::recorded(device, family) else {
         return unmeasured(device, family, &names);
     };
@@ -132,7 +126,7 @@ fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
         }
     };
     let mut rows: Vec<ComparisonRow> = (0..METHODS.len()).map(row).collect();
-    rows.extend(statistics(device, &pairs));
+    rows.extend(statistics(device, &counts, &times));
     rows
 }
 
@@ -171,7 +165,7 @@ fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Compari
         Some(GpuCompiler::None(why)) => why,
         _ => "nothing is recorded",
     };
-    let times = comparison::numbers(&[TIMES, device]);
+    let times = comparison::numbers(&[RELATIVE_TIMES, device]);
     let row = |(name, time): (&&'static str, &f64)| {
         ComparisonRow::new("table6", device, name)
             .thesis(Figure::Number(*time, 0, " %"))
@@ -181,25 +175,19 @@ fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Compari
 }
 
 /// How well the counts of a device predict its times.
-fn statistics(device: &str, pairs: &Pairs) -> Vec<ComparisonRow> {
-    let (counts, times) = pairs.arithmetic();
-    let (fixed, rate) = least_squares(&counts, &times);
-    let differences = counts
-        .iter()
-        .zip(&times)
-        .skip(1)
-        .map(|(count, time)| (count - time).abs());
+fn statistics(device: &str, counts: &[f64], times: &[f64]) -> Vec<ComparisonRow> {
+    let (fixed, rate) = least_squares(counts, times);
+    let pairs = || counts.iter().zip(times);
+    // The first method is 100 % of both.
+    let differences = pairs().skip(1).map(|(count, time)| (count - time).abs());
     let mean = differences.sum::<f64>() / (counts.len() - 1) as f64;
-    let off = counts
-        .iter()
-        .zip(&times)
-        .map(|(count, time)| (fixed + rate * count - time).abs());
+    let off = pairs().map(|(count, time)| (fixed + rate * count - time).abs());
     let worst = off.fold(0.0, f64::max);
     let row = |column: &str, figure| ComparisonRow::new("table6", device, column).ours(figure);
     vec![
         row(
             "rank correlation",
-            Figure::Number(rank_correlation(&counts, &times), 2, ""),
+            Figure::Number(rank_correlation(counts, times), 2, ""),
         )
         .remark("Spearman's, of counts and times, without the table"),
         row("mean difference", Figure::Number(mean, 0, " points"))

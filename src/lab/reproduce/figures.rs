@@ -2,9 +2,10 @@
 //! degrees, as in the thesis.
 
 use super::comparison::{ComparisonRow, Figure};
-use super::{ThesisSection, specialised};
+use super::section::ThesisSection;
+use super::specialised;
 use crate::generator::fit;
-use crate::generator::reference::Derivation;
+use crate::generator::reference::{Derivation, THESIS_MATCHING_COS};
 use crate::language::methods::lambda;
 use crate::physics::optics::{self, Reflectance};
 
@@ -14,62 +15,70 @@ pub use crate::physics::optics::cosine;
 pub const POINTS: u32 = 361;
 
 /// A figure of the thesis.
-struct FigurePlan {
-    number: u32,
-    file: &'static str,
-    /// The subject in the thesis's caption.
-    subject: &'static str,
-    index: [f64; 2],
-    /// Methods, and their names in the legend.
-    methods: &'static [(&'static str, &'static str)],
-    /// Lowest reflectance on the axis, in per cent.
-    low: f64,
-    marks: &'static [(f64, &'static str)],
-    /// Whether the minimum of the exact law is marked too.
-    shows_minimum: bool,
-    /// What a reader should know besides.
-    note: &'static str,
-}
-
-/// A figure of the thesis, computed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ThesisFigure {
+#[derive(Debug, PartialEq)]
+pub struct FigurePlan {
     /// Its number in the thesis.
     pub number: u32,
     /// The name of its file.
     pub file: &'static str,
     /// The subject in the thesis's caption.
     pub subject: &'static str,
+    /// n and k.
+    index: [f64; 2],
+    /// Methods, and their names in the legend.
+    methods: &'static [(&'static str, &'static str)],
+    /// Lowest reflectance on the axis, in per cent.
+    pub low: f64,
+    /// Marked angles, in degrees, and their labels.
+    marks: &'static [(f64, &'static str)],
+    /// Whether the minimum of the exact law is marked too.
+    shows_minimum: bool,
+    /// What a reader should know besides.
+    pub note: &'static str,
+}
+
+/// A figure of the thesis, computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThesisFigure {
+    /// What it shows.
+    pub plan: &'static FigurePlan,
     /// The exact law.
     pub exact: DrawnCurve,
     /// Its approximations.
     pub curves: Vec<DrawnCurve>,
-    /// Lowest reflectance on the axis, in per cent.
-    pub low: f64,
     /// Marked angles, in degrees, and their labels.
     pub marks: Vec<(f64, String)>,
     /// The values derived from n and k, for methods that need more than these, in words.
     pub derived: String,
-    /// What a reader should know besides.
-    pub note: &'static str,
 }
 
 const SCHLICK: (&str, &str) = ("schlick_ior", "Schlick (eq. 7)");
 const RESCALED: (&str, &str) = ("schlick_rescaled", "rescaled Schlick (eq. 14)");
 const EXACT_ALONE: &str = "The thesis draws the exact law alone.";
 
+/// A figure from 0 per cent on, without marks and notes.
+const PLAIN: FigurePlan = FigurePlan {
+    number: 0,
+    file: "",
+    subject: "",
+    index: [1.0, 0.0],
+    methods: &[],
+    low: 0.0,
+    marks: &[],
+    shows_minimum: false,
+    note: "",
+};
+
 /// The nine figures. n and k are those of the captions and of Table 1. Platinum's are those of 685 nm.
-const PLANS: [FigurePlan; 9] = [
+static PLANS: [FigurePlan; 9] = [
     FigurePlan {
         number: 6,
         file: "figure-06-water.svg",
         subject: "water, n = 1.33",
         index: [1.33, 0.0],
         methods: &[SCHLICK],
-        low: 0.0,
-        marks: &[],
-        shows_minimum: false,
         note: EXACT_ALONE,
+        ..PLAIN
     },
     FigurePlan {
         number: 9,
@@ -88,10 +97,8 @@ const PLANS: [FigurePlan; 9] = [
         subject: "gold at 475 nm, n = 1.39, k = 1.72",
         index: [1.39, 1.72],
         methods: &[RESCALED],
-        low: 0.0,
-        marks: &[],
-        shows_minimum: false,
         note: EXACT_ALONE,
+        ..PLAIN
     },
     FigurePlan {
         number: 11,
@@ -99,10 +106,8 @@ const PLANS: [FigurePlan; 9] = [
         subject: "water, n = 1.33",
         index: [1.33, 0.0],
         methods: &[("empirical", "NVIDIA's empirical term (eq. 6)")],
-        low: 0.0,
         marks: &[(60.0, "60°")],
-        shows_minimum: false,
-        note: "",
+        ..PLAIN
     },
     FigurePlan {
         number: 12,
@@ -110,10 +115,7 @@ const PLANS: [FigurePlan; 9] = [
         subject: "hydrogen, n = 1.001",
         index: [1.001, 0.0],
         methods: &[SCHLICK],
-        low: 0.0,
-        marks: &[],
-        shows_minimum: false,
-        note: "",
+        ..PLAIN
     },
     FigurePlan {
         number: 13,
@@ -121,10 +123,7 @@ const PLANS: [FigurePlan; 9] = [
         subject: "arsenic trisulphide, n = 2.04",
         index: [2.04, 0.0],
         methods: &[SCHLICK],
-        low: 0.0,
-        marks: &[],
-        shows_minimum: false,
-        note: "",
+        ..PLAIN
     },
     FigurePlan {
         number: 14,
@@ -132,10 +131,7 @@ const PLANS: [FigurePlan; 9] = [
         subject: "germanium, n = 4.01",
         index: [4.01, 0.0],
         methods: &[SCHLICK],
-        low: 0.0,
-        marks: &[],
-        shows_minimum: false,
-        note: "",
+        ..PLAIN
     },
     FigurePlan {
         number: 15,
@@ -146,10 +142,7 @@ const PLANS: [FigurePlan; 9] = [
             ("schlick", "Schlick from F0 (eq. 13)"),
             ("schlick_ior", "Schlick from n alone (eq. 7)"),
         ],
-        low: 0.0,
-        marks: &[],
-        shows_minimum: false,
-        note: "",
+        ..PLAIN
     },
     FigurePlan {
         number: 16,
@@ -163,7 +156,7 @@ const PLANS: [FigurePlan; 9] = [
         low: 50.0,
         marks: &[(81.37, "81.37°: λ matched")],
         shows_minimum: true,
-        note: "",
+        ..PLAIN
     },
 ];
 
@@ -180,7 +173,7 @@ pub struct DrawnCurve {
 pub fn section() -> ThesisSection {
     ThesisSection {
         title: format!("Figures: reflectance at {POINTS} angles, exact and approximate"),
-        rows: PLANS.iter().flat_map(FigurePlan::figure_rows).collect(),
+        rows: figures().iter().flat_map(ThesisFigure::rows).collect(),
     }
 }
 
@@ -201,7 +194,7 @@ impl FigurePlan {
     fn curves(&self) -> Vec<DrawnCurve> {
         let channels = specialised::grey(self.index);
         let curve = |(method, name): &(&str, &'static str)| {
-            let function = specialised::function(method, &channels, &Derivation::default());
+            let function = specialised::function(method, &channels);
             let values = specialised::curve(&function, degrees().map(cosine).collect());
             let percent = values.into_iter().map(|value| 100.0 * value);
             DrawnCurve {
@@ -212,64 +205,29 @@ impl FigurePlan {
         self.methods.iter().map(curve).collect()
     }
 
-    fn figure_rows(&self) -> Vec<ComparisonRow> {
-        let exact = self.exact();
-        let pairs = self.curves().into_iter().zip(self.methods);
-        pairs
-            .flat_map(|(curve, (method, _))| self.curve_rows(&curve, &exact, method))
-            .collect()
-    }
-
-    fn curve_rows(
-        &self,
-        curve: &DrawnCurve,
-        exact: &DrawnCurve,
-        method: &str,
-    ) -> [ComparisonRow; 2] {
-        let (at, apart) = curve.largest_difference(exact);
-        let name = format!("figure {}, {method}", self.number);
-        [
-            ("largest difference", Figure::Number(apart / 100.0, 4, "")),
-            ("its angle", Figure::Number(at, 2, "°")),
-        ]
-        .map(|(column, ours)| {
-            let mut row = ComparisonRow::new("figures", &name, column).ours(ours);
-            row.file = Some(self.file.to_owned());
-            row
-        })
-    }
-
-    fn figure(&self) -> ThesisFigure {
+    fn figure(&'static self) -> ThesisFigure {
         ThesisFigure {
-            number: self.number,
-            file: self.file,
-            subject: self.subject,
+            plan: self,
             exact: self.exact(),
             curves: self.curves(),
-            low: self.low,
             marks: self.marks(),
             derived: self.derived(),
-            note: self.note,
         }
     }
 
     /// The values derived from n and k, for methods that need more than these.
     fn derived(&self) -> String {
-        let channels = specialised::grey(self.index);
         let has = |name: &str| self.methods.iter().any(|(method, _)| *method == name);
         if has("empirical") {
-            let values = fit::values(
-                specialised::method("empirical"),
-                &channels,
-                &Derivation::default(),
-            );
+            let method = specialised::method("empirical");
+            let channels = specialised::grey(self.index);
+            let values = fit::values(method, &channels, &Derivation::default());
             let [bias, scale, power] = ["bias", "scale", "power"].map(|name| values[name][0]);
             return format!(
                 "Bias {bias:.4} is F0, scale {scale:.4} the rest, power {power:.3} meets the exact law at 60°."
             );
         }
-        let matching = Derivation::default().matching_cos;
-        match lambda(self.index[0], self.index[1], matching) {
+        match lambda(self.index[0], self.index[1], THESIS_MATCHING_COS) {
             Some(lambda) if has("schlick_corrected") => {
                 format!(
                     "λ = {lambda:.3} meets the exact law at 81.37°, with the factor cos θ that eq. 15 lost in print."
@@ -285,6 +243,25 @@ impl FigurePlan {
         let (at, _) = lowest(|degrees| exact(self.index, degrees).unpolarised());
         let minimum = (at, format!("minimum {at:.2}°"));
         fixed.chain(self.shows_minimum.then_some(minimum)).collect()
+    }
+}
+
+impl ThesisFigure {
+    fn rows(&self) -> Vec<ComparisonRow> {
+        let mut rows = Vec::new();
+        for (curve, (method, _)) in self.curves.iter().zip(self.plan.methods) {
+            let (at, apart) = curve.largest_difference(&self.exact);
+            let name = format!("figure {}, {method}", self.plan.number);
+            for (column, ours) in [
+                ("largest difference", Figure::Number(apart / 100.0, 4, "")),
+                ("its angle", Figure::Number(at, 2, "°")),
+            ] {
+                let mut row = ComparisonRow::new("figures", &name, column).ours(ours);
+                row.file = Some(self.plan.file.to_owned());
+                rows.push(row);
+            }
+        }
+        rows
     }
 }
 

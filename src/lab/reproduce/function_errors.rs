@@ -1,11 +1,11 @@
 //! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::rendered::Meter;
-use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
-use super::{ThesisSection, specialised};
+use super::comparison::{self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure};
+use super::section::{Meter, ThesisSection};
+use super::specialised;
+use super::three_wavelengths::{mean, weighted};
 use crate::generator::fit::{thesis_error_in_floats, thesis_errors};
-use crate::generator::reference::{Derivation, THESIS_MATCHING_COS};
+use crate::generator::reference::THESIS_MATCHING_COS;
 use crate::language::methods::lambda;
 use crate::physics::materials::Channels;
 
@@ -30,34 +30,29 @@ const HALF_A_DIGIT: f64 = 0.005;
 /// rounding of Table 1's indices.
 const BORDERLINE: f64 = 0.0002;
 
-const AT_81: Derivation = Derivation {
-    matching_cos: THESIS_MATCHING_COS,
-};
-const AT_84: Derivation = Derivation {
-    matching_cos: comparison::TEXT_MATCHING_COS,
-};
+/// The cosines at which λ is matched: 81.37° and 84.26°.
+const AT_81: f64 = THESIS_MATCHING_COS;
+const AT_84: f64 = comparison::TEXT_MATCHING_COS;
 
 /// Table 2.
 pub fn metals(angles: usize, meter: &mut Meter) -> ThesisSection {
-    let rows = ["gold", "platinum"].into_iter();
+    let rows = ["gold", "platinum"].map(|name| metal(name, angles, meter));
     ThesisSection {
         title: format!(
             "Table 2: function error for metals, mean over {angles} angles and three channels"
         ),
-        rows: rows.flat_map(|name| metal(name, angles, meter)).collect(),
+        rows: rows.concat(),
     }
 }
 
 /// Table 3.
 pub fn dielectrics(angles: usize, meter: &mut Meter) -> ThesisSection {
-    let rows = ["water", "diamond"].into_iter();
+    let rows = ["water", "diamond"].map(|name| dielectric(name, angles, meter));
     ThesisSection {
         title: format!(
             "Table 3: function error for dielectrics, mean over {angles} angles and three channels"
         ),
-        rows: rows
-            .flat_map(|name| dielectric(name, angles, meter))
-            .collect(),
+        rows: rows.concat(),
     }
 }
 
@@ -87,8 +82,18 @@ fn metal(name: &str, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
         "table2", name, "rescaled", rescaled, &channels, angles,
     ));
     rows.extend(unrounded(name, [rescaled, corrected], angles, meter));
-    rows.push(weighted("table2", name, "rescaled", by_channel[0]));
-    rows.push(weighted("table2", name, "corrected", by_channel[1]));
+    rows.push(weighted(
+        "table2",
+        name,
+        "rescaled, by luminance",
+        by_channel[0],
+    ));
+    rows.push(weighted(
+        "table2",
+        name,
+        "corrected, by luminance",
+        by_channel[1],
+    ));
     rows.extend(lambdas(name, &channels, AT_81, "81.37°"));
     rows.extend(lambdas(name, &channels, AT_84, "84.26°"));
     rows
@@ -107,36 +112,26 @@ fn in_floats(
         "table2" => ("schlick_rescaled", "conductor_textbook"),
         _ => ("schlick_ior", "dielectric_textbook"),
     };
-    let function = |name| specialised::function(name, channels, &Derivation::default());
-    let error = thesis_error_in_floats(&function(method), &function(exact), angles);
+    let [method, exact] = [method, exact].map(|name| specialised::function(name, channels));
+    let error = thesis_error_in_floats(&method, &exact, angles);
     let ours = f64::from(100.0 * error);
-    let row = must_agree(
-        table,
-        name,
-        &format!("{column}, in 32-bit floats"),
-        thesis,
-        ours,
-    )
-    .remark(IN_FLOATS);
-    if row.verdict == ComparisonVerdict::Differs {
-        row.verdict(ComparisonVerdict::Explained)
-    } else {
-        row
-    }
+    ComparisonRow::new(table, name, &format!("{column}, in 32-bit floats"))
+        .percents(thesis, ours)
+        .remark(IN_FLOATS)
+        .explained()
 }
 
 /// The row of the rescaled Schlick, which must agree to the digit. Platinum's 5.3049 is excused for the 0.0001 that it lacks.
 fn rescaled_row(name: &str, thesis: f64, ours: f64) -> ComparisonRow {
-    let row = must_agree("table2", name, "rescaled", thesis, ours);
-    let is_borderline = row.verdict == ComparisonVerdict::Differs
-        && (thesis - ours).abs() < HALF_A_DIGIT + BORDERLINE;
-    if is_borderline {
+    let row = ComparisonRow::new("table2", name, "rescaled").percents(thesis, ours);
+    let is_near = (thesis - ours).abs() < HALF_A_DIGIT + BORDERLINE;
+    if row.verdict == ComparisonVerdict::Differs && is_near {
         let remark = format!(
             "{ours:.4} with the indices as Table 1 prints them, {:.4} short of what rounds to the printed digit; in \
              32-bit floats, as the thesis computes, and with the indices that Table 1 rounds, it does (below)",
             thesis - HALF_A_DIGIT - ours
         );
-        row.verdict(ComparisonVerdict::Explained).remark(remark)
+        row.explained().remark(remark)
     } else {
         row
     }
@@ -152,46 +147,35 @@ fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> 
     let wanted = [("schlick_rescaled", AT_81), ("schlick_corrected", AT_81)];
     let errors = percent(name, &specialised::unrounded(page), &wanted, angles, meter);
     let errors: Vec<f64> = errors.into_iter().map(mean).collect();
-    [0, 1].map(|i| {
-        let column = [
-            "rescaled, unrounded indices",
-            "corrected, unrounded indices",
-        ][i];
-        explained(name, column, thesis[i], errors[i], UNROUNDED)
+    [(0, "rescaled"), (1, "corrected")].map(|(i, column)| {
+        let column = format!("{column}, unrounded indices");
+        explained(name, &column, thesis[i], errors[i], UNROUNDED)
     })
 }
 
 fn dielectric(name: &str, angles: usize, meter: &mut Meter) -> [ComparisonRow; 3] {
     let channels = specialised::channels(name);
-    let wanted = [("schlick_ior", Derivation::default())];
+    let wanted = [("schlick_ior", AT_81)];
     let errors = percent(name, &channels, &wanted, angles, meter);
     let printed = comparison::number(&[DIELECTRICS, name, "schlick"]);
     [
-        must_agree("table3", name, "schlick", printed, mean(errors[0])),
+        ComparisonRow::new("table3", name, "schlick").percents(printed, mean(errors[0])),
         in_floats("table3", name, "schlick", printed, &channels, angles),
-        weighted("table3", name, "schlick", errors[0]),
+        weighted("table3", name, "schlick, by luminance", errors[0]),
     ]
-}
-
-/// A row of the errors weighted by luminance.
-fn weighted(table: &'static str, name: &str, column: &str, errors: [f64; 3]) -> ComparisonRow {
-    ComparisonRow::new(table, name, &format!("{column}, by luminance"))
-        .thesis(Figure::Missing("the thesis leaves it open"))
-        .ours(Figure::Number(by_luminance(errors), 3, " %"))
-        .remark(BY_LUMINANCE)
 }
 
 /// Errors of methods for one material, by channel, in per cent.
 fn percent(
     name: &str,
     channels: &Channels,
-    wanted: &[(&str, Derivation)],
+    wanted: &[(&str, f64)],
     angles: usize,
     meter: &mut Meter,
 ) -> Vec<[f64; 3]> {
-    let functions: Vec<_> = wanted
-        .iter()
-        .map(|(method, derivation)| specialised::function(method, channels, derivation))
+    let functions = wanted.iter();
+    let functions: Vec<_> = functions
+        .map(|(method, matching_cos)| specialised::matched_at(*matching_cos, method, channels))
         .collect();
     let functions: Vec<_> = functions.iter().collect();
     let mut progress = |done| meter.add(done, &format!("function error of {name}"));
@@ -200,42 +184,25 @@ fn percent(
     errors.into_iter().map(percent).collect()
 }
 
-fn must_agree(
-    table: &'static str,
-    name: &str,
-    column: &str,
-    thesis: f64,
-    ours: f64,
-) -> ComparisonRow {
-    ComparisonRow::new(table, name, column)
-        .thesis(Figure::percent(thesis))
-        .ours(Figure::percent(ours))
-        .verdict(ComparisonVerdict::of_digits(thesis, ours, 2))
-}
-
 fn explained(name: &str, column: &str, thesis: f64, ours: f64, reason: &str) -> ComparisonRow {
-    let row = must_agree("table2", name, column, thesis, ours).remark(reason);
-    match row.verdict {
-        ComparisonVerdict::Differs => row.verdict(ComparisonVerdict::Explained),
-        _ => row,
-    }
+    ComparisonRow::new("table2", name, column)
+        .percents(thesis, ours)
+        .remark(reason)
+        .explained()
 }
 
 fn lambdas(
     name: &str,
     channels: &Channels,
-    derivation: Derivation,
+    matching_cos: f64,
     angle: &str,
 ) -> impl Iterator<Item = ComparisonRow> {
-    ["red", "green", "blue"]
-        .into_iter()
-        .enumerate()
-        .map(move |(i, channel)| {
-            let found = lambda(channels.n[i], channels.k[i], derivation.matching_cos);
-            let row = ComparisonRow::new("table2", name, &format!("λ {channel} at {angle}"));
-            match found {
-                Some(value) => row.ours(Figure::Number(value, 4, "")),
-                None => row.ours(Figure::Missing(NO_LAMBDA)).remark(NO_LAMBDA),
-            }
-        })
+    CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
+        let found = lambda(channels.n[i], channels.k[i], matching_cos);
+        let row = ComparisonRow::new("table2", name, &format!("λ {channel} at {angle}"));
+        match found {
+            Some(value) => row.ours(Figure::Number(value, 4, "")),
+            None => row.ours(Figure::Missing(NO_LAMBDA)).remark(NO_LAMBDA),
+        }
+    })
 }

@@ -1,7 +1,8 @@
 //! Table 1: the indices of refraction, compared with those of our material files.
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::{ThesisSection, specialised};
+use super::comparison::{self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure};
+use super::section::ThesisSection;
+use super::specialised;
 
 /// The materials in the order of the thesis.
 const MATERIALS: [&str; 4] = ["gold", "platinum", "water", "diamond"];
@@ -14,8 +15,6 @@ const PAGES: [(&str, &str); 4] = [
 ];
 /// How far rounding or truncation to the thesis's two digits moves an index.
 const ROUNDED: f64 = 0.0065;
-/// The channels in the order of the thesis.
-const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Table 1 beside our files.
 pub fn section() -> ThesisSection {
@@ -45,11 +44,7 @@ fn unrounded(
         ComparisonRow::new("table1", page, channel)
             .thesis(Figure::Index([printed[0], printed[1]]))
             .ours(Figure::Index([digits(ours.n[i]), digits(ours.k[i])]))
-            .verdict(if apart <= ROUNDED {
-                ComparisonVerdict::Agrees
-            } else {
-                ComparisonVerdict::Differs
-            })
+            .verdict(ComparisonVerdict::of_agreement(apart <= ROUNDED))
             .remark(format!(
                 "refractiveindex.info's page {source}, linearly interpolated; the thesis rounds or cuts it"
             ))
@@ -65,10 +60,6 @@ fn channel_rows(material: &'static str) -> impl Iterator<Item = ComparisonRow> {
         ComparisonRow::new("table1", material, channel)
             .thesis(Figure::Index(printed))
             .ours(Figure::Index(ours))
-            .verdict(if printed == ours {
-                ComparisonVerdict::Agrees
-            } else {
-                ComparisonVerdict::Differs
-            })
+            .verdict(ComparisonVerdict::of_agreement(printed == ours))
     })
 }

@@ -5,8 +5,9 @@
 //! beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::rendered::{self, Meter};
-use super::{ThesisSection, specialised};
+use super::rendered;
+use super::section::{Meter, ThesisSection};
+use super::specialised;
 use crate::generator::lut::{
     Depth, LEAST_TEXELS, Stored, Table, TableAxis, ThesisMeasure, thesis_table_errors,
 };
@@ -104,24 +105,20 @@ impl ThesisMaterial<'_> {
         let coarse = ThesisMeasure::new(&self.reference, angles.div_ceil(COARSER));
         let error = |axis: &TableAxis| coarse.error(&self.stored(*axis, TEXELS, Depth::Float));
         let best = least(TableAxis::ALL, error);
-        let kinds = [(TableAxis::Cos, "cos"), (best, "best axis")];
-        let each = kinds
-            .into_iter()
-            .flat_map(|kind| DEPTHS.map(|depth| (kind, depth)));
-        let each: Vec<_> = each.collect();
-        let tables = each
-            .iter()
-            .map(|((axis, _), (depth, _))| self.stored(*axis, TEXELS, *depth));
-        let tables: Vec<Stored> = tables.collect();
+        let (mut columns, mut tables) = (Vec::new(), Vec::new());
+        for (axis, name) in [(TableAxis::Cos, "cos"), (best, "best axis")] {
+            for (depth, format) in DEPTHS {
+                columns.push((format!("{TEXELS} texels, {name}, {format}"), depth));
+                tables.push(self.stored(axis, TEXELS, depth));
+            }
+        }
         let mut progress = |done| meter.add(done, &format!("lookup tables of {}", self.name));
         let errors = thesis_table_errors(&self.reference, &tables, angles, &mut progress);
-        let compared = each
-            .iter()
-            .zip(errors)
-            .map(|(((_, axis), (depth, format)), error)| {
-                self.compared(&format!("{TEXELS} texels, {axis}, {format}"), *depth, error)
-            });
-        compared.chain(self.searched(best, &coarse)).collect()
+        let compared = columns.iter().zip(errors);
+        compared
+            .map(|((column, depth), error)| self.compared(column, *depth, error))
+            .chain(self.searched(best, &coarse))
+            .collect()
     }
 
     /// A table's error beside the thesis's.

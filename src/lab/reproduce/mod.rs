@@ -13,14 +13,16 @@ mod function_errors;
 mod indices;
 mod lookup_tables;
 mod rendered;
+mod section;
 mod specialised;
 mod three_wavelengths;
 mod times;
 
-use rendered::Meter;
+use section::Meter;
 
 pub use comparison::{ComparisonRow, ComparisonVerdict, Figure};
 pub use figures::{DrawnCurve, POINTS as FIGURE_POINTS, ThesisFigure};
+pub use section::ThesisSection;
 
 /// A part of the thesis that can be reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,15 +110,6 @@ impl Part {
             Part::Figures => figures::section(),
         }
     }
-}
-
-/// A part reproduced.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ThesisSection {
-    /// A title that says how it is measured.
-    pub title: String,
-    /// The comparisons.
-    pub rows: Vec<ComparisonRow>,
 }
 
 /// Parts reproduced.

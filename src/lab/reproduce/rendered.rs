@@ -1,5 +1,4 @@
-//! Tables 4 and 5: mean relative error in pictures (section 5.2), by histograms of the cosines that pictures show. Also the
-//! progress meter, in angles.
+//! Tables 4 and 5: mean relative error in pictures (section 5.2), by histograms of the cosines that pictures show.
 //!
 //! The thesis drew a cube and a sculpture. Its cube is ours except for what it does not state: resolution, field of view, and the
 //! start of the camera. Its sculpture was a download of 2014, and a relief in closed form stands in its place. Beside both stands
@@ -9,10 +8,10 @@ use std::sync::LazyLock;
 
 use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::specialised;
-use super::three_wavelengths::{BY_LUMINANCE, by_luminance, mean};
+use super::three_wavelengths::{mean, weighted};
 use crate::generator::fit::arguments;
 use crate::generator::lut::{Depth, Stored, Table, TableAxis};
-use crate::generator::reference::{Derivation, ReferenceCurve, THESIS_MATCHING_COS};
+use crate::generator::reference::{ReferenceCurve, THESIS_MATCHING_COS};
 use crate::lab::raster::{Body, CUBE, CosineHistogram, RELIEF, Turntable, mean_relative, shown};
 use crate::language::ir::{Checked, Weights, evaluate};
 use crate::language::methods::Light;
@@ -53,25 +52,13 @@ static VIEWS: LazyLock<[View; 3]> = LazyLock::new(|| {
         let cameras = Turntable::THESIS.cameras();
         shown(&body.mesh(), &cameras, &mut |_, _| {}).histogram
     };
+    let convex = CosineHistogram::of_convex_bodies();
     [
-        View::new("flat cube", Some("cube"), SCENE, &drawn(&CUBE)),
-        View::new("relief", Some("sculpture"), SCULPTURE, &drawn(&RELIEF)),
-        View::new(
-            "density 2c",
-            None,
-            CONVEX,
-            &CosineHistogram::of_convex_bodies(),
-        ),
+        ("flat cube", Some("cube"), SCENE, drawn(&CUBE)),
+        ("relief", Some("sculpture"), SCULPTURE, drawn(&RELIEF)),
+        ("density 2c", None, CONVEX, convex),
     ]
-});
-
-impl View {
-    fn new(
-        name: &'static str,
-        printed: Option<&'static str>,
-        remark: &'static str,
-        histogram: &CosineHistogram,
-    ) -> View {
+    .map(|(name, printed, remark, histogram)| {
         let (cosines, weights) = histogram.seen();
         View {
             name,
@@ -80,8 +67,8 @@ impl View {
             cosines,
             weights,
         }
-    }
-}
+    })
+});
 
 /// Rows of a material of Table 4 or 5 (`record`). The other rows of these tables are made in other files of this room.
 pub fn rows(
@@ -91,9 +78,20 @@ pub fn rows(
     meter: &mut Meter,
 ) -> Vec<ComparisonRow> {
     meter.add(0, "pictures of a cube and a relief");
+    let channels = &specialised::channels(name);
+    let surface = Surface::of_channels(channels);
+    let reference = &ReferenceCurve::new(surface, Light::Unpolarised);
     let mut rows = Vec::new();
     for view in &*VIEWS {
-        let rendered = Rendered::new(table, record, name, view);
+        let rendered = Rendered {
+            table,
+            record,
+            name,
+            view,
+            channels,
+            reference,
+            want: view.cosines.iter().map(|c| reference.at(*c)).collect(),
+        };
         match table {
             "table4" => rows.extend(rendered.metal()),
             _ => rows.extend(rendered.dielectric()),
@@ -112,55 +110,31 @@ struct Rendered<'a> {
     record: &'static str,
     name: &'a str,
     view: &'a View,
-    channels: Channels,
-    reference: ReferenceCurve,
+    channels: &'a Channels,
+    reference: &'a ReferenceCurve,
     want: Vec<[f64; 3]>,
 }
 
 impl Rendered<'_> {
-    fn new<'a>(
-        table: &'static str,
-        record: &'static str,
-        name: &'a str,
-        view: &'a View,
-    ) -> Rendered<'a> {
-        let channels = specialised::channels(name);
-        let surface = Surface::of_channels(&channels);
-        let reference = ReferenceCurve::new(surface, Light::Unpolarised);
-        Rendered {
-            table,
-            record,
-            name,
-            view,
-            want: view.cosines.iter().map(|c| reference.at(*c)).collect(),
-            channels,
-            reference,
-        }
-    }
-
     fn metal(&self) -> Vec<ComparisonRow> {
-        let function = |name: &str, matching_cos: f64| {
-            specialised::function(name, &self.channels, &Derivation { matching_cos })
+        let error = |matching_cos: f64, name: &str| {
+            self.error(&specialised::matched_at(matching_cos, name, self.channels))
         };
-        let rescaled = function("schlick_rescaled", THESIS_MATCHING_COS);
-        let corrected = function("schlick_corrected", THESIS_MATCHING_COS);
-        let as_in_text = function("schlick_corrected", comparison::TEXT_MATCHING_COS);
+        let rescaled = error(THESIS_MATCHING_COS, "schlick_rescaled");
+        let corrected = error(THESIS_MATCHING_COS, "schlick_corrected");
+        let as_in_text = error(comparison::TEXT_MATCHING_COS, "schlick_corrected");
         vec![
-            self.beside("rescaled", "rescaled", self.error(&rescaled)),
-            self.beside("corrected", "corrected", self.error(&corrected)),
-            self.beside(
-                "corrected",
-                "corrected, λ at 84.26°",
-                self.error(&as_in_text),
-            )
-            .remark(AT_84),
-            self.weighted("rescaled, by luminance", self.error(&rescaled)),
-            self.weighted("corrected, by luminance", self.error(&corrected)),
+            self.beside("rescaled", "rescaled", rescaled),
+            self.beside("corrected", "corrected", corrected),
+            self.beside("corrected", "corrected, λ at 84.26°", as_in_text)
+                .remark(AT_84),
+            self.weighted("rescaled, by luminance", rescaled),
+            self.weighted("corrected, by luminance", corrected),
         ]
     }
 
     fn dielectric(&self) -> Vec<ComparisonRow> {
-        let function = |name| specialised::function(name, &self.channels, &Derivation::default());
+        let function = |name| specialised::function(name, self.channels);
         let (schlick, exact) = (function("schlick_ior"), function("dielectric_textbook"));
         let mut rows = vec![
             self.beside("schlick", "schlick", self.error(&schlick)),
@@ -184,7 +158,7 @@ impl Rendered<'_> {
 
     /// Rows of an 8-bit lookup table.
     fn tables(&self) -> [ComparisonRow; 2] {
-        let table = Table::new(self.name, &self.reference, TableAxis::Cos, TEXELS);
+        let table = Table::new(self.name, self.reference, TableAxis::Cos, TEXELS);
         let table = table.expect("this size is the size of a texture");
         let stored = Stored::new(&table, Depth::Unorm8);
         let lookup = |c: &f64| stored.lookup(Weights::Steps256, *c as f32).map(f64::from);
@@ -208,18 +182,13 @@ impl Rendered<'_> {
             return row.thesis(Figure::Missing("the thesis does not derive it"));
         };
         let printed = comparison::number(&[self.record, self.name, object, key]);
-        let verdict = match ComparisonVerdict::of_digits(printed, ours, 2) {
-            ComparisonVerdict::Differs => ComparisonVerdict::Explained,
-            same => same,
-        };
-        row.thesis(Figure::percent(printed)).verdict(verdict)
+        row.thesis(Figure::percent(printed))
+            .verdict(ComparisonVerdict::of_digits(printed, ours, 2))
+            .explained()
     }
 
     fn weighted(&self, column: &str, error: [f64; 3]) -> ComparisonRow {
-        ComparisonRow::new(self.table, &self.row(), column)
-            .thesis(Figure::Missing("the thesis leaves it open"))
-            .ours(Figure::Number(by_luminance(error), 3, " %"))
-            .remark(BY_LUMINANCE)
+        weighted(self.table, &self.row(), column, error)
     }
 
     fn row(&self) -> String {
@@ -257,28 +226,4 @@ impl Rendered<'_> {
 fn in_bytes(values: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let byte = |value: f64| f64::from(Depth::Unorm8.nearest(value));
     values.iter().map(|values| values.map(byte)).collect()
-}
-
-/// Counts evaluated angles and reports the progress.
-pub struct Meter<'a> {
-    done: usize,
-    whole: usize,
-    say: &'a mut dyn FnMut(u64, u64, &str),
-}
-
-impl<'a> Meter<'a> {
-    /// A meter of `whole` angles, none of which is done.
-    pub fn new(whole: usize, say: &'a mut dyn FnMut(u64, u64, &str)) -> Meter<'a> {
-        Meter {
-            done: 0,
-            whole,
-            say,
-        }
-    }
-
-    /// Counts so many more angles as done.
-    pub fn add(&mut self, angles: usize, what: &str) {
-        self.done += angles;
-        (self.say)(self.done as u64, self.whole as u64, what);
-    }
 }

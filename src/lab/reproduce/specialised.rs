@@ -1,7 +1,7 @@
 //! Methods specialised to the thesis's materials, or to one index of refraction.
 
 use crate::generator::fit;
-use crate::generator::reference::Derivation;
+use crate::generator::reference::{Derivation, THESIS_MATCHING_COS};
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{self, Method};
 use crate::physics::materials::{self, Channels, Material, THESIS_NM};
@@ -36,10 +36,16 @@ pub fn grey([n, k]: [f64; 2]) -> Channels {
     }
 }
 
-/// A method specialised to a material: a function of `cos_theta` alone.
-pub fn function(name: &str, channels: &Channels, derivation: &Derivation) -> Checked {
+/// A method specialised to a material: a function of `cos_theta` alone. λ is matched at 81.37 degrees.
+pub fn function(name: &str, channels: &Channels) -> Checked {
+    matched_at(THESIS_MATCHING_COS, name, channels)
+}
+
+/// A method specialised to a material, with λ matched at this cosine.
+pub fn matched_at(matching_cos: f64, name: &str, channels: &Channels) -> Checked {
     let method = method(name);
-    let specialised = method.specialise(&fit::values(method, channels, derivation));
+    let derivation = Derivation { matching_cos };
+    let specialised = method.specialise(&fit::values(method, channels, &derivation));
     specialised
         .expect("every method takes the thesis's materials, and a test tries each that is used")
 }

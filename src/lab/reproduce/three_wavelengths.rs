@@ -6,8 +6,9 @@
 //! Source of the weights: ITU-R BT.709-6, 2015, <https://www.itu.int/rec/R-REC-BT.709>, from the chromaticities of sRGB. The
 //! thesis's three wavelengths are not primaries, but its programs show them as if they were.
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::{ThesisSection, specialised};
+use super::comparison::{self, ComparisonRow, Figure};
+use super::section::ThesisSection;
+use super::specialised;
 use crate::generator::fit;
 use crate::physics::materials::{Material, Surface, THESIS_NM, ViewingConditions};
 use crate::physics::num::each_channel;
@@ -51,17 +52,14 @@ pub fn section() -> ThesisSection {
 fn page_row((metal, page): (&'static str, &'static str)) -> ComparisonRow {
     let printed = comparison::number(&[TABLE, metal]);
     let ours = 100.0 * three_against_all(&specialised::material(page));
-    let verdict = match ComparisonVerdict::of_digits(printed, ours, 2) {
-        ComparisonVerdict::Differs if (printed - ours).abs() < INFERRED => {
-            ComparisonVerdict::Explained
-        }
-        other => other,
-    };
-    ComparisonRow::new("table8", metal, page)
-        .thesis(Figure::percent(printed))
-        .ours(Figure::percent(ours))
-        .verdict(verdict)
-        .remark(DEFINITION)
+    let row = ComparisonRow::new("table8", metal, page)
+        .percents(printed, ours)
+        .remark(DEFINITION);
+    if (printed - ours).abs() < INFERRED {
+        row.explained()
+    } else {
+        row
+    }
 }
 
 /// The largest absolute difference of a channel at normal incidence between three wavelengths and the whole spectrum.
@@ -111,7 +109,7 @@ fn colour_errors(page: &'static str) -> Vec<ComparisonRow> {
 }
 
 /// The remark on the weighted figures.
-pub const BY_LUMINANCE: &str = "the channels weighted by what they add to luminance in sRGB (.2126, .7152, .0722) and not by a third \
+const BY_LUMINANCE: &str = "the channels weighted by what they add to luminance in sRGB (.2126, .7152, .0722) and not by a third \
     each: the question with which the thesis ends";
 
 /// The mean of three channels.
@@ -119,8 +117,12 @@ pub fn mean(errors: [f64; 3]) -> f64 {
     errors.iter().sum::<f64>() / 3.0
 }
 
-/// The mean of three channels, weighted by luminance.
-pub fn by_luminance(errors: [f64; 3]) -> f64 {
+/// A row with the mean of three channels, weighted by luminance.
+pub fn weighted(table: &'static str, row: &str, column: &str, errors: [f64; 3]) -> ComparisonRow {
     let weights = Space::Srgb.rgb_to_xyz().row(1).to_array();
-    each_channel(|i| weights[i] * errors[i]).iter().sum()
+    let mean = each_channel(|i| weights[i] * errors[i]).iter().sum();
+    ComparisonRow::new(table, row, column)
+        .thesis(Figure::Missing("the thesis leaves it open"))
+        .ours(Figure::Number(mean, 3, " %"))
+        .remark(BY_LUMINANCE)
 }

@@ -3,10 +3,9 @@
 //! Each of Table 7's seven columns, divided by the first, must be one of Table 6's. It is identified as the column whose largest
 //! deviation over the five devices is smallest.
 
-use super::ThesisSection;
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES};
+use super::section::ThesisSection;
 
-const RELATIVE: &str = "table6_relative_time_percent";
 const ABSOLUTE: &str = "table7_absolute_ms";
 
 /// Table 7 divided by its first column, beside Table 6.
@@ -35,7 +34,7 @@ pub fn section() -> ThesisSection {
 
 /// For each column of Table 7 as printed, the matching column of Table 6.
 pub fn order() -> Vec<usize> {
-    let columns = comparison::names(&[RELATIVE, "columns"]).len();
+    let columns = comparison::names(&[RELATIVE_TIMES, "columns"]).len();
     let nearest = |column| {
         (0..columns).min_by(|a, b| deviation(column, *a).total_cmp(&deviation(column, *b)))
     };
@@ -46,7 +45,7 @@ pub fn order() -> Vec<usize> {
 fn deviation(column: usize, place: usize) -> f64 {
     let devices = comparison::devices(ABSOLUTE).into_iter();
     let differences = devices.map(|device| {
-        (share(device, column) - comparison::numbers(&[RELATIVE, device])[place]).abs()
+        (share(device, column) - comparison::numbers(&[RELATIVE_TIMES, device])[place]).abs()
     });
     differences.fold(0.0, f64::max)
 }
@@ -58,8 +57,8 @@ fn share(device: &str, column: usize) -> f64 {
 }
 
 fn device_rows(device: &'static str, order: &[usize]) -> Vec<ComparisonRow> {
-    let names = comparison::names(&[RELATIVE, "columns"]);
-    let printed = comparison::numbers(&[RELATIVE, device]);
+    let names = comparison::names(&[RELATIVE_TIMES, "columns"]);
+    let printed = comparison::numbers(&[RELATIVE_TIMES, device]);
     let row = |(column, place): (usize, &usize)| {
         let ours = share(device, column);
         let row = ComparisonRow::new("table7", device, names[*place])

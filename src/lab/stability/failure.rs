@@ -73,16 +73,16 @@ impl Failure {
         }
     }
 
-    /// The gravest failure of three channels by themselves. None if they are a reflectance. `most` is the largest allowed value
-    /// of each channel, and `rounding` the tolerance beyond its range.
-    pub fn of_result(rgb: [f32; 3], most: [f32; 3], rounding: f32) -> Option<Failure> {
+    /// The gravest failure of three channels by themselves. None if they are a reflectance. `limits` are the largest allowed
+    /// values, and `rounding` the tolerance beyond their range.
+    pub fn of_result(rgb: [f32; 3], limits: [f32; 3], rounding: f32) -> Option<Failure> {
         let holds = |failure: &&Failure| {
-            let mut channels = rgb.into_iter().zip(most);
-            channels.any(|(value, most)| match failure {
+            let mut channels = rgb.into_iter().zip(limits);
+            channels.any(|(value, limit)| match failure {
                 Failure::NotANumber => value.is_nan(),
                 Failure::Infinite => value.is_infinite(),
                 Failure::Negative => value < -rounding,
-                Failure::AboveOne => value > most + rounding,
+                Failure::AboveOne => value > limit + rounding,
                 _ => false,
             })
         };

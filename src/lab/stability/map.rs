@@ -5,6 +5,7 @@ use super::scan::{Scan, ScannedFunction};
 use super::space::{ScanAxis, ScanSpace, law, logarithmic};
 use crate::language::methods::{Class, Method};
 use crate::physics::num::Precision;
+use crate::physics::optics::cosine;
 
 /// Errors over angle and index.
 #[derive(Clone, Debug)]
@@ -68,21 +69,15 @@ fn map(
     held: &'static str,
 ) -> Map {
     let rounded = |axis: ScanAxis| axis.each_rounded(precision);
-    let axes: Vec<ScanAxis> = axes.into_iter().map(rounded).collect();
     let code = ScannedFunction::library(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
-    let cosines = degrees
-        .iter()
-        .map(|degree| crate::physics::optics::cosine(*degree))
-        .collect();
     let space = ScanSpace {
         is_media: true,
-        axes,
-        cosines: ScanAxis {
+        axes: axes.into_iter().map(rounded).collect(),
+        cosines: rounded(ScanAxis {
             name: "cos_theta",
-            values: cosines,
-        }
-        .each_rounded(precision),
+            values: degrees.iter().copied().map(cosine).collect(),
+        }),
     };
     let scan = Scan {
         code: &code,

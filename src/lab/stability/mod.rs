@@ -14,6 +14,6 @@ mod study;
 pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;
-pub use scan::{Finding, ScanProgress, ScannedFunction, WorstPoint, scan, scan_specialised};
+pub use scan::{Finding, scan};
 pub use space::ScanAxis;
-pub use study::{StabilityRow, Study, StudyProgress};
+pub use study::{StabilityRow, Study};

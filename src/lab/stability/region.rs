@@ -47,90 +47,79 @@ impl FailureGrid<'_> {
 
     /// The boxes that hold all failing points: one, or a few where that is tighter.
     pub fn regions(&self) -> Vec<Region> {
-        let failing = self
-            .amounts
-            .iter()
-            .enumerate()
-            .filter(|(_, amount)| **amount > 0.0);
-        let points: Vec<FailingPoint> = failing
-            .map(|(i, amount)| FailingPoint {
-                places: self.places(i),
-                amount: *amount,
-            })
-            .collect();
+        let amounts = self.amounts.iter().enumerate();
+        let failing = amounts.filter(|(_, amount)| **amount > 0.0);
+        let point = |(i, amount): (usize, &f32)| FailingPoint {
+            places: self.places(i),
+            amount: *amount,
+        };
+        let points: Vec<FailingPoint> = failing.map(point).collect();
         if points.is_empty() {
             return Vec::new();
         }
         let parts = if self.axes.len() == 1 {
             runs(points)
         } else {
-            self.cut(points)
+            cut(points)
         };
         let mut regions: Vec<Region> = parts.iter().map(|part| region(part)).collect();
-        regions.sort_by(|a, b| {
-            b.failing
-                .cmp(&a.failing)
-                .then_with(|| a.worst.cmp(&b.worst))
-        });
+        regions.sort_by_key(|region| (std::cmp::Reverse(region.failing), region.worst.clone()));
         regions
-    }
-
-    /// The points divided into parts by the few cuts that make their boxes tightest.
-    fn cut(&self, points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
-        let mut parts = vec![points];
-        while parts.len() < MOST {
-            let cut = |(i, part): (usize, &Vec<FailingPoint>)| {
-                let (axis, at, gain) = self.best_cut(part)?;
-                Some((i, axis, at, gain * part.len() as f64))
-            };
-            let best = parts
-                .iter()
-                .enumerate()
-                .filter_map(cut)
-                .max_by(|a, b| a.3.total_cmp(&b.3));
-            let Some((i, axis, at, _)) = best else { break };
-            let part = parts.swap_remove(i);
-            let (low, high) = part.into_iter().partition(|point| point.places[axis] < at);
-            parts.extend([low, high]);
-        }
-        parts
-    }
-
-    /// The cut of a set of points that makes their boxes tightest: axis, index and gain. None where no cut is worthwhile.
-    fn best_cut(&self, points: &[FailingPoint]) -> Option<(usize, usize, f64)> {
-        let whole = bounds(points.iter());
-        let volume = size(&whole);
-        if points.len() as f64 >= FULL * volume as f64 {
-            return None;
-        }
-        let mut best: Option<(usize, usize, f64)> = None;
-        for (axis, range) in whole.iter().enumerate() {
-            for (at, low, high) in halves(points, axis, range) {
-                let gain = volume as f64 / (size(&low) + size(&high)) as f64;
-                if gain >= GAIN && best.is_none_or(|(_, _, most)| gain > most) {
-                    best = Some((axis, at, gain));
-                }
-            }
-        }
-        best
     }
 }
 
-/// The points of a single axis in runs, divided at the widest gaps.
-fn runs(points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
-    let place = |point: &FailingPoint| point.places[0];
-    let mut gaps: Vec<usize> = (1..points.len())
-        .filter(|i| place(&points[*i]) > place(&points[i - 1]) + 1)
-        .collect();
-    gaps.sort_by_key(|i| std::cmp::Reverse(place(&points[*i]) - place(&points[i - 1])));
-    gaps.truncate(MOST - 1);
-    let mut parts: Vec<Vec<FailingPoint>> = vec![Vec::new()];
-    for (i, point) in points.into_iter().enumerate() {
-        if gaps.contains(&i) {
-            parts.push(Vec::new());
-        }
-        parts[gaps.iter().filter(|gap| **gap <= i).count()].push(point);
+/// The points divided into parts by the few cuts that make their boxes tightest.
+fn cut(points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
+    let mut parts = vec![points];
+    while parts.len() < MOST {
+        let cut = |(i, part): (usize, &Vec<FailingPoint>)| {
+            let (axis, at, gain) = best_cut(part)?;
+            Some((i, axis, at, gain * part.len() as f64))
+        };
+        let best = parts
+            .iter()
+            .enumerate()
+            .filter_map(cut)
+            .max_by(|a, b| a.3.total_cmp(&b.3));
+        let Some((i, axis, at, _)) = best else { break };
+        let part = parts.swap_remove(i);
+        let (low, high) = part.into_iter().partition(|point| point.places[axis] < at);
+        parts.extend([low, high]);
     }
+    parts
+}
+
+/// The cut of a set of points that makes their boxes tightest: axis, index and gain. None where no cut is worthwhile.
+fn best_cut(points: &[FailingPoint]) -> Option<(usize, usize, f64)> {
+    let whole = bounds(points.iter());
+    let volume = size(&whole);
+    if points.len() as f64 >= FULL * volume as f64 {
+        return None;
+    }
+    let mut best: Option<(usize, usize, f64)> = None;
+    for (axis, range) in whole.iter().enumerate() {
+        for (at, low, high) in halves(points, axis, range) {
+            let gain = volume as f64 / (size(&low) + size(&high)) as f64;
+            if gain >= GAIN && best.is_none_or(|(_, _, other)| gain > other) {
+                best = Some((axis, at, gain));
+            }
+        }
+    }
+    best
+}
+
+/// The points of a single axis in runs, divided at the widest gaps.
+fn runs(mut points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
+    let width = |i: &usize| points[*i].places[0] - points[i - 1].places[0];
+    let mut gaps: Vec<usize> = (1..points.len()).filter(|i| width(i) > 1).collect();
+    gaps.sort_by_key(|i| std::cmp::Reverse(width(i)));
+    gaps.truncate(MOST - 1);
+    gaps.sort_unstable();
+    let mut parts = Vec::new();
+    for gap in gaps.into_iter().rev() {
+        parts.push(points.split_off(gap));
+    }
+    parts.push(points);
     parts
 }
 
@@ -169,29 +158,19 @@ fn halves(
     axis: usize,
     range: &Range<usize>,
 ) -> Vec<(usize, Extent, Extent)> {
+    let add = |sum: &mut Option<Extent>, part: &Option<Extent>| {
+        if let Some(part) = part {
+            *sum = Some(sum.as_ref().map_or(part.clone(), |sum| joined(sum, part)));
+        }
+        Some(sum.clone())
+    };
     let mut slices: Vec<Option<Extent>> = vec![None; range.len()];
     for point in points {
-        let slice = &mut slices[point.places[axis] - range.start];
         let one = bounds(std::iter::once(point));
-        *slice = Some(
-            slice
-                .as_ref()
-                .map_or(one.clone(), |known| joined(known, &one)),
-        );
+        add(&mut slices[point.places[axis] - range.start], &Some(one));
     }
-    let together = |a: Option<Extent>, b: &Option<Extent>| match (a, b) {
-        (Some(a), Some(b)) => Some(joined(&a, b)),
-        (a, b) => a.or_else(|| b.clone()),
-    };
-    let sums = |slices: &mut dyn Iterator<Item = &Option<Extent>>| -> Vec<Option<Extent>> {
-        let next = |sum: &mut Option<Extent>, slice: &Option<Extent>| {
-            *sum = together(sum.take(), slice);
-            Some(sum.clone())
-        };
-        slices.scan(None, next).collect()
-    };
-    let below = sums(&mut slices.iter());
-    let mut above = sums(&mut slices.iter().rev());
+    let below: Vec<Option<Extent>> = slices.iter().scan(None, add).collect();
+    let mut above: Vec<Option<Extent>> = slices.iter().rev().scan(None, add).collect();
     above.reverse();
     let cut = |at: usize| Some((range.start + at, below[at - 1].clone()?, above[at].clone()?));
     (1..range.len()).filter_map(cut).collect()
@@ -361,19 +340,12 @@ mod tests {
             amounts: vec![0.0; points],
         };
         for i in 0..points {
-            let at: Vec<f64> = field
-                .places(i)
-                .iter()
-                .zip(axes)
-                .map(|(place, axis)| axis.values[*place])
-                .collect();
+            let places = field.places(i).into_iter().zip(axes);
+            let at: Vec<f64> = places.map(|(place, axis)| axis.values[place]).collect();
             field.amounts[i] = f32::from(fails(&at));
         }
-        field
-            .regions()
-            .iter()
-            .map(|region| region.inequalities(axes))
-            .collect()
+        let regions = field.regions().into_iter();
+        regions.map(|region| region.inequalities(axes)).collect()
     }
 
     fn grid() -> [ScanAxis; 2] {

@@ -22,20 +22,9 @@ pub struct Finding {
     /// The worst point: names and values.
     pub worst: Vec<(&'static str, f64)>,
     /// The result, the formula and the law at that point.
-    pub point: Option<WorstPoint>,
+    pub point: Option<ResultPoint>,
     /// The amount of the failure at that point.
     pub amount: f64,
-}
-
-/// The values that are shown of the worst point.
-#[derive(Clone, Copy, Debug)]
-pub struct WorstPoint {
-    /// The result.
-    pub got: f64,
-    /// The value of the formula in f64.
-    pub want: f64,
-    /// The value of the law.
-    pub law: Option<f64>,
 }
 
 /// The results of a function of scalars at these cosines, in a kind of number.
@@ -79,11 +68,8 @@ pub fn scan(method: &'static Method, precision: Precision, progress: ScanProgres
             space,
             point: &|index| space.point(method, index, precision),
             law: &|point, c| {
-                Some(law(
-                    method,
-                    point.medium.filter(|medium| is_lawful(method, *medium))?,
-                    c,
-                ))
+                let medium = point.medium.filter(|medium| is_lawful(method, *medium))?;
+                Some(law(method, medium, c))
             },
         };
         findings.extend(scan.findings(&mut |done| progress(before + done, total)));
@@ -180,13 +166,10 @@ impl Scan<'_> {
                 (&with_cosine, rows.iter().flat_map(at).collect())
             };
             let regions = FailureGrid { axes, amounts }.regions();
-            findings.extend(
-                regions
-                    .iter()
-                    .map(|region| self.finding(failure, axes, region, &rows)),
-            );
+            let finding = |region| self.finding(failure, axes, region, &rows);
+            findings.extend(regions.iter().map(finding));
         }
-        told_once(findings)
+        without_repetitions(findings)
     }
 
     fn finding(
@@ -218,17 +201,8 @@ impl Scan<'_> {
                 .zip(values)
                 .chain(cosine.map(|c| ("cos_theta", c)))
                 .collect(),
-            point: cosine.map(|c| self.shown(index, c)),
+            point: cosine.map(|c| self.points(&(self.point)(index), &[c])[0]),
             amount: f64::from(region.amount),
-        }
-    }
-
-    fn shown(&self, index: usize, cosine: f64) -> WorstPoint {
-        let point = self.points(&(self.point)(index), &[cosine])[0];
-        WorstPoint {
-            got: point.got,
-            want: point.want,
-            law: point.law,
         }
     }
 
@@ -317,7 +291,7 @@ fn stepped(precision: Precision, x: f64, steps: i32) -> f64 {
 }
 
 /// The findings without those that a graver level of the same failure reports for the same region.
-fn told_once(findings: Vec<Finding>) -> Vec<Finding> {
+fn without_repetitions(findings: Vec<Finding>) -> Vec<Finding> {
     let mut kept: Vec<Finding> = Vec::new();
     for finding in findings {
         let same = |other: &Finding| {

@@ -21,26 +21,20 @@ pub struct ScanSpace {
 
 /// The spaces of a method, with values rounded to a precision.
 pub fn spaces(method: &Method, precision: Precision) -> Vec<ScanSpace> {
-    let mut all = Vec::new();
+    let mut all: Vec<(bool, Vec<ScanAxis>)> = Vec::new();
     if method.class != Class::Metal {
-        all.push(vec![index("eta", 40)]);
+        all.push((true, vec![index("eta", 40)]));
     }
     if method.class != Class::Dielectric {
-        all.push(vec![index("n", 12), extinction()]);
+        all.push((true, vec![index("n", 12), extinction()]));
     }
-    let media = all.into_iter().map(|axes| (true, axes));
-    let arguments = method.inputs.iter().map(argument).collect();
-    media
-        .chain([(false, arguments)])
-        .map(|(is_media, axes)| ScanSpace {
-            is_media,
-            axes: axes
-                .iter()
-                .map(|axis: &ScanAxis| axis.rounded(precision))
-                .collect(),
-            cosines: cosines().rounded(precision),
-        })
-        .collect()
+    all.push((false, method.inputs.iter().map(argument).collect()));
+    let space = |(is_media, axes): (bool, Vec<ScanAxis>)| ScanSpace {
+        is_media,
+        axes: axes.iter().map(|axis| axis.rounded(precision)).collect(),
+        cosines: cosines().rounded(precision),
+    };
+    all.into_iter().map(space).collect()
 }
 
 /// A point of a space without the cosine.
@@ -82,12 +76,9 @@ impl ScanSpace {
             };
         }
         let medium = (at[0], at.get(1).copied().unwrap_or(0.0));
-        let arguments = arguments(method, medium)
-            .into_iter()
-            .map(|x| precision.rounded(x))
-            .collect();
+        let arguments = arguments(method, medium).into_iter();
         ScanPoint {
-            arguments,
+            arguments: arguments.map(|x| precision.rounded(x)).collect(),
             medium: Some(medium),
             limit: 1.0,
         }
@@ -101,20 +92,15 @@ fn arguments(method: &Method, (n, k): (f64, f64)) -> Vec<f64> {
         k: [k; 3],
     };
     let values = values(method, &channels, &Derivation::default());
-    method
-        .inputs
-        .iter()
-        .map(|input| values[input.name][0])
-        .collect()
+    let inputs = method.inputs.iter();
+    inputs.map(|input| values[input.name][0]).collect()
 }
 
 /// The largest result by the function contract: 1, or an F0 above 1.
 fn limit(inputs: &[Input], at: &[f64]) -> f64 {
-    let raised = inputs
-        .iter()
-        .zip(at)
-        .filter(|(input, _)| input.raises_limit);
-    raised.fold(1.0, |most, (_, value)| most.max(*value))
+    let inputs = inputs.iter().zip(at);
+    let raised = inputs.filter(|(input, _)| input.raises_limit);
+    raised.fold(1.0, |limit, (_, value)| limit.max(*value))
 }
 
 /// Below this k a medium reflects as if it absorbed nothing, and an approximation has been compared with the law at k = 0 already.
@@ -161,9 +147,9 @@ impl ScanAxis {
 
     /// The same number of values, each rounded to a precision.
     pub fn each_rounded(mut self, precision: Precision) -> ScanAxis {
-        self.values
-            .iter_mut()
-            .for_each(|x| *x = precision.rounded(*x));
+        for x in &mut self.values {
+            *x = precision.rounded(*x);
+        }
         self
     }
 }
@@ -176,8 +162,8 @@ pub fn cosines() -> ScanAxis {
     let small =
         [0, 1, 2, 8, 71_362, 0x0080_0000, 0x0080_0001].map(|bits| f64::from(f32::from_bits(bits)));
     values.extend(small.iter().flat_map(|x| [*x, -x]));
-    values.extend((0..=90).map(|degree| crate::physics::optics::cosine(f64::from(degree))));
-    values.extend((81..90).map(|degree| crate::physics::optics::cosine(f64::from(degree) + 0.5)));
+    values.extend((0..=90).map(|degree| optics::cosine(f64::from(degree))));
+    values.extend((81..90).map(|degree| optics::cosine(f64::from(degree) + 0.5)));
     values.extend((1..=30).map(|i| libm::exp2(-f64::from(i))));
     // Dense towards 1: the critical angle of a small index lies there.
     values.extend((8..=92).map(|i| 1.0 - libm::exp2(-0.25 * f64::from(i))));
@@ -187,11 +173,8 @@ pub fn cosines() -> ScanAxis {
 /// As [`cosines`] with thousands between them, for a function of the cosine alone.
 pub fn dense() -> ScanAxis {
     let mut values = cosines().values;
-    values.extend(
-        crate::lab::verify::cosines(DENSE)
-            .into_iter()
-            .map(f64::from),
-    );
+    let between = crate::lab::verify::cosines(DENSE).into_iter();
+    values.extend(between.map(f64::from));
     ScanAxis::new("cos_theta", values)
 }
 
@@ -208,12 +191,8 @@ pub(super) fn logarithmic(low: f64, high: f64, steps: u32) -> impl Iterator<Item
 pub fn index(name: &'static str, decade: u32) -> ScanAxis {
     let ulp = f64::from(f32::EPSILON);
     let mut values = vec![1.0];
-    values.extend((1..=2).flat_map(|step| {
-        [
-            1.0 + ulp * f64::from(step),
-            1.0 - 0.5 * ulp * f64::from(step),
-        ]
-    }));
+    values.extend([1.0, 2.0].map(|step| 1.0 + ulp * step));
+    values.extend([0.5, 1.0].map(|step| 1.0 - ulp * step));
     values.extend(logarithmic(1e-3, 1e3, 6 * decade));
     let near: Vec<f64> = logarithmic(1e-6, 0.3, 6 * decade / 2).collect();
     values.extend(near.iter().flat_map(|d| [1.0 + d, 1.0 - d]));
@@ -222,15 +201,8 @@ pub fn index(name: &'static str, decade: u32) -> ScanAxis {
 
 /// An extinction coefficient above 0: subnormal, and from 1e-30 to 1e4.
 pub fn extinction() -> ScanAxis {
-    let mut values = vec![
-        f64::from(f32::from_bits(1)),
-        1e-41,
-        1.2e-38,
-        1e-30,
-        1e-20,
-        1e-12,
-        1e-8,
-    ];
+    let mut values = vec![f64::from(f32::from_bits(1))];
+    values.extend([1e-41, 1.2e-38, 1e-30, 1e-20, 1e-12, 1e-8]);
     values.extend(logarithmic(1e-6, 1e4, 40));
     ScanAxis::new("k", values)
 }
@@ -246,12 +218,8 @@ mod tests {
 
     #[test]
     fn axes_hold_their_edges_in_order() {
-        for axis in [
-            cosines(),
-            index("eta", 20),
-            extinction(),
-            argument(&Input::F0),
-        ] {
+        let f0 = argument(&Input::F0);
+        for axis in [cosines(), index("eta", 20), extinction(), f0] {
             assert!(axis.values.is_sorted_by(|a, b| a <= b), "{}", axis.name);
         }
         let ulp = f64::from(f32::EPSILON);

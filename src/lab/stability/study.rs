@@ -1,11 +1,11 @@
 //! A study: the rows of scans of several methods, in their library form or specialised to materials. Each row is a failure of a
 //! method, or states that it has none.
 
-use serde::Serialize;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
-use super::failure::Failure;
 use super::scan::{Finding, ScannedFunction, scan, scan_specialised};
-use crate::generator::emit::{self, Bounds, Naming, specialised_function};
+use crate::generator::emit::{self, Bounds, specialised_graph};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::verify::as_object;
 use crate::language::methods::Method;
@@ -47,15 +47,15 @@ impl Study {
     /// A method cannot be specialised to a material.
     pub fn specialised_rows(
         &self,
-        subjects: &[MaterialInMedium],
+        materials: &[MaterialInMedium],
         progress: StudyProgress,
     ) -> Result<Vec<StabilityRow>, emit::Error> {
         let mut rows = Vec::new();
-        for (i, subject) in subjects.iter().enumerate() {
-            progress(i as u64, subjects.len() as u64, &subject.name);
-            let fits = |method: &&&Method| subject.is_described_by(method);
+        for (i, material) in materials.iter().enumerate() {
+            progress(i as u64, materials.len() as u64, &material.name);
+            let fits = |method: &&&Method| material.is_described_by(method);
             for method in self.methods.iter().filter(fits) {
-                rows.extend(self.channel_rows(method, subject)?);
+                rows.extend(self.channel_rows(method, material)?);
             }
         }
         Ok(rows)
@@ -64,24 +64,19 @@ impl Study {
     fn channel_rows(
         &self,
         method: &'static Method,
-        subject: &MaterialInMedium,
+        material: &MaterialInMedium,
     ) -> Result<Vec<StabilityRow>, emit::Error> {
-        let function = |precision: Precision| {
-            let naming = Naming {
-                precision,
-                ..Naming::default()
-            };
-            specialised_function(method, subject, &naming, &Bounds::recorded())
-        };
+        let bounds = Bounds::recorded();
+        let function = |precision| specialised_graph(method, material, precision, &bounds);
         let code = ScannedFunction {
             function: function(self.precision)?.function,
             meaning: function(Precision::F32)?.function,
             precision: self.precision,
         };
-        let reference = subject.truth_for(method);
+        let reference = material.truth_for(method);
         let channel = |(channel, name): (usize, &'static str)| {
             let found = scan_specialised(&code, channel, &|c| reference.at(c)[channel]);
-            self.rows_of(method, Some((subject.argument.clone(), name)), found)
+            self.rows_of(method, Some((material.argument.clone(), name)), found)
         };
         let names = ["red", "green", "blue"].into_iter().enumerate();
         Ok(names.flat_map(channel).collect())
@@ -95,9 +90,9 @@ impl Study {
         findings: Vec<Finding>,
     ) -> Vec<StabilityRow> {
         let row = |finding: Option<Finding>| StabilityRow {
-            method: method.name,
+            method,
             material: material.clone(),
-            precision: self.precision.name(),
+            precision: self.precision,
             finding,
         };
         if findings.is_empty() {
@@ -109,70 +104,55 @@ impl Study {
 }
 
 /// A failure of a method, with its function's material and precision.
-#[derive(Clone, Debug, Serialize)]
-#[serde(into = "FlatRow")]
+#[derive(Clone, Debug)]
 pub struct StabilityRow {
     /// The method.
-    pub method: &'static str,
+    pub method: &'static Method,
     /// The material that it is specialised to, and the channel.
     pub material: Option<(String, &'static str)>,
     /// The precision that the function computes in.
-    pub precision: &'static str,
+    pub precision: Precision,
     /// The failure. None where there is none.
     pub finding: Option<Finding>,
 }
 
-/// A row in the form of JSON reports.
-#[derive(Serialize)]
-struct FlatRow {
-    method: &'static str,
-    material: Option<String>,
-    channel: Option<&'static str>,
-    precision: &'static str,
-    failure: Option<String>,
-    fault_of: Option<&'static str>,
-    points: Option<&'static str>,
-    region: Option<String>,
-    share: Option<f64>,
-    worst: Option<Worst>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<&'static str>,
+impl Serialize for StabilityRow {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let material = self.material.as_ref().map(|(material, _)| material);
+        let channel = self.material.as_ref().map(|(_, channel)| channel);
+        let finding = self.finding.as_ref();
+        let mut row = to.serialize_map(None)?;
+        row.serialize_entry("method", self.method.name)?;
+        row.serialize_entry("material", &material)?;
+        row.serialize_entry("channel", &channel)?;
+        row.serialize_entry("precision", &self.precision)?;
+        row.serialize_entry("failure", &finding.map(|finding| finding.failure.words()))?;
+        row.serialize_entry("fault_of", &finding.map(fault_of))?;
+        row.serialize_entry("points", &finding.map(kind_of_points))?;
+        row.serialize_entry("region", &finding.map(|finding| &finding.region))?;
+        row.serialize_entry("share", &finding.map(|finding| finding.share))?;
+        row.serialize_entry("worst", &finding.map(worst))?;
+        if finding.is_none() {
+            row.serialize_entry("reason", "nothing was found")?;
+        }
+        row.end()
+    }
 }
 
 /// The worst point, and the values there.
 #[derive(Serialize)]
-struct Worst {
+struct Worst<'a> {
     #[serde(serialize_with = "as_object")]
-    at: Vec<(&'static str, f64)>,
+    at: &'a [(&'static str, f64)],
     amount: f64,
     got: Option<f64>,
     expected: Option<f64>,
     law: Option<f64>,
 }
 
-impl From<StabilityRow> for FlatRow {
-    fn from(row: StabilityRow) -> FlatRow {
-        let (material, channel) = row.material.unzip();
-        let finding = row.finding.as_ref();
-        FlatRow {
-            method: row.method,
-            material,
-            channel,
-            precision: row.precision,
-            failure: finding.map(|finding| finding.failure.words()),
-            fault_of: finding.map(|finding| fault_of(finding.failure)),
-            points: finding.map(kind_of_points),
-            region: finding.map(|finding| finding.region.clone()),
-            share: finding.map(|finding| finding.share),
-            worst: finding.map(worst),
-            reason: finding.is_none().then_some("nothing was found"),
-        }
-    }
-}
-
-fn worst(finding: &Finding) -> Worst {
+fn worst(finding: &Finding) -> Worst<'_> {
     Worst {
-        at: finding.worst.clone(),
+        at: &finding.worst,
         amount: finding.amount,
         got: finding.point.map(|point| point.got),
         expected: finding.point.map(|point| point.want),
@@ -181,8 +161,8 @@ fn worst(finding: &Finding) -> Worst {
 }
 
 /// The cause of a failure, in a word: the formula or its rounding.
-fn fault_of(failure: Failure) -> &'static str {
-    if failure.is_of_the_model() {
+fn fault_of(finding: &Finding) -> &'static str {
+    if finding.failure.is_of_the_model() {
         "formula"
     } else {
         "rounding"

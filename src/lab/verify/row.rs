@@ -304,7 +304,7 @@ impl From<&ModelError> for ModelErrorFigures {
 }
 
 /// The verdict on a function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// It does what it should.
@@ -312,6 +312,7 @@ pub enum Status {
     /// It does not.
     Fail,
     /// It was not run.
+    #[default]
     NotChecked,
 }
 

@@ -7,6 +7,7 @@ use serde::Serialize;
 use tera::Context;
 
 use crate::lab::stability::{Failure, Finding, StabilityRow, short};
+use crate::language::methods::Method;
 use crate::pictures::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
@@ -39,8 +40,8 @@ pub fn stability_page(
     pictures: &[(&'static str, &'static str, Vec<u8>)],
     command: &str,
 ) -> Result<String, String> {
-    let mut methods: Vec<&'static str> = rows.iter().map(|row| row.method).collect();
-    methods.dedup();
+    let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
+    methods.dedup_by_key(|method| method.name);
     let sections = methods.into_iter();
     let sections: Vec<MethodSection> = sections
         .map(|method| section(method, rows, pictures))
@@ -48,29 +49,32 @@ pub fn stability_page(
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("command", command);
-    context.insert("precision", rows.first().map_or("f32", |row| row.precision));
+    context.insert(
+        "precision",
+        rows.first().map_or("f32", |row| row.precision.name()),
+    );
     html::fill(TEMPLATE, &context)
 }
 
 fn section(
-    method: &'static str,
+    method: &'static Method,
     rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
 ) -> MethodSection {
-    let own = rows.iter().filter(|row| row.method == method);
+    let own = rows.iter().filter(|row| row.method.name == method.name);
     let findings: Vec<&Finding> = own.filter_map(|row| row.finding.as_ref()).collect();
     let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
         let findings = findings.iter().filter(|finding| wanted(finding));
         findings.map(|finding| sentence(finding)).collect()
     };
-    let own = pictures.iter().filter(|(of, _, _)| *of == method);
+    let own = pictures.iter().filter(|(of, _, _)| *of == method.name);
     let picture = |(_, over, png): &(&str, &str, Vec<u8>)| Picture {
-        about: format!("Errors of {method} over angle and {over}"),
+        about: format!("Errors of {} over angle and {over}", method.name),
         data: BASE64_STANDARD.encode(png),
     };
     MethodSection {
-        method,
-        summary: crate::language::methods::find(method).map_or("", |method| method.summary),
+        method: method.name,
+        summary: method.summary,
         formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),
         rounding: sentences(|finding| finding.is_media && !finding.failure.is_of_the_model()),
         arguments: sentences(|finding| !finding.is_media),

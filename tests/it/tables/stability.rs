@@ -53,9 +53,9 @@ absolute: 11 bits leave 0.0005 near 1. Methods that `--precision f16` refuses ar
 
 /// A line for each method: its gravest failures over media, with the first of their regions.
 fn summaries(rows: &[StabilityRow]) -> Vec<Vec<String>> {
-    let methods: BTreeSet<&'static str> = rows.iter().map(|row| row.method).collect();
+    let methods: BTreeSet<&'static str> = rows.iter().map(|row| row.method.name).collect();
     let summary = |method: &'static str| {
-        let of_method = rows.iter().filter(|row| row.method == method);
+        let of_method = rows.iter().filter(|row| row.method.name == method);
         let findings = of_method.filter_map(|row| row.finding.as_ref());
         let findings: Vec<&Finding> = findings.filter(|finding| finding.is_media).collect();
         let mut failures: Vec<String> = Vec::new();
@@ -83,7 +83,7 @@ fn grouped(rows: &[StabilityRow], wanted: fn(&Finding) -> bool) -> Vec<Vec<Strin
     let mut lines: Vec<(&'static str, Vec<&Finding>)> = Vec::new();
     let found = rows
         .iter()
-        .filter_map(|row| Some((row.method, row.finding.as_ref()?)));
+        .filter_map(|row| Some((row.method.name, row.finding.as_ref()?)));
     for (method, finding) in found.filter(|(_, finding)| wanted(finding)) {
         match lines
             .iter_mut()

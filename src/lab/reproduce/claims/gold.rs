@@ -1,7 +1,6 @@
 //! The claims about gold at 685 and 475 nm (section 2.2, beside figures 9 and 10).
 
-use super::measured;
-use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure, measured};
 use crate::lab::reproduce::figures::{exact, lowest};
 use crate::lab::reproduce::specialised;
 

@@ -1,8 +1,8 @@
 //! The claims about the angle at which metals reflect least (sections 3.2.3 and 3.2.4).
 
-use super::{measured, statement};
-use crate::generator::reference::Derivation;
-use crate::lab::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::lab::reproduce::comparison::{
+    ComparisonRow, ComparisonVerdict, Figure, measured, statement,
+};
 use crate::lab::reproduce::figures::{cosine, exact, highest, lowest};
 use crate::lab::reproduce::specialised;
 use crate::physics::materials::{Channels, THESIS_NM};
@@ -67,11 +67,7 @@ fn three(name: &str, channels: &Channels) -> [MetalAtWavelength; 3] {
 }
 
 fn curve(name: String, index: [f64; 2]) -> MetalAtWavelength {
-    let function = specialised::function(
-        "schlick_rescaled",
-        &specialised::grey(index),
-        &Derivation::default(),
-    );
+    let function = specialised::function("schlick_rescaled", &specialised::grey(index));
     let reflectance = |degrees| exact(index, degrees).unpolarised();
     let (minimum, least) = lowest(reflectance);
     let (furthest, apart) = highest(|degrees| {

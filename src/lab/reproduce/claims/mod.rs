@@ -5,9 +5,7 @@ mod minimum;
 mod schlick;
 mod speed;
 
-use super::ThesisSection;
-use super::comparison::{ComparisonRow, Figure};
-use super::rendered::Meter;
+use crate::lab::reproduce::section::{Meter, ThesisSection};
 
 /// The number of angles that the claims evaluate, for progress.
 pub fn work(angles: usize) -> usize {
@@ -27,16 +25,4 @@ pub fn section(angles: usize, meter: &mut Meter) -> ThesisSection {
         title: "Claims of the text".to_owned(),
         rows: rows.concat(),
     }
-}
-
-/// A claim in words, beside our finding.
-fn statement(name: &str, section: &str, thesis: &str, ours: String) -> ComparisonRow {
-    ComparisonRow::new("claims", name, section)
-        .thesis(Figure::Words(thesis.to_owned()))
-        .ours(Figure::Words(ours))
-}
-
-/// A figure behind a claim.
-fn measured(name: &str, column: &str, ours: Figure) -> ComparisonRow {
-    ComparisonRow::new("claims", name, column).ours(ours)
 }

@@ -1,12 +1,11 @@
 //! The claims of section 5.3.2: about speed, tested by Table 6 itself and not by our own times, and how much more the exact law for
 //! conductors computes than that for dielectrics.
 
-use super::{measured, statement};
-use crate::lab::reproduce::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
+use crate::lab::reproduce::comparison::{
+    self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES, measured, statement,
+};
 use crate::lab::reproduce::specialised;
 use crate::language::ir::{Checked, Op};
-
-const TIMES: &str = "table6_relative_time_percent";
 
 /// The claims about speed.
 pub fn speed_claims() -> Vec<ComparisonRow> {
@@ -15,10 +14,10 @@ pub fn speed_claims() -> Vec<ComparisonRow> {
 
 /// One method's times on all devices, divided by another's.
 fn ratios(method: &str, other: &str) -> Vec<f64> {
-    let columns = comparison::names(&[TIMES, "columns"]);
+    let columns = comparison::names(&[RELATIVE_TIMES, "columns"]);
     let place = |name: &str| columns.iter().position(|column| *column == name);
-    let devices = comparison::devices(TIMES).into_iter();
-    let rows = devices.map(|device| comparison::numbers(&[TIMES, device]));
+    let devices = comparison::devices(RELATIVE_TIMES).into_iter();
+    let rows = devices.map(|device| comparison::numbers(&[RELATIVE_TIMES, device]));
     rows.filter_map(|row| Some(row[place(method)?] / row[place(other)?]))
         .collect()
 }
@@ -33,12 +32,8 @@ fn schlick() -> ComparisonRow {
         least(&gains)
     );
     let claim = "Schlick is at least twice as fast as the exact law it stands for, in all cases";
-    let verdict = if twice == gains.len() {
-        ComparisonVerdict::Holds
-    } else {
-        ComparisonVerdict::InPart
-    };
-    statement("Schlick's speed", "section 5.3.2", claim, ours).verdict(verdict)
+    statement("Schlick's speed", "section 5.3.2", claim, ours)
+        .verdict(ComparisonVerdict::of_cases(twice, gains.len()))
 }
 
 fn table() -> ComparisonRow {
@@ -64,13 +59,9 @@ fn conductor() -> ComparisonRow {
         .iter()
         .filter(|cost| (1.4..=1.6).contains(*cost))
         .count();
-    let verdict = match near {
-        0 => ComparisonVerdict::Fails,
-        near if near == others.len() => ComparisonVerdict::Holds,
-        _ => ComparisonVerdict::InPart,
-    };
     let claim = "the exact law for metals is only 50 % slower than that for dielectrics, except on the Mali 400";
-    statement("the conductor's speed", "section 5.3.2", claim, ours).verdict(verdict)
+    statement("the conductor's speed", "section 5.3.2", claim, ours)
+        .verdict(ComparisonVerdict::of_cases(near, others.len()))
 }
 
 fn least(values: &[f64]) -> f64 {
@@ -115,10 +106,8 @@ fn of_form(scalar_form: bool, form: &str) -> Vec<ComparisonRow> {
     ];
     if scalar_form {
         let claimed = row("more roots", count(more_roots)).thesis(count(2.0));
-        rows.insert(
-            1,
-            claimed.verdict(ComparisonVerdict::of_claim(more_roots == 2.0)),
-        );
+        let verdict = ComparisonVerdict::of_claim(more_roots == 2.0);
+        rows.insert(1, claimed.verdict(verdict));
     }
     rows
 }
