@@ -60,10 +60,9 @@ impl<'a> DrawingDevice<'a> {
         device: &Device,
         size: Option<u32>,
     ) -> Result<DrawingDevice<'a>, Fault> {
-        let usual = if device.adapter.kind == AdapterKind::Software {
-            ON_A_PROCESSOR
-        } else {
-            ON_A_CARD
+        let usual = match device.adapter.kind {
+            AdapterKind::Software => ON_A_PROCESSOR,
+            _ => ON_A_CARD,
         };
         Ok(DrawingDevice {
             plan,
@@ -92,11 +91,10 @@ impl<'a> DrawingDevice<'a> {
     pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Fault> {
         self.compile(DrawingPlan::HEAVY)?;
         self.compile(drawing)?;
-        let layer = |place: usize| self.layers[place].as_ref();
-        let over = layer(drawing).filter(|_| drawing != DrawingPlan::HEAVY);
-        let below = layer(DrawingPlan::HEAVY).map(|heavy| (heavy, 1));
-        let layers: Vec<(&Layer, u32)> =
-            below.into_iter().chain(over.map(|l| (l, draws))).collect();
+        let layer = |place: usize, draws| Some((self.layers[place].as_ref()?, draws));
+        let over = layer(drawing, draws).filter(|_| drawing != DrawingPlan::HEAVY);
+        let below = layer(DrawingPlan::HEAVY, 1);
+        let layers: Vec<(&Layer, u32)> = below.into_iter().chain(over).collect();
         let recorded = self.canvas.record(&layers)?;
         let (drawn, spent) = timed(|| self.canvas.draw(recorded));
         drawn?;
@@ -116,13 +114,13 @@ impl<'a> DrawingDevice<'a> {
 }
 
 fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, Fault> {
-    let texels: Option<Vec<[f32; 4]>> = drawing.table.as_ref().map(|table| {
+    let table = drawing.table.as_ref().map(|table| {
         let texels = table.texels.iter();
-        texels.map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
+        let texels: Vec<[f32; 4]> = texels.map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
+        (table.width, texels)
     });
-    let tables = texels.as_ref().zip(drawing.table.as_ref());
-    let texture = tables.map(|(texels, table)| Texture {
-        width: table.width,
+    let texture = table.as_ref().map(|(width, texels)| Texture {
+        width: *width,
         texels,
         format: TextureFormat::Half,
         wrap: Wrap::Clamp,
