@@ -8,7 +8,8 @@ use crate::cli::output::{Output, Progress, report_beside};
 use crate::generator::envelope::Report;
 use crate::generator::output::write::OutputFile;
 use crate::lab::reproduce::{
-    ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection, comparison, reproduce,
+    ComparisonRow, Figure, NOT_MEASURED, PARTS, Part, Reproduction, ThesisSection, comparison,
+    reproduce,
 };
 use crate::physics::names::UnknownName;
 use crate::pictures::figure_chart::figure_chart;
@@ -22,7 +23,7 @@ use crate::pictures::table;
 pub struct ReproduceFlags {
     /// Only this: table1, table2, table3, table4, table5, table6, table7, table8, claims or figures [default: all]
     #[arg(value_parser = part)]
-    pub table: Option<Part>,
+    pub table: Option<&'static Part>,
     /// The folder for the figures.
     #[command(flatten)]
     pub figures: TreeFlags,
@@ -32,15 +33,15 @@ pub struct ReproduceFlags {
 }
 
 /// A part by its name, or a table by its number alone.
-fn part(name: &str) -> Result<Part, String> {
+fn part(name: &str) -> Result<&'static Part, String> {
     let plain = name.trim().to_lowercase().replace([' ', '-'], "");
     let number = plain.strip_prefix("table").unwrap_or(&plain);
     let is_part =
-        |part: &Part| part.name() == plain || part.name().strip_prefix("table") == Some(number);
-    if let Some(part) = Part::ALL.into_iter().find(is_part) {
+        |part: &&Part| part.name == plain || part.name.strip_prefix("table") == Some(number);
+    if let Some(part) = PARTS.iter().find(is_part) {
         return Ok(part);
     }
-    let all = Part::ALL.map(Part::name);
+    let all = PARTS.each_ref().map(|part| part.name);
     let is_named = |tables: &str| tables.split(' ').any(|word| word == number);
     let unmeasured = NOT_MEASURED.iter().find(|(tables, _)| is_named(tables));
     Err(match unmeasured.filter(|_| !number.is_empty()) {
@@ -54,11 +55,11 @@ fn part(name: &str) -> Result<Part, String> {
 
 /// Reproduces the requested parts.
 pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> {
-    let parts = flags
-        .table
-        .as_ref()
-        .map_or(Part::ALL.as_slice(), std::slice::from_ref);
-    let reproduced = reproduce(parts, comparison::ANGLES, progress);
+    let parts: Vec<&Part> = match flags.table {
+        Some(part) => vec![part],
+        None => PARTS.iter().collect(),
+    };
+    let reproduced = reproduce(&parts, comparison::ANGLES, progress);
     let drawn = figures(flags, &reproduced);
     let (count, folder) = (
         drawn.len(),
@@ -76,9 +77,9 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
     Ok(output)
 }
 
-fn json(reproduced: &Reproduction, part: Option<Part>) -> Report<ComparisonRow> {
+fn json(reproduced: &Reproduction, part: Option<&Part>) -> Report<ComparisonRow> {
     let command = part.map_or("reproduce".to_owned(), |part| {
-        format!("reproduce {}", part.name())
+        format!("reproduce {}", part.name)
     });
     Report::new(command, reproduced.comparisons().cloned().collect())
 }
@@ -100,7 +101,7 @@ const WIDTH: usize = 110;
 fn reproduction_text(reproduced: &Reproduction) -> String {
     let sections = &reproduced.sections;
     let mut texts: Vec<String> = sections.iter().map(section).collect();
-    if sections.len() == Part::ALL.len() {
+    if sections.len() == PARTS.len() {
         texts.push(not_measured());
     }
     texts.join("\n")

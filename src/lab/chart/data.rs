@@ -11,7 +11,7 @@ use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::lab::overdraw::library_times;
-use crate::language::methods::{ALL, Light, Method};
+use crate::language::methods::{ALL, Light};
 use crate::physics::num::in_parallel;
 use crate::physics::spectra::Space;
 

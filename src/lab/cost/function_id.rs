@@ -92,6 +92,9 @@ impl FunctionId {
     }
 
     /// Writes the columns that rows of methods begin with.
+    ///
+    /// # Errors
+    /// The serialiser refuses one.
     pub fn serialize_columns<Row: SerializeMap>(&self, row: &mut Row) -> Result<(), Row::Error> {
         row.serialize_entry("method", &self.method_name())?;
         row.serialize_entry("material", &self.material)?;

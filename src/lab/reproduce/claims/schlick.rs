@@ -30,10 +30,8 @@ struct Error {
     at: f64,
 }
 
-/// The number of angles that are evaluated.
-pub fn work(angles: usize) -> usize {
-    INDICES.len() * angles
-}
+/// How often all angles are evaluated.
+pub const PASSES: usize = INDICES.len();
 
 /// The claims about Schlick's approximation.
 pub fn schlick_claims(angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
