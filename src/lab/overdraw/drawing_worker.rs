@@ -6,14 +6,14 @@ use std::collections::BTreeSet;
 use std::io;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::drawing_device::{DeviceFacts, DrawingDevice};
 use super::measure::{Draw, Reading, Stop};
 use super::plan::DrawingPlan;
-use super::row::Error;
 use crate::lab::fault::Fault;
 use crate::lab::gpu::{AdapterKind, Backend, Device, Wanted};
-use crate::lab::process::{Inbox, Launch, NoAnswer, Surroundings, Worker};
+use crate::lab::process::{self, Inbox, Launch, NoAnswer, Surroundings, Worker};
 
 /// How long opening a device and compiling a shader may take. Where they are slow, both take seconds.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -129,6 +129,36 @@ fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
         Ok(Err(fault)) => Err(Error::Device(fault)),
         Err(NoAnswer::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
         Err(NoAnswer::Ended(status)) => Err(Error::Ended(status)),
+    }
+}
+
+/// Why nothing can be drawn.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// The process that draws cannot be started.
+    #[error(transparent)]
+    Process(#[from] process::Error),
+    /// There is no graphics device, or its driver fails, with this message.
+    #[error(transparent)]
+    Device(Fault),
+    /// The process that should open the device gives an unexpected answer.
+    #[error("a process that does not greet")]
+    Protocol,
+    /// The driver hangs.
+    #[error("no graphics device opened within {0} s: its driver hangs")]
+    Hangs(u64),
+    /// The driver crashes its process.
+    #[error("the process that opens the graphics device ended ({0}): its driver failed")]
+    Ended(String),
+}
+
+impl Error {
+    /// Whether the machine lacks something. Otherwise the user's flags are at fault.
+    pub fn is_lacking(&self) -> bool {
+        match self {
+            Error::Process(error) => error.is_lacking(),
+            _ => true,
+        }
     }
 }
 
