@@ -3,7 +3,6 @@
 use std::fmt;
 use std::sync::OnceLock;
 
-use super::egl;
 use super::quiet::hush;
 use crate::lab::fault::Fault;
 
@@ -91,11 +90,9 @@ impl fmt::Display for Adapter {
     }
 }
 
-/// All devices here that can run shaders.
-pub fn adapters() -> Vec<Adapter> {
-    let mut all: Vec<Adapter> = found().iter().map(describe).collect();
-    all.extend(egl::Context::open().map(|context| context.adapter.clone()));
-    all
+/// The devices of wgpu.
+pub(super) fn all() -> impl Iterator<Item = Adapter> {
+    found().iter().map(describe)
 }
 
 /// The adapters of wgpu, the preferred first, searched for once per process and kept. Dropping an instance terminates the EGL

@@ -1,4 +1,8 @@
-//! A compute program ready to run, with its pipeline and bindings.
+//! A compute program ready to run, with its pipeline and bindings: over points, or as a stream over all numbers of a range without
+//! uploading them.
+//!
+//! In a stream the program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks
+//! are in flight: the device computes one while the other is read in mapped memory.
 
 use std::rc::Rc;
 
@@ -142,6 +146,37 @@ impl Kernel {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, group, &[]);
         pass.dispatch_workgroups(points.div_ceil(64) as u32, 1, 1);
+    }
+}
+
+/// A compute program ready to run over consecutive bit patterns.
+pub struct Stream(pub(super) Kernel);
+
+impl Stream {
+    /// Runs over `count` numbers with consecutive bits, from `first` on. Block by block and in order, `take` gets the bits of the
+    /// block's first number and the results, in mapped memory that is valid during the call. After 2³² numbers the bits wrap
+    /// around.
+    ///
+    /// # Errors
+    /// Arguments or texture do not fit the program or the device, or the device is lost.
+    pub fn run(
+        &self,
+        first: u32,
+        count: u64,
+        uniforms: &[Uniform],
+        texture: Option<&Texture>,
+        mut take: impl FnMut(u32, &[[f32; 4]]),
+    ) -> Result<(), Fault> {
+        let at = |done: u64| first.wrapping_add(done as u32);
+        let blocks = (0..count).step_by(BLOCK).map(|done| Block::Bits {
+            first: at(done),
+            count: (count - done).min(BLOCK as u64) as usize,
+        });
+        let mut next = first;
+        self.0.pump(blocks, uniforms, texture, |results| {
+            take(next, results);
+            next = next.wrapping_add(results.len() as u32);
+        })
     }
 }
 

@@ -29,11 +29,12 @@ use crate::lab::fault::Fault;
 use compute::Compute;
 use program::PointInputs;
 
-pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
+pub use adapter::{Adapter, AdapterKind, Backend, Wanted};
 pub use canvas::{Canvas, Layer, Shader};
 pub use gles_compiler::GlesCompiler;
+pub use kernel::Stream;
 pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
-pub use program::{Argument, Program, ShaderCode, Stream, Uniform};
+pub use program::{Argument, Program, ShaderCode, Uniform};
 pub use texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
@@ -61,6 +62,12 @@ pub struct Batch {
 enum Prepared {
     Compute(kernel::Kernel),
     Gles(gles::Kernel),
+}
+
+/// All devices here that can run shaders.
+pub fn adapters() -> Vec<Adapter> {
+    let gles = egl::Context::open().map(|context| context.adapter.clone());
+    adapter::all().chain(gles).collect()
 }
 
 impl Device {

@@ -14,7 +14,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use super::pool::Error;
+use super::error::Error;
 
 /// The prefix of a run's folder. Only folders with this prefix and our lock are ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";
@@ -250,9 +250,6 @@ mod signals {
     /// Other systems end a process without notice. The next run removes its folder.
     pub fn listen() {}
 }
-
-/// The variable that says where temporary files go.
-pub const TEMPORARY: &str = if cfg!(windows) { "TMP" } else { "TMPDIR" };
 
 /// The folders of tools that belong to this program: `tools` beside it and, where Cargo has built it, `tools` in the target
 /// folder, where `tests/run` puts what it fetches.

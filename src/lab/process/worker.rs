@@ -14,7 +14,7 @@ use std::time::Duration;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::pool::Error;
+use super::error::Error;
 use super::surroundings::Surroundings;
 
 /// The command line and the environment of a worker process.

@@ -2,12 +2,13 @@
 
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
-use super::requested::{PlannedFile, ShippedPage};
+use super::requested::PlannedFile;
 use super::row::{
     AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, Status,
     VerifyRow, finite,
 };
 use super::run::ExecutionPath;
+use super::shipped::ShippedPage;
 use super::{HalfError, Miss, Outcome};
 use crate::generator::emit::{CodeBound, EmittedFunction, fingerprint};
 use crate::generator::fit::{Measured, ModelError};

@@ -6,13 +6,11 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::Value;
-use thiserror::Error;
 
 use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::lab::verify::VerifyRow;
-use crate::lab::verify::row::Error;
+use crate::lab::verify::error::{Error, MergeFault};
 use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardReport};
-use crate::physics::foreign::{self, Foreign, one_line};
 use crate::physics::user_text::FileFault;
 
 /// The beginning of the command of a verification.
@@ -21,70 +19,6 @@ const COMMAND: &str = "verify";
 const NAMED: usize = 20;
 /// The most characters of a report's text that are shown.
 const SHOWN: usize = 1000;
-
-/// Why reports are not the shards of one run.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum MergeFault {
-    /// A file that is not a shard's report, or a report that contradicts itself.
-    #[error("{}: {}", foreign::path(file), one_line(what))]
-    NotAShard {
-        /// The file.
-        file: PathBuf,
-        /// What it is instead.
-        what: String,
-    },
-    /// Two reports of one shard.
-    #[error(
-        "{}: this is shard {shard}, and so is {}; leave one of them out",
-        foreign::path(file),
-        foreign::path(other)
-    )]
-    Twice {
-        /// The file.
-        file: PathBuf,
-        /// The file before it.
-        other: PathBuf,
-        /// The shard.
-        shard: usize,
-    },
-    /// Reports of two runs.
-    #[error(
-        "{}: {} {}, and in {} {}; run one of them again as the other was run",
-        foreign::path(file),
-        one_line(what),
-        Foreign(here),
-        foreign::path(other),
-        Foreign(there)
-    )]
-    Differs {
-        /// The file.
-        file: PathBuf,
-        /// The file that it differs from.
-        other: PathBuf,
-        /// What differs.
-        what: String,
-        /// Its value in the file.
-        here: String,
-        /// Its value in the other.
-        there: String,
-    },
-    /// Shards without a report.
-    #[error("{count} of {shards} shards missing: {names}; run what is missing, and merge again")]
-    Missing {
-        /// How many are missing.
-        count: usize,
-        /// How many shards the run has.
-        shards: usize,
-        /// Their numbers.
-        names: String,
-    },
-}
-
-impl From<MergeFault> for Error {
-    fn from(fault: MergeFault) -> Error {
-        Error::Merge(Box::new(fault))
-    }
-}
 
 /// A shard's report, and its file.
 #[derive(Clone, Debug)]

@@ -11,7 +11,7 @@ use crate::generator::generate::{
 };
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Methods, Request};
-use crate::lab::verify::shipped::{Folder, replace_with_today};
+use crate::lab::verify::shipped::{Folder, ShippedPage, replace_with_today};
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::num::Precision;
@@ -264,33 +264,5 @@ impl PlannedFile {
     pub fn add(&mut self, page: ShippedPage) {
         self.pages.push(page);
         self.pages.sort_by_key(ShippedPage::is_run);
-    }
-}
-
-/// A file as it is shipped.
-#[derive(Debug)]
-pub struct ShippedPage {
-    /// Relative to the output folder.
-    pub path: String,
-    /// Its bytes: those in the output folder, or what would be written where there is no such file.
-    pub bytes: Vec<u8>,
-    /// Whether the bytes are those in the output folder.
-    pub is_shipped: bool,
-    /// Whether it is what would be written today, apart from line ends.
-    pub is_current: bool,
-    /// The loop in what would be run, with its line. Text with a loop is never given to a device.
-    pub holds_loop: Option<String>,
-    /// The entry point of each function, in order. Empty for text.
-    pub entries: Vec<String>,
-    /// What a reader of the report should know of it, where that is no fault.
-    pub remark: Option<String>,
-    /// Its faults other than wrong results: additions, omissions, false numbers.
-    pub findings: Vec<String>,
-}
-
-impl ShippedPage {
-    /// Whether its functions are run. Among modules, only compute shaders are.
-    pub fn is_run(&self) -> bool {
-        !self.path.ends_with(".spv") || self.path.contains(".comp.")
     }
 }

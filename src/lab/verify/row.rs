@@ -1,20 +1,17 @@
-//! The rows of a report, the status of a function that was checked or could not be, and the errors of a verification. A worker
-//! hands its rows to the supervisor as JSON.
+//! The rows of a report, and the status of a function that was checked or could not be. A worker hands its rows to the supervisor
+//! as JSON.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
-use thiserror::Error;
 
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
-use super::merge::MergeFault;
 use super::{CodeError, HalfError};
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::ModelError;
 use crate::lab::fault::Fault;
 use crate::physics::num::Precision;
-use crate::physics::user_text::FileFault;
 
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";
@@ -325,20 +322,4 @@ impl Status {
             Status::NotChecked => "not checked",
         }
     }
-}
-
-/// Why nothing can be verified as requested.
-#[derive(Debug, Error)]
-pub enum Error {
-    /// No function can be run at all numbers.
-    #[error(
-        "--exhaustive runs functions specialised to a material in WGSL: name both, and leave --target out or name wgsl"
-    )]
-    NothingExhaustive,
-    /// Reports of shards that are not of one run.
-    #[error(transparent)]
-    Merge(#[from] Box<MergeFault>),
-    /// A report that cannot be read.
-    #[error(transparent)]
-    File(#[from] FileFault),
 }

@@ -11,7 +11,6 @@ use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::lab::verify::listed::{self, Listed};
 use crate::lab::verify::module_outline::{declarations, entry_points, loops, names};
 use crate::lab::verify::outline::{Item, Outline, outline};
-use crate::lab::verify::requested::ShippedPage;
 use crate::lab::verify::tampering;
 use crate::language::targets::{self, Target};
 use crate::physics::foreign::Foreign;
@@ -19,6 +18,34 @@ use crate::physics::num::Precision;
 
 /// The version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A file as it is shipped.
+#[derive(Debug)]
+pub struct ShippedPage {
+    /// Relative to the output folder.
+    pub path: String,
+    /// Its bytes: those in the output folder, or what would be written where there is no such file.
+    pub bytes: Vec<u8>,
+    /// Whether the bytes are those in the output folder.
+    pub is_shipped: bool,
+    /// Whether it is what would be written today, apart from line ends.
+    pub is_current: bool,
+    /// The loop in what would be run, with its line. Text with a loop is never given to a device.
+    pub holds_loop: Option<String>,
+    /// The entry point of each function, in order. Empty for text.
+    pub entries: Vec<String>,
+    /// What a reader of the report should know of it, where that is no fault.
+    pub remark: Option<String>,
+    /// Its faults other than wrong results: additions, omissions, false numbers.
+    pub findings: Vec<String>,
+}
+
+impl ShippedPage {
+    /// Whether its functions are run. Among modules, only compute shaders are.
+    pub fn is_run(&self) -> bool {
+        !self.path.ends_with(".spv") || self.path.contains(".comp.")
+    }
+}
 
 fn loop_found(found: &Item) -> String {
     match found.line {

@@ -9,12 +9,12 @@ use std::sync::Mutex;
 
 use super::cases::specialised;
 use super::code_error::CodeError;
+use super::error::Error;
 use super::harness;
 use super::judge::{PathRun, RanFunction, RunResult};
 use super::machine::{self, MachineStatement};
 use super::points::{WITHIN, cosines};
 use super::requested::{PlannedFile, VerifyPlan};
-use super::row::Error;
 use super::run::{Devices, ShippedFunction};
 use super::shard::{PlannedRows, Shard, ShardOutcome};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range};
