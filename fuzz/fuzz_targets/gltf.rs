@@ -12,7 +12,7 @@ const VIEW: GltfView = GltfView {
 fuzz_target!(|bytes: &[u8]| {
     // Of a file beside it, the same bytes.
     let mut beside = |_: &str| Ok(bytes.to_vec());
-    let Ok(scene) = GltfScene::read("scene.gltf", bytes, &VIEW, &mut beside) else {
+    let Ok(scene) = GltfScene::read(bytes, &VIEW, &mut beside) else {
         return;
     };
     for index in 0..scene.frames().min(4) {

@@ -17,7 +17,7 @@ fuzz_target!(|text: &str| {
     let Ok(drawn) = scene.read(&mut |_| Ok(mesh.as_bytes().to_vec())) else {
         return;
     };
-    let [width, height] = scene.size();
+    let [width, height] = scene.cameras[0].lens.size;
     let round = [&CUBE, &SPHERE]
         .map(|body| body.mesh().triangles.len())
         .iter()

@@ -15,7 +15,7 @@ use crate::cli::flags::viewing::GamutFlags;
 use crate::cli::method_remarks::{budget_remarks, unsuited};
 use crate::cli::output::Output;
 use crate::cli::places::{folder_or_current, refuse_read, refuse_within_tree};
-use crate::cli::plan_file::{material_paths, planned};
+use crate::cli::plan_file::{self, material_paths, planned};
 use crate::generator::bake::as_tables_are_seen;
 use crate::generator::emit::{Artifact, HeaderForm};
 use crate::generator::error::RequestFault;
@@ -28,6 +28,7 @@ use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::manifest::Manifest;
 use crate::generator::output::tree::{self, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
+use crate::generator::request::source::Source;
 use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::budget::{Budget, BudgetRow, choose_within};
 use crate::lab::cost::{self, Family};
@@ -113,10 +114,11 @@ pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
     let request = request(flags)?;
     let (request, said) = match &flags.plan {
         Some(file) => {
-            let paths = material_paths(file)?;
+            let plan = plan_file::read(file)?;
             let outputs = flags.output.iter().chain(&flags.depfile);
-            refuse_read(paths.iter().map(Path::new), outputs.map(PathBuf::as_path))?;
-            (planned(file, &flags.allow, request)?, Vec::new())
+            let paths = material_paths(&plan).map(Path::new);
+            refuse_read(paths, outputs.map(PathBuf::as_path))?;
+            (planned(file, &plan, &flags.allow, request)?, Vec::new())
         }
         None => chosen(flags, request)?,
     };
@@ -175,7 +177,7 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
         &generated.provenance,
     )?;
     match &mut lock {
-        Some(lock) => written(flags, &generated, &plan, lock),
+        Some(lock) => written(flags, request, &generated, &plan, lock),
         None => Ok(checked(flags, &plan)),
     }
 }
@@ -292,7 +294,7 @@ fn no_language(file: &Path) -> RequestFault {
 
 fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
-    let mut files = depfile(flags, &[file.display().to_string()])?;
+    let mut files = depfile(flags, request, &[file.display().to_string()])?;
     if file != Path::new("-") {
         files.push(OutputFile::named(file, bytes));
         write_outputs(&files)?;
@@ -352,6 +354,7 @@ pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<Str
 
 fn written(
     flags: &GenerateFlags,
+    request: &Request,
     generated: &Generated,
     plan: &TreePlan,
     lock: &mut Lock,
@@ -368,7 +371,7 @@ fn written(
         .map(|artifact| out_dir.join(&artifact.path).display().to_string())
         .collect();
     refuse_within_tree(plan, flags.depfile.as_deref())?;
-    let depfile = depfile(flags, &outputs)?;
+    let depfile = depfile(flags, request, &outputs)?;
     let counts = write(plan, &depfile, flags.tree.overwrite, lock)?;
     let mut output = Output::default();
     if !flags.quiet {
@@ -453,7 +456,11 @@ fn next_step(flags: &GenerateFlags) -> String {
 }
 
 /// The depfile, where one is requested. Its rule has these outputs, unless the build system names another target.
-fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>, Error> {
+fn depfile(
+    flags: &GenerateFlags,
+    request: &Request,
+    outputs: &[String],
+) -> Result<Vec<OutputFile>, Error> {
     let Some(file) = &flags.depfile else {
         return Ok(Vec::new());
     };
@@ -469,7 +476,11 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
     let mut inputs: Vec<String> = paths.map(str::to_owned).collect();
     if let Some(plan) = &flags.plan {
         inputs.push(plan.display().to_string());
-        inputs.extend(material_paths(plan)?);
+        let materials = request.materials.sources().into_iter();
+        inputs.extend(materials.filter_map(|source| match source {
+            Source::File { file, .. } => Some(file),
+            _ => None,
+        }));
     }
     if let Some(own) = outputs.iter().find(|output| inputs.contains(output)) {
         let why = format!("--depfile-target {own} is a file that the run reads");

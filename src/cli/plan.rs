@@ -20,10 +20,9 @@ use crate::language::methods::{self, Method};
 use crate::physics::materials::ViewingConditions;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
-use crate::pictures::plan::report::{PlanReport, plan_page};
 use crate::pictures::plan::{
-    FramePixels, JudgedMaterial, Metric, PlanFault, PlanRequest, PlanRow, PlanTotal, PlanTruth,
-    Proof, ProofCase, material_view, plan, prove,
+    FramePixels, JudgedMaterial, Metric, PlanFault, PlanReport, PlanRequest, PlanTruth,
+    material_view, plan, plan_page, prove,
 };
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 
@@ -238,15 +237,17 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     if judged.iter().all(|material| material.pixels == 0) {
         return Err(Error::usage(nothing_is_seen));
     }
-    let rows: Vec<PlanRow> = judged.iter().map(|one| one.row(&request, frames)).collect();
-    let code = u8::from(rows.iter().any(|row| !row.is_within));
-    let total = PlanTotal::of(&judged, request.price, frames);
+    let proofs = if flags.prove {
+        prove(&request, &judged, &mut *frame, &mut |done, whole| {
+            progress(done, whole, "functions");
+        })
+        .map_err(fault)?
+    } else {
+        (None, Vec::new())
+    };
     let command: String = flags.command_line().into();
-    let mut made = PlanReport::new(command, &request, frames, total, unplanned, remarks, rows);
-    if flags.prove {
-        let (device, proofs) = proofs(&request, &judged, &mut *frame, progress)?;
-        made = made.with_proofs(device, proofs);
-    }
+    let said_of_scene = (unplanned, remarks);
+    let made = PlanReport::new(command, &request, &judged, frames, said_of_scene, proofs);
     let page = page.map(|page| paged(flags, &request, &judged, &made, &mut *frame, page));
     let page = page.transpose()?;
     let said = page.as_ref().map(|page| {
@@ -258,7 +259,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let files = page.into_iter().collect();
     let mut output = report_beside(made.text(), &made, flags.report.json(), files)?;
     output.remarks.extend(said);
-    output.code = code.max(made.proof_code());
+    output.code = made.exit_code();
     Ok(output)
 }
 
@@ -273,34 +274,12 @@ fn paged(
 ) -> Result<OutputFile, Error> {
     let mut views = Vec::new();
     for (i, material) in judged.iter().enumerate() {
-        let pixels = frame(material.chosen().worst_frame)?;
-        views.push(material_view(request, material, i, &pixels));
+        let frame = frame(material.chosen().worst_frame)?;
+        let view = material_view(request, material, &frame.of_material[i], frame.size[0]);
+        views.push(view.map_err(Error::usage)?);
     }
     let text = plan_page(made, &views).map_err(Error::usage)?;
     Ok(OutputFile::of_report(page, text, flags.pictures.overwrite))
-}
-
-/// Runs the chosen functions in the frames where each is worst.
-fn proofs(
-    request: &PlanRequest,
-    judged: &[JudgedMaterial],
-    frame: &mut dyn FnMut(usize) -> Result<FramePixels, Error>,
-    progress: Progress,
-) -> Result<(Option<String>, Vec<Proof>), Error> {
-    let mut worst = Vec::new();
-    for (i, material) in judged.iter().enumerate() {
-        let mut frame = frame(material.chosen().worst_frame)?;
-        worst.push(std::mem::take(&mut frame.of_material[i]));
-    }
-    let cases: Vec<ProofCase> = judged
-        .iter()
-        .zip(&worst)
-        .map(|(judged, pixels)| ProofCase { judged, pixels })
-        .collect();
-    let proven = prove(request, &cases, &mut |done, whole| {
-        progress(done, whole, "functions");
-    });
-    Ok(proven?)
 }
 
 fn check(flags: &PlanFlags) -> Result<(), Error> {

@@ -16,7 +16,7 @@ use crate::physics::materials;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::physics::user_text::FileFault;
-use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
+use crate::pictures::plan::{PLANNED_FORMS, PlanFile, PlanFileRow, is_plannable};
 
 /// The first word of a plan's command.
 const COMMAND: &str = "plan";
@@ -24,9 +24,13 @@ const COMMAND: &str = "plan";
 /// The request for a plan's functions: those of each material, and library files.
 ///
 /// # Errors
-/// The file cannot be read, is no plan, or names something that does not exist.
-pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Request, Error> {
-    let plan = read(file)?;
+/// The plan names something that does not exist, or a file that it must not name.
+pub fn planned(
+    file: &Path,
+    plan: &PlanFile,
+    allowed: &[PathBuf],
+    request: Request,
+) -> Result<Request, Error> {
     let mut sources = Vec::new();
     let mut chosen = BTreeMap::new();
     let mut library = Vec::new();
@@ -58,7 +62,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
         sources.push(source);
     }
     let mut viewing = request.viewing.clone();
-    viewing.integration.space = space(&plan)?;
+    viewing.integration.space = space(plan)?;
     Ok(Request {
         methods: if library.is_empty() {
             Methods::Default
@@ -72,7 +76,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
         },
         chosen,
         viewing,
-        precision: precision(file, &plan)?,
+        precision: precision(file, plan)?,
         ..request
     })
 }
@@ -89,12 +93,7 @@ fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<
 /// The method of a row, which must be one that plans choose, in a form that they choose.
 fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
     let method: &Method = row.method.parse()?;
-    let forms = [
-        FunctionForm::Specialised,
-        FunctionForm::Library,
-        FunctionForm::Scalar,
-    ];
-    if !is_plannable(method) || !forms.contains(&row.form) {
+    if !is_plannable(method) || !PLANNED_FORMS.contains(&row.form) {
         let what = format!(
             "no plan chooses `{}` as a function that is {}",
             method.name,
@@ -106,19 +105,18 @@ fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
 }
 
 /// The paths of material files that a plan names.
-///
-/// # Errors
-/// As [`planned`].
-pub fn material_paths(file: &Path) -> Result<Vec<String>, Error> {
-    let rows = read(file)?.rows.into_iter();
-    let own = rows.filter(|row| row.form == FunctionForm::Specialised);
-    Ok(own
-        .map(|row| row.material)
+pub fn material_paths(plan: &PlanFile) -> impl Iterator<Item = &str> {
+    let own = plan.rows.iter();
+    let own = own.filter(|row| row.form == FunctionForm::Specialised);
+    own.map(|row| &*row.material)
         .filter(|material| materials::source(material).is_none())
-        .collect())
 }
 
-fn read(file: &Path) -> Result<PlanFile, Error> {
+/// Reads a plan.
+///
+/// # Errors
+/// The file cannot be read, or is no plan.
+pub fn read(file: &Path) -> Result<PlanFile, Error> {
     let text = source::text(file)?;
     let fault = |line: usize, column: usize, what: String| FileFault {
         file: file.display().to_string(),

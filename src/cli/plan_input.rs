@@ -40,6 +40,39 @@ pub struct PlanInput<'a> {
     pub frame: FrameOf<'a>,
 }
 
+/// The materials of a scene, each once, and for each material that the scene names its index among them.
+type LoadedMaterials = (Vec<PlannedMaterial>, Vec<usize>);
+
+impl<'a> PlanInput<'a> {
+    /// Frames that are shown as they are, of a scene that also names these files.
+    fn new(
+        (materials, places): LoadedMaterials,
+        files: Vec<PathBuf>,
+        nothing_is_seen: String,
+        frames: usize,
+        mut frame: impl FnMut(usize) -> Result<FramePixels, Error> + 'a,
+    ) -> PlanInput<'a> {
+        let words = materials.iter().map(|material| &material.argument);
+        let own_files = words
+            .filter(|word| source::is_path(word))
+            .map(PathBuf::from);
+        let count = materials.len();
+        PlanInput {
+            read: own_files.chain(files).collect(),
+            materials,
+            unplanned: Vec::new(),
+            remarks: Vec::new(),
+            nothing_is_seen,
+            display: Display {
+                exposure: 0.0,
+                curve: TONE_CURVES[0],
+            },
+            frames,
+            frame: Box::new(move |index| Ok(merged(frame(index)?, &places, count))),
+        }
+    }
+}
+
 /// Reads what the flags name.
 ///
 /// # Errors
@@ -80,19 +113,14 @@ fn of_scene_file<'a>(
     scene.space = viewing.integration.space;
     let at = |index: usize, what: String| scene.material_fault(index, what).into();
     let naming = Naming::of(flags, file);
-    let (materials, places) = loaded(scene.materials(), &naming, viewing, &at)?;
-    let mut read = material_files(&materials);
-    let drawn = scene.read(&mut |path| naming.bytes(path, &mut read))?;
-    let (count, display, frames) = (materials.len(), scene.display, scene.frames());
+    let materials = loaded(scene.materials(), &naming, viewing, &at)?;
+    let mut files = Vec::new();
+    let drawn = scene.read(&mut |path| naming.bytes(path, &mut files))?;
+    let (nothing, display, frames) = (scene.nothing_is_seen(), scene.display, scene.frames());
+    let frame = move |index| Ok(scene.frame(index, &drawn));
     Ok(PlanInput {
-        materials,
-        unplanned: Vec::new(),
-        remarks: Vec::new(),
-        read,
-        nothing_is_seen: scene.nothing_is_seen().to_string(),
         display,
-        frames,
-        frame: Box::new(move |index| Ok(merged(scene.frame(index, &drawn), &places, count))),
+        ..PlanInput::new(materials, files, nothing.to_string(), frames, frame)
     })
 }
 
@@ -106,9 +134,8 @@ fn of_gltf<'a>(
         None => SceneLight::Uniform([1.0; 3]),
         Some(path) => {
             let environment = Environment::read(&source::picture(path)?, viewing.integration.space);
-            SceneLight::of_environment(environment.map_err(|fault| {
-                Error::usage(format!("{}: {fault}", crate::physics::foreign::path(&path)))
-            })?)
+            let environment = environment.map_err(|fault| fault_of(path, fault))?;
+            SceneLight::of_environment(environment)
         }
     };
     let view = GltfView {
@@ -117,24 +144,26 @@ fn of_gltf<'a>(
     };
     let name = file.display().to_string();
     let naming = Naming::of(flags, file);
-    let mut read = Vec::new();
-    let scene = GltfScene::read(&name, &source::picture(file)?, &view, &mut |path| {
-        naming.bytes(path, &mut read)
+    let mut files = Vec::new();
+    let scene = GltfScene::read(&source::picture(file)?, &view, &mut |path| {
+        naming.bytes(path, &mut files)
     });
-    let scene = scene.map_err(|fault| Error::usage(fault.to_string()))?;
+    let scene = scene.map_err(|fault| fault_of(file, fault))?;
     let at = |_: usize, what: String| Error::usage(format!("{name}: {what}"));
-    let (materials, places) = loaded(scene.materials(), &naming, viewing, &at)?;
-    let (count, frames) = (materials.len(), scene.frames());
+    let materials = loaded(scene.materials(), &naming, viewing, &at)?;
+    let (unplanned, remarks) = (scene.unplanned.clone(), scene.remarks.clone());
+    let (nothing, frames) = (nothing_planned(&name, &unplanned), scene.frames());
+    let frame = move |index| Ok(scene.frame(index));
     Ok(PlanInput {
-        materials,
-        unplanned: scene.unplanned.clone(),
-        remarks: scene.remarks.clone(),
-        read,
-        nothing_is_seen: nothing_planned(&name, &scene.unplanned),
-        display: AS_IT_IS,
-        frames,
-        frame: Box::new(move |index| Ok(merged(scene.frame(index), &places, count))),
+        unplanned,
+        remarks,
+        ..PlanInput::new(materials, files, nothing, frames, frame)
     })
+}
+
+/// A fault of a file, with the file's name before it.
+fn fault_of(file: &Path, fault: impl core::fmt::Display) -> Error {
+    Error::usage(format!("{}: {fault}", crate::physics::foreign::path(file)))
 }
 
 /// The message for a glTF scene of which no visible material can be planned.
@@ -176,20 +205,6 @@ impl<'a> Naming<'a> {
     }
 }
 
-/// The paths of the materials that are files.
-fn material_files(materials: &[PlannedMaterial]) -> Vec<PathBuf> {
-    let words = materials.iter().map(|material| &material.argument);
-    words
-        .filter(|word| source::is_path(word))
-        .map(PathBuf::from)
-        .collect()
-}
-
-/// No exposure and no tone curve.
-const AS_IT_IS: Display = Display {
-    exposure: 0.0,
-    curve: TONE_CURVES[0],
-};
 /// Pixels of a glTF scene's frames, unless flags say otherwise.
 const GLTF_SIZE: [u32; 2] = [640, 480];
 
@@ -203,31 +218,25 @@ fn of_frames<'a>(
     let map = map.expect("clap asks for it beside --gbuffer");
     let ids = MaterialIds::parse(&map.display().to_string(), &source::text(map)?)?;
     let at = |index: usize, what: String| ids.fault(index, what).into();
-    let (materials, places) = loaded(&ids.materials, &Naming::of(flags, map), viewing, &at)?;
-    let (count, read) = (materials.len(), material_files(&materials));
+    let materials = loaded(&ids.materials, &Naming::of(flags, map), viewing, &at)?;
+    let nothing = format!(
+        "no frame shows a material of {}",
+        crate::physics::foreign::path(map)
+    );
     let (frames, space) = (files.len(), viewing.integration.space);
     let frame = move |index: usize| {
-        let file = files[index];
+        let file: &Path = files[index];
         let bytes = source::picture(file)?;
         let frame = check_primaries(&bytes, space).and_then(|()| read_gbuffer(&bytes, &ids));
-        let frame = frame.map_err(|fault| {
-            Error::usage(format!("{}: {fault}", crate::physics::foreign::path(&file)))
-        })?;
-        Ok(merged(frame, &places, count))
+        frame.map_err(|fault| fault_of(file, fault))
     };
-    Ok(PlanInput {
+    Ok(PlanInput::new(
         materials,
-        unplanned: Vec::new(),
-        remarks: Vec::new(),
-        read,
-        nothing_is_seen: format!(
-            "no frame shows a material of {}",
-            crate::physics::foreign::path(&map)
-        ),
-        display: AS_IT_IS,
+        Vec::new(),
+        nothing,
         frames,
-        frame: Box::new(frame),
-    })
+        frame,
+    ))
 }
 
 /// Each material once, and for each material of the scene its index among them. `fault` gives the place where the file names a
@@ -237,7 +246,7 @@ fn loaded(
     naming: &Naming,
     viewing: &ViewingConditions,
     fault: &dyn Fn(usize, String) -> Error,
-) -> Result<(Vec<PlannedMaterial>, Vec<usize>), Error> {
+) -> Result<LoadedMaterials, Error> {
     let (mut planned, mut places): (Vec<PlannedMaterial>, Vec<usize>) = (Vec::new(), Vec::new());
     for (index, one) in mapped.iter().enumerate() {
         let word = if source::is_path(&one.material) {

@@ -3,31 +3,25 @@
 use std::sync::Arc;
 
 use super::curve::step_cosines;
-use super::request::PlanRequest;
+use super::request::{PlanRequest, PlannedMaterial};
 use crate::generator::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::generator::fit::{arguments, table_of};
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::cost::{
-    CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost, records,
-};
+use crate::lab::cost::{CostBasis, CostRecord, KnownCost, known_cost, known_library_cost, records};
 use crate::language::ir::{Checked, evaluate};
-use crate::language::methods::{Contract, Light, Method};
+use crate::language::methods::{self, Contract, Light, Method};
 use crate::physics::num::{Half, Num, Precision, each_channel, in_parallel};
 
-/// What functions cost, and which of them may be chosen.
+/// The library function that every plan is compared with: it suits every material.
+pub const SHARED: &str = "fitted";
+
+/// What functions cost.
 pub struct Prices<'a> {
-    /// The GPU family.
-    pub family: &'static Family,
-    /// The recorded costs on these GPUs.
-    pub record: CostRecord,
+    request: &'a PlanRequest,
+    /// The recorded costs on the request's GPUs.
+    record: CostRecord,
     /// The recorded bounds of functions.
-    pub bounds: Bounds,
-    /// The precision that functions compute in.
-    pub precision: Precision,
-    /// How many channels functions may return: 3, or 1 for all three alike.
-    pub channels: &'a [usize],
-    /// The cost of a texture fetch, beside that of the instructions around it. Without it no table is chosen.
-    pub fetch: Option<f64>,
+    bounds: Bounds,
 }
 
 /// A function that may be chosen.
@@ -43,6 +37,11 @@ pub struct Candidate {
     pub basis: CostBasis,
     /// Its values at [`step_cosines`]; forms of a method share them.
     pub values: Arc<[[f64; 3]]>,
+    /// The error in the frame where it is worst: 0 until it is judged, and infinite where it need not be, because a cheaper
+    /// candidate is within the budget.
+    pub error: f64,
+    /// That frame, from 0.
+    pub worst_frame: usize,
 }
 
 impl Candidate {
@@ -59,6 +58,11 @@ impl Candidate {
         self.form == FunctionForm::Specialised
     }
 
+    /// Whether it is the library function that every plan is compared with.
+    pub fn is_shared(&self) -> bool {
+        self.method.name == SHARED && self.form == FunctionForm::Library
+    }
+
     /// How many channels it returns.
     pub fn channels(&self) -> usize {
         match self.form {
@@ -68,77 +72,90 @@ impl Candidate {
     }
 }
 
+/// The forms of functions that plans choose.
+pub const PLANNED_FORMS: [FunctionForm; 3] = [
+    FunctionForm::Specialised,
+    FunctionForm::Library,
+    FunctionForm::Scalar,
+];
+
 /// Whether plans may choose a method: it must describe unpolarised light and keep the contract.
 pub fn is_plannable(method: &Method) -> bool {
     method.light == Light::Unpolarised && method.contract == Contract::Kept
 }
 
-/// The candidates for a material, in the order of methods. `is_library_only` means that the material has no file to specialise
-/// to.
+/// The candidates for a material, in the order of methods.
 ///
 /// # Errors
 /// A method cannot be specialised to the material.
-pub fn candidates(
-    subject: &MaterialInMedium,
-    is_library_only: bool,
-    methods: &[&'static Method],
-    prices: &Prices,
-) -> Result<Vec<Candidate>, Error> {
+pub fn candidates(material: &PlannedMaterial, prices: &Prices) -> Result<Vec<Candidate>, Error> {
+    let (subject, request) = (&material.subject, prices.request);
     let is_one = |method: &&&'static Method| {
         is_plannable(method)
             && subject.is_described_by(method)
-            && (prices.fetch.is_some() || !method.is_textured())
-            && !(prices.precision.is_half() && method.half.refusal().is_some())
+            && (request.fetch.is_some() || !method.is_textured())
+            && !(request.precision.is_half() && method.half.refusal().is_some())
     };
-    let methods: Vec<&'static Method> = methods.iter().filter(is_one).copied().collect();
-    let of_method = |i: usize| {
-        let method = methods[i];
-        let function =
-            specialised_graph(method, subject, prices.precision, &prices.bounds)?.function;
-        let values: Arc<[_]> = values(&function, subject, prices.precision).into();
-        let forms = [
-            FunctionForm::Specialised,
-            FunctionForm::Library,
-            FunctionForm::Scalar,
-        ];
-        let forms = forms
-            .into_iter()
-            .filter(|form| !is_library_only || *form != FunctionForm::Specialised);
-        let candidate = |form: FunctionForm| {
-            let KnownCost { cost, basis } = prices.cost(method, form, &function)?;
-            let values = match form {
-                FunctionForm::Scalar => values.iter().map(|value| [value[1]; 3]).collect(),
-                _ => Arc::clone(&values),
-            };
-            let found = Candidate {
-                method,
-                form,
-                cost,
-                basis,
-                values,
-            };
-            prices.channels.contains(&found.channels()).then_some(found)
-        };
-        Ok(forms.filter_map(candidate).collect())
-    };
-    let found: Vec<Result<Vec<Candidate>, Error>> =
-        in_parallel(methods.len(), &of_method, &mut |_, _| {});
+    let methods: Vec<&'static Method> = request.methods.iter().filter(is_one).copied().collect();
+    let of_method = |i: usize| of_method(methods[i], material, prices);
+    let found = in_parallel(methods.len(), &of_method, &mut |_, _| {});
     let found = found.into_iter().collect::<Result<Vec<_>, Error>>()?;
-    let is_number = |one: &Candidate| one.values.iter().flatten().all(|value| value.is_finite());
-    Ok(found.into_iter().flatten().filter(is_number).collect())
+    Ok(found.concat())
 }
 
-impl Prices<'_> {
+/// The candidates of a method whose cost is known and whose values are numbers.
+fn of_method(
+    method: &'static Method,
+    material: &PlannedMaterial,
+    prices: &Prices,
+) -> Result<Vec<Candidate>, Error> {
+    let (subject, request) = (&material.subject, prices.request);
+    let function = prices.specialised(method, subject)?;
+    let all: Arc<[_]> = values(&function, subject, request.precision).into();
+    let mut candidates = Vec::new();
+    for form in PLANNED_FORMS {
+        if material.is_library_only && form == FunctionForm::Specialised {
+            continue;
+        }
+        let Some(KnownCost { cost, basis }) = prices.cost(method, form, &function) else {
+            continue;
+        };
+        let values = match form {
+            FunctionForm::Scalar => all.iter().map(|value| [value[1]; 3]).collect(),
+            _ => Arc::clone(&all),
+        };
+        let candidate = Candidate {
+            method,
+            form,
+            cost,
+            basis,
+            values,
+            error: 0.0,
+            worst_frame: 0,
+        };
+        let mut numbers = candidate.values.iter().flatten();
+        if request.channels.contains(&candidate.channels())
+            && numbers.all(|value| value.is_finite())
+        {
+            candidates.push(candidate);
+        }
+    }
+    Ok(candidates)
+}
+
+impl<'a> Prices<'a> {
     /// The prices that a plan's request asks for.
-    pub fn of(request: &PlanRequest) -> Prices<'_> {
+    pub fn of(request: &'a PlanRequest) -> Prices<'a> {
         Prices {
-            family: request.family,
+            request,
             record: records(request.family.name),
             bounds: Bounds::recorded(),
-            precision: request.precision,
-            channels: &request.channels,
-            fetch: request.fetch,
         }
+    }
+
+    fn specialised(&self, method: &Method, subject: &MaterialInMedium) -> Result<Checked, Error> {
+        let precision = self.request.precision;
+        Ok(specialised_graph(method, subject, precision, &self.bounds)?.function)
     }
 
     /// The cost of a form of a method, where it is known.
@@ -148,13 +165,12 @@ impl Prices<'_> {
         form: FunctionForm,
         specialised: &Checked,
     ) -> Option<KnownCost> {
+        let (precision, family) = (self.request.precision, self.request.family);
         let known = match form {
-            FunctionForm::Specialised => {
-                known_cost(specialised, self.precision, self.family, &self.record)?
-            }
-            _ => known_library_cost(method, form, self.precision, self.family, &self.record)?,
+            FunctionForm::Specialised => known_cost(specialised, precision, family, &self.record)?,
+            _ => known_library_cost(method, form, precision, family, &self.record)?,
         };
-        let fetch = self.fetch.filter(|_| method.is_textured());
+        let fetch = self.request.fetch.filter(|_| method.is_textured());
         Some(KnownCost {
             cost: known.cost + fetch.unwrap_or(0.0),
             ..known
@@ -166,9 +182,8 @@ impl Prices<'_> {
     /// # Errors
     /// It cannot be specialised to the material.
     pub fn cost_exact(&self, subject: &MaterialInMedium) -> Result<Option<f64>, Error> {
-        let method =
-            crate::language::methods::find(subject.exact_method()).expect("a test names it");
-        let function = specialised_graph(method, subject, self.precision, &self.bounds)?.function;
+        let method = methods::find(subject.exact_method()).expect("a test names it");
+        let function = self.specialised(method, subject)?;
         let known = |form| self.cost(method, form, &function).map(|known| known.cost);
         Ok(known(FunctionForm::Specialised).or_else(|| known(FunctionForm::Library)))
     }

@@ -1,4 +1,4 @@
-//! The choice of a function for each material at the least total cost, and the errors of the candidates. Pure.
+//! The choice of a function for each material at the least total cost. Pure.
 //!
 //! ```text
 //! total = Σ over materials of cost × pixels + price × number of different functions
@@ -6,55 +6,79 @@
 //!
 //! Specialised functions differ from material to material; a library function serves all materials that take it. The least total is
 //! found by branch and bound over the library functions: exact, and quick because few of them can pay for themselves.
-//!
-//! Candidates are judged with the cheapest first. What costs more than a candidate within the budget cannot be chosen, and no
-//! report states its error. So it is not judged, and its error is infinite.
 
 use core::cmp::Ordering;
+use std::collections::BTreeSet;
 
-use super::curve::{Curve, PixelPlace, RoughRule, curves};
-use super::metric::{JudgedPixels, ScenePixel, Screen};
-use super::planned::{JudgedCandidate, JudgedMaterial};
-use super::row::is_shared;
-use crate::physics::num::in_parallel;
-
-/// A function of a material, within its budget.
+/// A function that a material may get.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choosable {
     /// Its cost for all pixels of the material, without the price of a function.
     pub cost: f64,
     /// Its error.
     pub error: f64,
-    /// Its name, the last tie-breaker.
+    /// Its name, the last tie-breaker. Library functions of one name are one function.
     pub name: String,
-    /// The index of its library function; `None` where the function is the material's own.
-    pub shared: Option<usize>,
-}
-
-/// The indices of a material's functions within a budget; if there are none, of those with the least error. The functions for a
-/// smaller budget are always among those for a larger one, so a smaller budget never makes a plan cheaper.
-pub fn within(functions: &[Choosable], budget: f64) -> Vec<usize> {
-    let errors = functions.iter().map(|one| one.error);
-    let most = errors.fold(f64::INFINITY, f64::min).max(budget);
-    let all = 0..functions.len();
-    all.filter(|i| functions[*i].error <= most).collect()
+    /// Whether it is the material's own, and no library function.
+    pub is_own: bool,
 }
 
 /// The index of the chosen function of each material, which has at least one. `price` is that of a function.
-pub fn choose(materials: &[Vec<Choosable>], price: f64) -> Vec<usize> {
-    let highest = materials
+///
+/// A function is chosen among those within the budget; if a material has none, among those with the least error. The functions
+/// for a smaller budget are always among those for a larger one, so a smaller budget never makes a plan cheaper.
+pub fn choose(materials: &[Vec<Choosable>], budget: f64, price: f64) -> Vec<usize> {
+    let within: Vec<Vec<(usize, &Choosable)>> = materials
         .iter()
-        .flatten()
-        .filter_map(|one| one.shared)
-        .max();
+        .map(|functions| within(functions, budget))
+        .collect();
+    let library = within.iter().flatten().filter(|(_, one)| !one.is_own);
+    let library: BTreeSet<&str> = library.map(|(_, one)| &*one.name).collect();
+    let library: Vec<&str> = library.into_iter().collect();
+    let open = within.into_iter().map(|functions| {
+        let functions = functions.into_iter().map(|(place, function)| Open {
+            place,
+            function,
+            library: library.binary_search(&&*function.name).ok(),
+        });
+        functions.collect()
+    });
     let mut search = Search {
-        materials,
+        materials: open.collect(),
         price,
-        states: vec![State::Open; highest.map_or(0, |last| last + 1)],
+        states: vec![State::Open; library.len()],
         best: None,
     };
     search.descend(0);
-    search.best.map(|(choice, _)| choice).unwrap_or_default()
+    let best = search.best.map(|best| best.functions).unwrap_or_default();
+    best.iter().map(|one| one.place).collect()
+}
+
+/// A material's functions within a budget, with their indices; if there are none, those with the least error.
+fn within(functions: &[Choosable], budget: f64) -> Vec<(usize, &Choosable)> {
+    let errors = functions.iter().map(|one| one.error);
+    let most = errors.fold(f64::INFINITY, f64::min).max(budget);
+    let all = functions.iter().enumerate();
+    all.filter(|(_, one)| one.error <= most).collect()
+}
+
+/// What functions cost together.
+pub fn total_cost<'a>(chosen: impl Iterator<Item = &'a Choosable> + Clone, price: f64) -> f64 {
+    let library = chosen.clone().filter(|one| !one.is_own);
+    let library: BTreeSet<&str> = library.map(|one| &*one.name).collect();
+    let own = chosen.clone().filter(|one| one.is_own).count();
+    let sum: f64 = chosen.map(|one| one.cost).sum();
+    sum + (own + library.len()) as f64 * price
+}
+
+/// A function within the budget.
+#[derive(Clone, Copy)]
+struct Open<'a> {
+    /// Its index among the functions of its material.
+    place: usize,
+    function: &'a Choosable,
+    /// The index of its library function; `None` where it is the material's own.
+    library: Option<usize>,
 }
 
 /// Whether a library function is compiled.
@@ -66,22 +90,26 @@ enum State {
 }
 
 struct Search<'a> {
-    materials: &'a [Vec<Choosable>],
+    materials: Vec<Vec<Open<'a>>>,
     price: f64,
+    /// Of each library function.
     states: Vec<State>,
-    best: Option<(Vec<usize>, Total)>,
+    best: Option<Choice<'a>>,
 }
 
-/// The total of a choice. Ties are broken by the error, then by name.
-#[derive(Clone)]
-struct Total {
+/// A function for each material. Ties of the cost are broken by the error, then by name.
+struct Choice<'a> {
+    functions: Vec<Open<'a>>,
     cost: f64,
     error: f64,
-    names: Vec<String>,
 }
 
-impl Total {
-    fn order(&self, other: &Total) -> Ordering {
+impl Choice<'_> {
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.functions.iter().map(|one| &*one.function.name)
+    }
+
+    fn order(&self, other: &Choice) -> Ordering {
         let alike = (self.cost - other.cost).abs() <= 1e-12 * self.cost.abs().max(other.cost.abs());
         let by_cost = if alike {
             Ordering::Equal
@@ -90,13 +118,13 @@ impl Total {
         };
         by_cost
             .then(self.error.total_cmp(&other.error))
-            .then_with(|| self.names.cmp(&other.names))
+            .then_with(|| self.names().cmp(other.names()))
     }
 }
 
 impl Search<'_> {
     fn descend(&mut self, next: usize) {
-        if let Some((_, best)) = &self.best
+        if let Some(best) = &self.best
             && self.bound() > best.cost * (1.0 + 1e-12)
         {
             return;
@@ -115,7 +143,7 @@ impl Search<'_> {
     /// A lower bound of the cost of all choices below this node.
     fn bound(&self) -> f64 {
         let taken = self.states.iter().filter(|state| **state == State::Taken);
-        let least = |material: &Vec<Choosable>| {
+        let least = |material: &Vec<Open>| {
             let costs = material.iter().filter_map(|one| self.cost(one));
             costs.fold(f64::INFINITY, f64::min)
         };
@@ -125,163 +153,41 @@ impl Search<'_> {
 
     /// The cost that a function adds. It includes the price where the function is the material's own. `None` where the function
     /// is left out.
-    fn cost(&self, one: &Choosable) -> Option<f64> {
-        match one.shared {
-            None => Some(one.cost + self.price),
-            Some(function) => (self.states[function] != State::Left).then_some(one.cost),
+    fn cost(&self, one: &Open) -> Option<f64> {
+        match one.library {
+            None => Some(one.function.cost + self.price),
+            Some(function) => (self.states[function] != State::Left).then_some(one.function.cost),
         }
     }
 
     /// Records the best choice, once every library function is decided.
     fn enter(&mut self) {
-        let mut choice = Vec::new();
-        for material in self.materials {
-            let open = (0..material.len()).filter_map(|i| Some((i, self.cost(&material[i])?)));
+        let mut functions = Vec::new();
+        for material in &self.materials {
+            let open = material
+                .iter()
+                .filter_map(|one| Some((one, self.cost(one)?)));
             let first = open.min_by(|(a, a_cost), (b, b_cost)| {
-                let [a, b] = [*a, *b].map(|i| &material[i]);
+                let [a, b] = [a, b].map(|one| one.function);
                 a_cost
                     .total_cmp(b_cost)
                     .then(a.error.total_cmp(&b.error))
                     .then_with(|| a.name.cmp(&b.name))
             });
             let Some((first, _)) = first else { return };
-            choice.push(first);
+            functions.push(*first);
         }
-        let total = self.total(&choice);
-        let is_better = |(_, best): &(Vec<usize>, Total)| total.order(best) == Ordering::Less;
+        let chosen = functions.iter().map(|one| one.function);
+        let choice = Choice {
+            cost: total_cost(chosen.clone(), self.price),
+            error: chosen.map(|one| one.error).sum(),
+            functions,
+        };
+        let is_better = |best: &Choice| choice.order(best) == Ordering::Less;
         if self.best.as_ref().is_none_or(is_better) {
-            self.best = Some((choice, total));
+            self.best = Some(choice);
         }
     }
-
-    fn total(&self, choice: &[usize]) -> Total {
-        let chosen = self.materials.iter().zip(choice);
-        let chosen: Vec<&Choosable> = chosen.map(|(material, i)| &material[*i]).collect();
-        Total {
-            cost: total_cost(chosen.iter().copied(), self.price),
-            error: chosen.iter().map(|one| one.error).sum(),
-            names: chosen.iter().map(|one| one.name.clone()).collect(),
-        }
-    }
-}
-
-/// What functions cost together.
-pub fn total_cost<'a>(chosen: impl Iterator<Item = &'a Choosable> + Clone, price: f64) -> f64 {
-    let mut shared: Vec<usize> = chosen.clone().filter_map(|one| one.shared).collect();
-    shared.sort_unstable();
-    shared.dedup();
-    let own = chosen.clone().filter(|one| one.shared.is_none()).count();
-    let sum: f64 = chosen.map(|one| one.cost).sum();
-    sum + (own + shared.len()) as f64 * price
-}
-
-/// Functions that are judged together. The truth is the first. With three channels each they fill two blocks of columns.
-const TOGETHER: usize = 5;
-
-/// The shared inputs of judging all candidates of all materials.
-pub(super) struct Judge {
-    pub rule: RoughRule,
-    pub screen: Screen,
-    /// In stops.
-    pub exposures: Vec<f64>,
-}
-
-/// A function to be judged: its values, and the least cost of its candidates.
-struct Turn<'a> {
-    cost: f64,
-    place: usize,
-    values: &'a [[f64; 3]],
-}
-
-impl Judge {
-    /// The errors in some pixels, by this measure. Candidates with the same values, such as the forms of a method, have the same
-    /// error. `is_enough` says whether, at this error of a candidate, those that cost more may be left out.
-    pub fn errors(
-        &self,
-        judged: &JudgedMaterial,
-        pixels: &[ScenePixel],
-        is_enough: &dyn Fn(&JudgedCandidate, f64) -> bool,
-        measure: impl Fn(&JudgedPixels, &Curve) -> f64 + Sync,
-    ) -> Vec<f64> {
-        let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
-        let (distinct, place_of) = distinct_values(&judged.candidates);
-        let turns = turns(judged, &distinct, &place_of);
-        let mut errors = vec![f64::INFINITY; distinct.len()];
-        let mut enough = f64::INFINITY;
-        let mut seen = None;
-        for batch in turns.chunks(TOGETHER) {
-            if batch[0].cost > enough {
-                break;
-            }
-            let functions: Vec<&[[f64; 3]]> = batch.iter().map(|turn| turn.values).collect();
-            let curves = curves(&functions, &places, &self.rule);
-            let is_first = seen.is_none();
-            let seen: &JudgedPixels = seen.get_or_insert_with(|| {
-                JudgedPixels::new(pixels, &places, &curves[0], &self.screen, &self.exposures)
-            });
-            let from = usize::from(is_first);
-            let error = |i: usize| measure(seen, &curves[from + i]);
-            let found = in_parallel(batch.len() - from, &error, &mut |_, _| {});
-            for (turn, error) in batch[from..].iter().zip(found) {
-                errors[turn.place] = error;
-            }
-            let all = judged.candidates.iter().zip(&place_of);
-            enough = all
-                .filter(|(one, place)| is_enough(one, errors[**place]))
-                .map(|(one, _)| one.candidate.cost)
-                .fold(f64::INFINITY, f64::min);
-        }
-        place_of.iter().map(|place| errors[*place]).collect()
-    }
-}
-
-/// The truth, the shared function that the report compares the plan with, and all others by their cost.
-fn turns<'a>(
-    judged: &'a JudgedMaterial,
-    distinct: &[&'a [[f64; 3]]],
-    place_of: &[usize],
-) -> Vec<Turn<'a>> {
-    let turn = |(place, values): (usize, &&'a [[f64; 3]])| {
-        let all = judged.candidates.iter().zip(place_of);
-        let own = all.filter(|(_, of)| **of == place);
-        let cost = own.map(|(one, _)| {
-            if is_shared(&one.candidate) {
-                f64::NEG_INFINITY
-            } else {
-                one.candidate.cost
-            }
-        });
-        Turn {
-            cost: cost.fold(f64::INFINITY, f64::min),
-            place,
-            values,
-        }
-    };
-    let mut turns: Vec<Turn> = distinct.iter().enumerate().map(turn).collect();
-    turns.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let truth = Turn {
-        cost: f64::NEG_INFINITY,
-        place: 0,
-        values: &judged.truth,
-    };
-    turns.insert(0, truth);
-    turns
-}
-
-/// The distinct values of candidates, and for each candidate its index among them.
-pub(super) fn distinct_values(candidates: &[JudgedCandidate]) -> (Vec<&[[f64; 3]]>, Vec<usize>) {
-    let mut distinct: Vec<&[[f64; 3]]> = Vec::new();
-    let mut places = Vec::new();
-    for one in candidates {
-        let values = &*one.candidate.values;
-        let is_same = |known: &&[[f64; 3]]| std::ptr::eq(*known, values) || *known == values;
-        let known = distinct.iter().position(is_same);
-        places.push(known.unwrap_or(distinct.len()));
-        if known.is_none() {
-            distinct.push(values);
-        }
-    }
-    (distinct, places)
 }
 
 #[cfg(test)]
@@ -289,38 +195,40 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn one(cost: f64, error: f64, name: &str, shared: Option<usize>) -> Choosable {
+    fn one(cost: f64, error: f64, name: &str) -> Choosable {
         Choosable {
             cost,
             error,
             name: name.to_owned(),
-            shared,
+            is_own: true,
+        }
+    }
+
+    fn library(cost: f64, error: f64, name: &str) -> Choosable {
+        Choosable {
+            is_own: false,
+            ..one(cost, error, name)
         }
     }
 
     #[test]
     fn the_cheapest_is_taken_and_ties_fall_to_the_error_then_the_name() {
         let material = vec![
-            one(12.0, 0.5, "schlick", None),
-            one(12.0, 0.4, "z", None),
-            one(12.0, 0.4, "empirical", None),
-            one(22.0, 0.1, "fitted", None),
+            one(12.0, 0.5, "schlick"),
+            one(12.0, 0.4, "z"),
+            one(12.0, 0.4, "empirical"),
+            one(22.0, 0.1, "fitted"),
         ];
-        assert_eq!(choose(&[material], 0.0), [2]);
+        assert_eq!(choose(&[material], 1.0, 0.0), [2]);
     }
 
     #[test]
     fn a_library_function_is_shared_where_functions_have_a_price() {
-        let material = || {
-            vec![
-                one(10.0, 0.1, "own", None),
-                one(14.0, 0.1, "fitted", Some(0)),
-            ]
-        };
+        let material = || vec![one(10.0, 0.1, "own"), library(14.0, 0.1, "fitted")];
         let two = [material(), material()];
-        assert_eq!(choose(&two, 0.0), [0, 0]);
-        assert_eq!(choose(&two, 7.0), [0, 0]);
-        assert_eq!(choose(&two, 9.0), [1, 1]);
+        assert_eq!(choose(&two, 1.0, 0.0), [0, 0]);
+        assert_eq!(choose(&two, 1.0, 7.0), [0, 0]);
+        assert_eq!(choose(&two, 1.0, 9.0), [1, 1]);
         let chosen = [&two[0][1], &two[1][1]];
         assert_eq!(total_cost(chosen.into_iter(), 9.0), 37.0);
     }
@@ -331,7 +239,11 @@ mod tests {
         let named = |functions: Vec<(u8, u8, Option<usize>)>| {
             let each = functions.into_iter().enumerate();
             each.map(|(i, (cost, error, shared))| {
-                one(f64::from(cost), f64::from(error), &i.to_string(), shared)
+                let (cost, error) = (f64::from(cost), f64::from(error));
+                match shared {
+                    None => one(cost, error, &i.to_string()),
+                    Some(place) => library(cost, error, &format!("library {place}")),
+                }
             })
             .collect()
         };
@@ -361,16 +273,16 @@ mod tests {
         best
     }
 
-    /// The cost of the plan for a budget.
+    /// The cost of the plan for a budget, which is the least of all choices within it.
     fn planned(materials: &[Vec<Choosable>], price: f64, budget: f64) -> f64 {
-        let one = |functions: &Vec<Choosable>| -> Vec<Choosable> {
-            let places = within(functions, budget).into_iter();
-            places.map(|place| functions[place].clone()).collect()
-        };
-        let open: Vec<Vec<Choosable>> = materials.iter().map(one).collect();
-        let chosen = open.iter().zip(choose(&open, price));
+        let chosen = materials.iter().zip(choose(materials, budget, price));
         let chosen: Vec<&Choosable> = chosen.map(|(all, i)| &all[i]).collect();
         let total = total_cost(chosen.iter().copied(), price);
+        let open = |functions: &Vec<Choosable>| -> Vec<Choosable> {
+            let within = within(functions, budget).into_iter();
+            within.map(|(_, one)| one.clone()).collect()
+        };
+        let open: Vec<Vec<Choosable>> = materials.iter().map(open).collect();
         assert!((total - least(&open, price)).abs() < 1e-9, "{total}");
         total
     }

@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use super::metric::ScenePixel;
+use super::frame::ScenePixel;
 use crate::generator::reference::cosine_of_part;
 use crate::physics::num::{each_channel, in_parallel};
 use crate::physics::optics::Ggx;

@@ -1,8 +1,14 @@
 //! Scenes that this program draws itself: triangles of several materials in one depth buffer, under light from all around.
 
-use super::metric::{FramePixels, ScenePixel};
+use super::frame::{FramePixels, ScenePixel};
 use super::sky::SceneLight;
 use crate::lab::raster::{Camera, Mesh, SurfacePoint, surface_points_of};
+
+/// The most frames of a scene.
+pub const MOST_FRAMES: usize = 720;
+
+/// Reads a file that a scene names, by its path as the scene states it, or says why it cannot.
+pub type ReadFile<'a> = &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>;
 
 /// How a part of a scene looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,15 +25,17 @@ pub struct SurfaceLook {
     pub is_one_sided: bool,
 }
 
+/// Factors of other light and of coverage at each corner: red, green, blue, alpha, linear.
+pub type Tints = Vec<[f32; 4]>;
+
 /// A scene, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScene {
     mesh: Mesh,
     /// The first triangle of each part that has triangles, in ascending order, and its look.
     parts: Vec<(u32, SurfaceLook)>,
-    /// The factors of a part's other light and coverage at each corner, with the index of the part's first corner. In the order
-    /// of corners; parts without tints are left out.
-    tints: Vec<(usize, Vec<[f32; 4]>)>,
+    /// The tints of a part, with the index of the part's first corner. In the order of corners; parts without tints are left out.
+    tints: Vec<(usize, Tints)>,
     materials: usize,
     light: SceneLight,
 }
@@ -44,27 +52,21 @@ impl DrawnScene {
         }
     }
 
-    /// Adds triangles to the scene.
-    pub fn add(&mut self, mesh: &Mesh, look: SurfaceLook) {
+    /// Adds triangles to the scene, with tints of their corners if they have any.
+    pub fn add(&mut self, mesh: &Mesh, look: SurfaceLook, tints: Option<Tints>) {
         let named = look.material.map_or(0, |material| material + 1);
         self.materials = self.materials.max(named);
         if mesh.triangles.is_empty() {
             return;
         }
+        self.tints
+            .extend(tints.map(|tints| (self.mesh.vertices.len(), tints)));
         let corners = self.mesh.vertices.len() as u32;
         self.parts.push((self.mesh.triangles.len() as u32, look));
         self.mesh.vertices.extend_from_slice(&mesh.vertices);
         let moved = mesh.triangles.iter();
         let moved = moved.map(|triangle| triangle.map(|corner| corners + corner));
         self.mesh.triangles.extend(moved);
-    }
-
-    /// Adds triangles whose other light and coverage vary from corner to corner: red, green, blue, alpha for each, linear.
-    pub fn add_tinted(&mut self, mesh: &Mesh, look: SurfaceLook, tints: Vec<[f32; 4]>) {
-        if !mesh.triangles.is_empty() {
-            self.tints.push((self.mesh.vertices.len(), tints));
-        }
-        self.add(mesh, look);
     }
 
     /// How many triangles it holds.

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::MappedMaterial;
+use super::frame::MappedMaterial;
 use crate::physics::materials::is_hidden;
 use crate::physics::user_text::{FileFault, FileText};
 
@@ -34,21 +34,13 @@ struct RawMaterial {
     material: Spanned<String>,
 }
 
-/// What a pixel with a mapped id shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
-    /// A material, by its index in [`MaterialIds::materials`].
-    Material(usize),
-    /// Nothing that takes part in the plan.
-    Ignored,
-}
-
 /// The materials of a G-buffer, by id.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MaterialIds {
     /// The materials, as the file lists them.
     pub materials: Vec<MappedMaterial>,
-    ids: BTreeMap<u32, Shown>,
+    /// The index of each id's material; `None` where the id takes no part in the plan.
+    ids: BTreeMap<u32, Option<usize>>,
     /// For each material, line and column of its `material`.
     places: Vec<[usize; 2]>,
     file: String,
@@ -58,11 +50,11 @@ impl MaterialIds {
     /// Reads a map of materials. `file` is only for messages.
     ///
     /// ```
-    /// use fresnel_gen::pictures::plan::{MaterialIds, Shown};
+    /// use fresnel_gen::pictures::plan::MaterialIds;
     ///
     /// let text = "[[material]]\nid = 3\nmaterial = \"gold\"\n";
     /// let ids = MaterialIds::parse("scene.toml", text).expect("it is good");
-    /// assert_eq!(ids.shown(3), Some(Shown::Material(0)));
+    /// assert_eq!(ids.material_of(3), Ok(Some(0)));
     /// ```
     ///
     /// # Errors
@@ -84,18 +76,27 @@ impl MaterialIds {
         }
         for (index, material) in listed.iter().enumerate() {
             let material = material.get_ref();
-            ids.enter(&material.id, Shown::Material(index), &place)?;
+            ids.enter(&material.id, Some(index), &place)?;
             ids.take(material, &place)?;
         }
         for id in &raw.ignore {
-            ids.enter(id, Shown::Ignored, &place)?;
+            ids.enter(id, None, &place)?;
         }
         Ok(ids)
     }
 
-    /// What an id shows; `None` where the map lacks it.
-    pub fn shown(&self, id: u32) -> Option<Shown> {
-        self.ids.get(&id).copied()
+    /// The index of an id's material in [`MaterialIds::materials`]; `None` where the id takes no part in the plan.
+    ///
+    /// # Errors
+    /// The map lacks the id; the text says what to add.
+    pub fn material_of(&self, id: u32) -> Result<Option<usize>, String> {
+        let known = self.ids.get(&id).copied();
+        let why = || {
+            format!(
+                "no material has the id {id}; add `[[material]]` with `id = {id}` to the map of materials, or {id} to its `ignore`"
+            )
+        };
+        known.ok_or_else(why)
     }
 
     /// A fault of a material's name or file, at its place in the map.
@@ -115,7 +116,7 @@ impl MaterialIds {
     fn enter(
         &mut self,
         id: &Spanned<i64>,
-        shown: Shown,
+        material: Option<usize>,
         place: &FileText,
     ) -> Result<(), FileFault> {
         let number = *id.get_ref();
@@ -125,10 +126,10 @@ impl MaterialIds {
                 "id {number} is no id; ids are whole numbers from 1 to {}",
                 u32::MAX
             ),
-            Ok(number) => match self.ids.insert(number, shown) {
+            Ok(number) => match self.ids.insert(number, material) {
                 None => return Ok(()),
-                Some(Shown::Ignored) => format!("id {number} stands in `ignore` twice"),
-                Some(Shown::Material(first)) => {
+                Some(None) => format!("id {number} stands in `ignore` twice"),
+                Some(Some(first)) => {
                     let first = &self.materials[first].name;
                     format!("id {number} is that of `{first}` already; an id stands once")
                 }
@@ -200,16 +201,12 @@ mod tests {
             material: material.to_owned(),
         });
         assert_eq!(ids.materials, [statue, brass]);
-        let shown = [1, 4, 7, 9, 0, 2].map(|id| ids.shown(id));
-        let wanted = [
-            Some(Shown::Material(0)),
-            Some(Shown::Material(1)),
-            Some(Shown::Ignored),
-            Some(Shown::Ignored),
-            None,
-            None,
-        ];
-        assert_eq!(shown, wanted);
+        for (id, material) in [(1, Some(0)), (4, Some(1)), (7, None), (9, None)] {
+            assert_eq!(ids.material_of(id), Ok(material), "{id}");
+        }
+        for id in [0, 2] {
+            assert!(ids.material_of(id).is_err(), "{id}");
+        }
         let fault = ids.fault(1, "no such file".to_owned());
         assert_eq!((fault.line, fault.column), (10, 12));
         assert_eq!(fault.file, "scene.toml");

@@ -1,4 +1,4 @@
-//! How far apart two pixels look on a screen, and the pixels of a frame that are compared.
+//! How far apart two pixels look on a screen, and the error of a function in a frame.
 //!
 //! | metric | difference | on screen |
 //! |---|---|---|
@@ -15,8 +15,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::curve::{Curve, PixelPlace};
-use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte, xyz_to_lab};
+use super::frame::ScenePixel;
+use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte, srgb_linear, xyz_to_lab};
 use crate::pictures::scene::Display;
 
 /// A measure of visible difference.
@@ -76,6 +76,8 @@ pub struct Screen {
     display: Display,
     /// The brightest value that it shows; white is 1.
     peak: f64,
+    /// Whether it shows codes of 8 bits alone.
+    is_coded: bool,
     to_xyz: DMat3,
     white: DVec3,
     to_lms: DMat3,
@@ -98,19 +100,40 @@ impl Screen {
             metric,
             display,
             peak,
+            is_coded: false,
             to_xyz: space.rgb_to_xyz(),
             white: space.white(),
             to_lms: lms * Space::Rec2020.xyz_to_rgb() * space.rgb_to_xyz(),
         }
     }
 
-    /// What the screen shows of a radiance, linear, at this many stops of exposure.
-    pub fn shown(&self, radiance: DVec3, stops: f64) -> DVec3 {
+    /// The same screen with codes of 8 bits.
+    #[must_use]
+    pub fn coded(self) -> Screen {
+        Screen {
+            is_coded: true,
+            ..self
+        }
+    }
+
+    /// What the screen shows of a pixel with this reflectance, linear, at this many stops of exposure.
+    pub fn shown(&self, pixel: &ScenePixel, reflectance: [f64; 3], stops: f64) -> DVec3 {
         let brighter = Display {
             exposure: self.display.exposure + stops,
             ..self.display
         };
-        brighter.shown_within(radiance, self.peak)
+        let shown = brighter.shown_within(radiance(pixel, reflectance), self.peak);
+        if self.is_coded {
+            let decoded = |x: f64| srgb_linear(f64::from(srgb_byte(x)) / 255.0);
+            DVec3::from_array(shown.to_array().map(decoded))
+        } else {
+            shown
+        }
+    }
+
+    /// The place of what it shows of a pixel.
+    fn place_of(&self, pixel: &ScenePixel, reflectance: [f64; 3], stops: f64) -> DVec3 {
+        self.place(self.shown(pixel, reflectance, stops))
     }
 
     /// The place of a shown colour in the metric's colour space. [`Screen::difference`] compares two places.
@@ -156,60 +179,51 @@ fn pq(relative: f64) -> f64 {
 }
 
 /// The share of a material's coverage whose differences do not exceed its error.
-pub const SHARE: f64 = 0.999;
+const SHARE: f64 = 0.999;
 /// Below this many pixels the error is the largest difference.
 pub const PERCENTILE_FROM: usize = 1000;
 
 /// The pixels of a material in a frame, with what the exact law shows there.
 pub struct JudgedPixels<'a> {
     pixels: &'a [ScenePixel],
-    places: &'a [PixelPlace],
     screen: &'a Screen,
-    /// For each exposure, what the exact law shows.
+    /// For each exposure in stops, what the exact law shows of each pixel.
     truth: Vec<(f64, Vec<DVec3>)>,
 }
 
+/// From the pairs of difference and coverage of a frame's pixels to the error of the frame.
+pub type ErrorOf = fn(Vec<(f64, f64)>) -> f64;
+
 impl<'a> JudgedPixels<'a> {
-    /// Pixels under these exposures, in stops from the screen's own.
+    /// Pixels under these exposures, in stops from the screen's own. `truth` gives the exact reflectance of each.
     pub fn new(
         pixels: &'a [ScenePixel],
-        places: &'a [PixelPlace],
-        truth: &Curve,
         screen: &'a Screen,
         exposures: &[f64],
+        truth: impl Fn(usize) -> [f64; 3],
     ) -> JudgedPixels<'a> {
-        let seen = |stops: &f64| {
-            let each = pixels.iter().zip(places);
-            let seen = each.map(|(pixel, place)| {
-                screen.place(screen.shown(radiance(pixel, truth.at(place)), *stops))
-            });
-            (*stops, seen.collect())
+        let shown = |stops: &f64| {
+            let each = pixels.iter().enumerate();
+            let shown = each.map(|(i, pixel)| screen.place_of(pixel, truth(i), *stops));
+            (*stops, shown.collect())
         };
         JudgedPixels {
             pixels,
-            places,
             screen,
-            truth: exposures.iter().map(seen).collect(),
+            truth: exposures.iter().map(shown).collect(),
         }
     }
 
-    /// The error of a function in these pixels, at the exposure where it is worst.
-    pub fn error(&self, curve: &Curve) -> f64 {
-        self.worst(curve, &error_of)
-    }
-
-    /// The largest difference that a function makes in these pixels, at the exposure where it is worst.
-    pub fn largest(&self, curve: &Curve) -> f64 {
-        self.worst(curve, &|differences| largest(&differences))
-    }
-
-    fn worst(&self, curve: &Curve, error_of: &dyn Fn(Vec<(f64, f64)>) -> f64) -> f64 {
+    /// The error of a function with these reflectances of the pixels, at the exposure where it is worst.
+    pub fn error(&self, error_of: ErrorOf, reflectance: impl Fn(usize) -> [f64; 3]) -> f64 {
         let of_exposure = |(stops, truth): &(f64, Vec<DVec3>)| {
-            let each = self.pixels.iter().zip(self.places).zip(truth);
-            let differences = each.map(|((pixel, place), truth)| {
-                let shown = self.screen.shown(radiance(pixel, curve.at(place)), *stops);
-                let difference = self.screen.difference(self.screen.place(shown), *truth);
-                (difference, f64::from(pixel.coverage))
+            let each = self.pixels.iter().zip(truth).enumerate();
+            let differences = each.map(|(i, (pixel, truth))| {
+                let place = self.screen.place_of(pixel, reflectance(i), *stops);
+                (
+                    self.screen.difference(place, *truth),
+                    f64::from(pixel.coverage),
+                )
             });
             error_of(differences.collect())
         };
@@ -217,22 +231,22 @@ impl<'a> JudgedPixels<'a> {
     }
 }
 
-/// The error of a frame, from the pairs of difference and coverage of its pixels.
-pub fn error_of(differences: Vec<(f64, f64)>) -> f64 {
+/// The difference that 99.9 % of the coverage does not exceed; the largest of few pixels.
+pub fn percentile(differences: Vec<(f64, f64)>) -> f64 {
     if differences.len() < PERCENTILE_FROM {
-        largest(&differences)
+        largest(differences)
     } else {
         quantile(differences, SHARE)
     }
 }
 
 /// The largest difference, whatever the coverage.
-pub fn largest(differences: &[(f64, f64)]) -> f64 {
+pub fn largest(differences: Vec<(f64, f64)>) -> f64 {
     differences.iter().map(|(e, _)| *e).fold(0.0, f64::max)
 }
 
 /// The radiance that reaches the camera from a pixel: F L + (1 - F) O.
-pub fn radiance(pixel: &ScenePixel, reflectance: [f64; 3]) -> DVec3 {
+fn radiance(pixel: &ScenePixel, reflectance: [f64; 3]) -> DVec3 {
     let channel = |i: usize| {
         let [light, other] = [pixel.light[i], pixel.other[i]].map(f64::from);
         other + reflectance[i] * (light - other)
@@ -241,7 +255,7 @@ pub fn radiance(pixel: &ScenePixel, reflectance: [f64; 3]) -> DVec3 {
 }
 
 /// The smallest value such that the values up to it hold this share of the weight.
-pub fn quantile(mut weighted: Vec<(f64, f64)>, share: f64) -> f64 {
+fn quantile(mut weighted: Vec<(f64, f64)>, share: f64) -> f64 {
     weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
     let whole: f64 = weighted.iter().map(|(_, weight)| weight).sum();
     let mut held = 0.0;
@@ -253,51 +267,6 @@ pub fn quantile(mut weighted: Vec<(f64, f64)>, share: f64) -> f64 {
         }
     }
     weighted.last().map_or(0.0, |(value, _)| *value)
-}
-
-/// A pixel that shows a material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScenePixel {
-    /// Its index in the frame, row by row from the top left.
-    pub place: u32,
-    /// The cosine between the normal and the direction to the camera, in [0, 1].
-    pub cos_theta: f32,
-    /// Perceptual roughness in [0, 1]: α is its square.
-    pub roughness: f32,
-    /// The share of the pixel that the material covers, above 0 to 1.
-    pub coverage: f32,
-    /// Incoming light along the mirrored direction, which F multiplies. It is linear, in the working space, and not negative.
-    pub light: [f32; 3],
-    /// All other light of the pixel, before 1 - F multiplies it: the body's own lit colour, or what is seen through it.
-    pub other: [f32; 3],
-}
-
-/// The pixels of a frame, by material, whichever renderer drew them.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FramePixels {
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// The pixels of each material, in the order of the scene's materials; each in scan order.
-    pub of_material: Vec<Vec<ScenePixel>>,
-}
-
-impl FramePixels {
-    /// A frame of this many materials that shows nothing yet.
-    pub fn new(size: [u32; 2], materials: usize) -> FramePixels {
-        FramePixels {
-            size,
-            of_material: vec![Vec::new(); materials],
-        }
-    }
-}
-
-/// A material of a scene, and the catalogue material that stands for it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct MappedMaterial {
-    /// What the scene calls it.
-    pub name: String,
-    /// A name of the catalogue, or the path of a material's file as the scene's file states it.
-    pub material: String,
 }
 
 #[cfg(test)]
@@ -315,8 +284,8 @@ mod tests {
 
     fn apart(metric: Metric, one: [f64; 3], other: [f64; 3]) -> f64 {
         let screen = screen(metric);
-        let [one, other] =
-            [one, other].map(|rgb| screen.place(screen.shown(DVec3::from(rgb), 0.0)));
+        let place = |rgb| screen.place_of(&ScenePixel::MIRROR_IN_WHITE, rgb, 0.0);
+        let [one, other] = [one, other].map(place);
         screen.difference(one, other)
     }
 
@@ -346,11 +315,6 @@ mod tests {
         // L* of .5 and .52 is 76.069 and 77.279; see CIEDE2000's lightness weight.
         assert!((apart(Metric::De2000, [0.5; 3], [0.52; 3]) - 0.864).abs() < 0.01);
     }
-}
-
-#[cfg(test)]
-mod picture_error_tests {
-    use super::*;
 
     #[test]
     fn the_quantile_is_that_of_the_nearest_rank() {

@@ -1,46 +1,20 @@
 //! The plan: the candidates of every material judged in every frame, and the choice among them.
 
 use super::candidate::{Candidate, Prices, candidates};
-use super::choice::{Choosable, Judge, choose, within};
-use super::curve::{RoughRule, step_cosines};
-use super::metric::{FramePixels, PERCENTILE_FROM, ScenePixel, Screen};
-use super::request::PlanRequest;
+use super::choice::{Choosable, choose};
+use super::curve::step_cosines;
+use super::frame::{FramePixels, ScenePixel};
+use super::judge::{Judge, rounded_error};
+use super::metric::{PERCENTILE_FROM, largest, percentile};
+use super::request::{PlanRequest, PlannedMaterial};
 use crate::generator::emit;
-use crate::generator::reference::MaterialInMedium;
 
-/// Errors are compared and printed in this many parts of 1. The rounding of single precision is far below that.
-const ERROR_PARTS: f64 = 1e4;
 /// The stride in steps of angle where a material is judged at every angle: .7 degrees.
 const EVERY: usize = 64;
 /// How many pixels are sampled for the light there.
 const SAMPLED: usize = 256;
 /// The degrees of a right angle.
 pub(super) const DEGREES: usize = 90;
-
-/// A material of the scene.
-#[derive(Clone, Debug)]
-pub struct PlannedMaterial {
-    /// The name or path by which a user names it.
-    pub argument: String,
-    /// The scene's names for it, each once.
-    pub names: Vec<String>,
-    /// The material.
-    pub subject: MaterialInMedium,
-    /// Whether it has no file that a function could be specialised to.
-    pub is_library_only: bool,
-}
-
-/// A candidate with its error in the frames.
-#[derive(Clone, Debug)]
-pub struct JudgedCandidate {
-    /// The function.
-    pub candidate: Candidate,
-    /// The error in the frame where it is worst. It is infinite if it was not judged because a cheaper candidate is within the
-    /// budget.
-    pub error: f64,
-    /// That frame, from 0.
-    pub worst_frame: usize,
-}
 
 /// How a material's error was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +33,7 @@ pub struct JudgedMaterial {
     /// The material.
     pub material: PlannedMaterial,
     /// Its candidates.
-    pub candidates: Vec<JudgedCandidate>,
+    pub candidates: Vec<Candidate>,
     /// The index of the chosen candidate.
     pub chosen: usize,
     /// How errors were found.
@@ -74,6 +48,37 @@ pub struct JudgedMaterial {
     pub cost_exact: Option<f64>,
     /// The reference that functions are compared with, at [`step_cosines`].
     pub truth: Vec<[f64; 3]>,
+}
+
+impl JudgedMaterial {
+    /// The chosen candidate.
+    pub fn chosen(&self) -> &Candidate {
+        &self.candidates[self.chosen]
+    }
+
+    /// The candidates that cost less than the chosen one, the most accurate first.
+    pub(super) fn cheaper(&self) -> Vec<&Candidate> {
+        let most = self.chosen().cost;
+        let all = self.candidates.iter();
+        let mut cheaper: Vec<_> = all.filter(|one| one.cost < most).collect();
+        cheaper.sort_by(|a, b| {
+            let by_name = || a.name().cmp(&b.name());
+            a.error.total_cmp(&b.error).then_with(by_name)
+        });
+        cheaper
+    }
+}
+
+impl Candidate {
+    /// The candidate for the choice, if so many pixels of a frame show its material.
+    pub(super) fn choosable(&self, pixels: f64) -> Choosable {
+        Choosable {
+            cost: self.cost * pixels,
+            error: self.error,
+            name: self.name(),
+            is_own: self.is_specialised(),
+        }
+    }
 }
 
 /// Why there is no plan.
@@ -109,43 +114,48 @@ pub fn plan<E>(
     frame: &mut dyn FnMut(usize) -> Result<FramePixels, E>,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<JudgedMaterial>, PlanFault<E>> {
-    let judge = Judge {
-        rule: RoughRule::new(),
-        screen: Screen::new(request.metric, request.display, request.space),
-        exposures: request.exposures(),
-    };
+    let judge = Judge::new(request);
     let prices = Prices::of(request);
-    let mut seen = materials
+    let mut so_far = materials
         .into_iter()
-        .map(|material| Seen::new(request, &prices, material).map_err(PlanFault::Function))
-        .collect::<Result<Vec<Seen>, _>>()?;
-    if let Some(without) = seen.iter().find(|seen| seen.judged.candidates.is_empty()) {
+        .map(|material| JudgedSoFar::new(request, &prices, material).map_err(PlanFault::Function))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut all = so_far.iter().map(|one| &one.judged);
+    if let Some(without) = all.find(|judged| judged.candidates.is_empty()) {
         return Err(PlanFault::NoCost {
-            material: without.judged.material.subject.name.clone(),
+            material: without.material.subject.name.clone(),
             gpu: request.family.name,
         });
     }
     for index in 0..frames {
         let pixels = frame(index).map_err(PlanFault::Frame)?;
-        for (seen, pixels) in seen.iter_mut().zip(&pixels.of_material) {
-            seen.enter(request, [index, frames], pixels, &judge);
+        for (material, pixels) in so_far.iter_mut().zip(&pixels.of_material) {
+            material.enter(request, [index, frames], pixels, &judge);
         }
         progress(index as u64 + 1, frames as u64);
     }
-    let mut judged: Vec<JudgedMaterial> = seen
+    let mut judged: Vec<JudgedMaterial> = so_far
         .into_iter()
-        .map(|seen| seen.judged(request, &judge))
+        .map(|material| material.judged(request, &judge))
         .collect();
-    let (places, functions) = choosable(&judged, request.budget, frames);
-    let choice = choose(&functions, request.price);
-    for ((material, chosen), places) in judged.iter_mut().zip(choice).zip(&places) {
-        material.chosen = places[chosen];
+    let functions = judged.iter().map(|material| {
+        let pixels = material.pixels.max(1) as f64 / frames.max(1) as f64;
+        let all = material.candidates.iter();
+        all.map(|one| one.choosable(pixels)).collect()
+    });
+    let choice = choose(
+        &functions.collect::<Vec<_>>(),
+        request.budget,
+        request.price,
+    );
+    for (material, chosen) in judged.iter_mut().zip(choice) {
+        material.chosen = chosen;
     }
     Ok(judged)
 }
 
-/// The state of a material while frames are judged.
-struct Seen {
+/// A material while frames are judged.
+struct JudgedSoFar {
     judged: JudgedMaterial,
     /// The most pixels that any frame shows.
     most: usize,
@@ -153,22 +163,16 @@ struct Seen {
     sample: Sample,
 }
 
-impl Seen {
+impl JudgedSoFar {
     fn new(
         request: &PlanRequest,
         prices: &Prices,
         material: PlannedMaterial,
-    ) -> Result<Seen, emit::Error> {
+    ) -> Result<JudgedSoFar, emit::Error> {
         let subject = &material.subject;
-        let found = candidates(subject, material.is_library_only, &request.methods, prices)?;
-        let judged = |candidate: Candidate| JudgedCandidate {
-            candidate,
-            error: 0.0,
-            worst_frame: 0,
-        };
-        Ok(Seen {
+        Ok(JudgedSoFar {
             judged: JudgedMaterial {
-                candidates: found.into_iter().map(judged).collect(),
+                candidates: candidates(&material, prices)?,
                 chosen: 0,
                 judgement: Judgement::Percentile,
                 frames: 0,
@@ -206,55 +210,43 @@ impl Seen {
         if is_by_angles && frames == 1 {
             return;
         }
-        let judged = &mut self.judged;
+        let JudgedMaterial {
+            candidates, truth, ..
+        } = &mut self.judged;
         let is_last = index + 1 == frames && !is_by_angles;
-        let is_enough = |found: &JudgedCandidate, error: f64| {
-            is_last && request.is_enough(error.max(found.error))
-        };
-        let errors = judge.errors(judged, pixels, &is_enough, |pixels, curve| {
-            pixels.error(curve)
-        });
-        for (found, error) in judged.candidates.iter_mut().zip(errors) {
-            if error > found.error {
-                (found.error, found.worst_frame) = (error, index);
+        let errors = judge.errors(candidates, truth, pixels, is_last, percentile);
+        for (candidate, error) in candidates.iter_mut().zip(errors) {
+            if error > candidate.error {
+                (candidate.error, candidate.worst_frame) = (error, index);
             }
         }
     }
 
     /// The final result, when all frames have been judged.
     fn judged(mut self, request: &PlanRequest, judge: &Judge) -> JudgedMaterial {
-        self.judged.judgement = match self.most {
+        let JudgedMaterial {
+            candidates,
+            truth,
+            judgement,
+            ..
+        } = &mut self.judged;
+        *judgement = match self.most {
             most if most < request.min_pixels => Judgement::EveryAngle,
             most if most < PERCENTILE_FROM => Judgement::Largest,
             _ => Judgement::Percentile,
         };
-        if self.judged.judgement == Judgement::EveryAngle {
+        if *judgement == Judgement::EveryAngle {
+            candidates.iter_mut().for_each(|one| one.error = 0.0);
             let pixels = every_angle(&self.sample.pixels);
-            let is_enough = |_: &JudgedCandidate, error: f64| request.is_enough(error);
-            let errors = judge.errors(&self.judged, &pixels, &is_enough, |pixels, curve| {
-                pixels.largest(curve)
-            });
-            for (found, error) in self.judged.candidates.iter_mut().zip(errors) {
-                found.error = error;
+            let errors = judge.errors(candidates, truth, &pixels, true, largest);
+            for (candidate, error) in candidates.iter_mut().zip(errors) {
+                candidate.error = error;
             }
         }
-        for found in &mut self.judged.candidates {
-            found.error = rounded_error(found.error);
+        for candidate in candidates {
+            candidate.error = rounded_error(candidate.error);
         }
         self.judged
-    }
-}
-
-/// An error rounded as it is compared and printed.
-fn rounded_error(error: f64) -> f64 {
-    (error * ERROR_PARTS).round() / ERROR_PARTS
-}
-
-impl PlanRequest {
-    /// Whether a candidate with this error makes it needless to judge those that cost more. This holds only where functions have
-    /// no price: with a price, a more expensive one may pay off by being shared.
-    fn is_enough(&self, error: f64) -> bool {
-        self.price == 0.0 && rounded_error(error) <= self.budget
     }
 }
 
@@ -290,20 +282,10 @@ impl Sample {
     }
 }
 
-/// A mirror seen straight on in white light.
-const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
-    place: 0,
-    cos_theta: 1.0,
-    roughness: 0.0,
-    coverage: 1.0,
-    light: [1.0; 3],
-    other: [0.0; 3],
-};
-
 /// Each of these pixels at each angle; a mirror in white light where there are none.
 fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
     let pixels = match pixels {
-        [] => &[MIRROR_IN_WHITE],
+        [] => &[ScenePixel::MIRROR_IN_WHITE],
         some => some,
     };
     let cosines: Vec<f64> = step_cosines().into_iter().step_by(EVERY).collect();
@@ -316,49 +298,13 @@ fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
         .collect()
 }
 
-/// For each material, the indices of the candidates within the budget, and their costs.
-fn choosable(
-    judged: &[JudgedMaterial],
-    budget: f64,
-    frames: usize,
-) -> (Vec<Vec<usize>>, Vec<Vec<Choosable>>) {
-    let mut shared: Vec<String> = Vec::new();
-    let mut of_material = |material: &JudgedMaterial| {
-        let pixels = material.pixels.max(1) as f64 / frames.max(1) as f64;
-        let one = |found: &JudgedCandidate| {
-            let name = found.candidate.name();
-            let is_own = found.candidate.is_specialised();
-            Choosable {
-                cost: found.candidate.cost * pixels,
-                error: found.error,
-                shared: (!is_own).then(|| place_of(&mut shared, &name)),
-                name,
-            }
-        };
-        let all: Vec<Choosable> = material.candidates.iter().map(one).collect();
-        let places = within(&all, budget);
-        let open = places.iter().map(|place| all[*place].clone()).collect();
-        (places, open)
-    };
-    judged.iter().map(&mut of_material).unzip()
-}
-
-/// The index of a name in a list. A new name is appended.
-fn place_of(names: &mut Vec<String>, name: &str) -> usize {
-    let found = names.iter().position(|known| known == name);
-    found.unwrap_or_else(|| {
-        names.push(name.to_owned());
-        names.len() - 1
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::choice::distinct_values;
+    use super::super::judge::distinct_functions;
     use super::super::metric::Metric;
     use super::super::request::PlanTruth;
     use super::*;
-    use crate::generator::reference::Derivation;
+    use crate::generator::reference::{Derivation, MaterialInMedium};
     use crate::lab::cost;
     use crate::language::methods;
     use crate::physics::materials::{self, ViewingConditions};
@@ -428,7 +374,7 @@ mod tests {
     }
 
     fn error(judged: &JudgedMaterial, method: &str) -> f64 {
-        let is_it = |one: &&JudgedCandidate| one.candidate.name() == method;
+        let is_it = |one: &&Candidate| one.name() == method;
         judged.candidates.iter().find(is_it).unwrap().error
     }
 
@@ -448,16 +394,15 @@ mod tests {
     #[test]
     fn what_has_the_same_values_is_judged_once() {
         let request = request(1.0);
-        let seen = Seen::new(&request, &Prices::of(&request), gold()).unwrap();
-        let candidates = &seen.judged.candidates;
-        let (distinct, places) = distinct_values(candidates);
-        for (one, place) in candidates.iter().zip(&places) {
-            assert_eq!(*one.candidate.values, *distinct[*place]);
+        let candidates = candidates(&gold(), &Prices::of(&request)).unwrap();
+        let distinct = distinct_functions(&candidates);
+        for function in &distinct {
+            for place in &function.candidates {
+                assert_eq!(*candidates[*place].values, *function.values);
+            }
         }
-        let methods: std::collections::BTreeSet<&str> = candidates
-            .iter()
-            .map(|one| one.candidate.method.name)
-            .collect();
+        let methods = candidates.iter().map(|one| one.method.name);
+        let methods: std::collections::BTreeSet<&str> = methods.collect();
         assert!(candidates.len() > distinct.len());
         assert!(distinct.len() <= methods.len(), "{}", distinct.len());
     }
@@ -469,10 +414,10 @@ mod tests {
         assert!((error(&white, "schlick_spherical_gaussian") - 1.82).abs() < 0.02);
         assert!((error(&white, "schlick") - 1.78).abs() < 0.02);
         assert!((error(&white, "fitted") - 0.14).abs() < 0.007);
-        assert_eq!(white.chosen().candidate.name(), "fitted");
+        assert_eq!(white.chosen().name(), "fitted");
         let dim = judged(&request(1.0), sphere(512, [0.05, 0.04, 0.0275]));
         assert!((error(&dim, "schlick_spherical_gaussian") - 0.61).abs() < 0.01);
-        assert_eq!(dim.chosen().candidate.name(), "schlick_spherical_gaussian");
+        assert_eq!(dim.chosen().name(), "schlick_spherical_gaussian");
     }
 
     /// Candidates that cost more than the cheapest within the budget are not judged, and the report stays the same. With a price

@@ -4,14 +4,13 @@
 //! numbers is compared with the budget in the plan's metric, once as it is and once in 8-bit codes. The numbers themselves are
 //! compared with the function's exact meaning in f64; the limit is its promised code bound. These are two different errors.
 
-use glam::DVec3;
+use serde::Serialize;
 
-use super::candidate::Candidate;
 use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
-use super::metric::{Metric, ScenePixel, Screen, error_of, radiance};
-use super::planned::JudgedMaterial;
+use super::frame::{FramePixels, ScenePixel};
+use super::metric::{JudgedPixels, Metric, Screen, largest, percentile};
+use super::planned::{JudgedMaterial, PlanFault};
 use super::request::PlanRequest;
-use super::row::Proof;
 use crate::generator::emit::{
     self, Bounds, CodeBound, EmittedFunction, HeaderForm, Heading, Naming, library_functions,
     specialised_function,
@@ -22,47 +21,71 @@ use crate::lab::gpu::Wanted;
 use crate::lab::verify::run::{Devices, ExecutionPath, ShippedFunction};
 use crate::lab::verify::{Status, Trial, material_trial};
 use crate::language::targets::{GLES, Target, WGSL};
-use crate::physics::spectra::{srgb_byte, srgb_linear};
 
 /// The targets whose text is run.
 const TARGETS: [&Target; 2] = [&WGSL, &GLES];
 
-/// The function of a material and the pixels that it is held to.
-pub struct ProofCase<'a> {
-    /// What was found for the material.
-    pub judged: &'a JudgedMaterial,
-    /// Its pixels in the frame where the chosen function is worst.
-    pub pixels: &'a [ScenePixel],
+/// The result of running a function's text.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Proof {
+    /// The material, as a user names it.
+    pub material: String,
+    /// The target language.
+    pub target: &'static str,
+    /// The function that was called.
+    pub function: String,
+    /// The frame, from 0.
+    pub frame: usize,
+    /// At how many cosines the function was run.
+    pub points: usize,
+    /// The error of the picture, in the plan's metric.
+    pub error: Option<f64>,
+    /// The error between both pictures in 8-bit codes; `None` for screens of high dynamic range.
+    pub error_8bit: Option<f64>,
+    /// The largest difference in 8-bit codes.
+    pub codes: Option<u8>,
+    /// The largest absolute difference from the function's exact meaning in f64.
+    pub code_abs: Option<f64>,
+    /// Whether that is within the function's promised bound.
+    pub is_within_code_bound: Option<bool>,
+    /// Whether the picture is within the budget and the numbers within the bound.
+    pub status: Status,
+    /// Why it was not checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
-/// Runs the chosen functions of these materials.
+/// Runs the chosen functions of these materials, each in the frame where it is worst. Also returns the name of the device, if
+/// there is one.
 ///
 /// # Errors
-/// A function cannot be written: a bug.
-pub fn prove(
+/// A frame cannot be read or drawn. Or a function cannot be written: a bug.
+pub fn prove<E>(
     request: &PlanRequest,
-    cases: &[ProofCase],
+    judged: &[JudgedMaterial],
+    frame: &mut dyn FnMut(usize) -> Result<FramePixels, E>,
     progress: &mut dyn FnMut(u64, u64),
-) -> Result<(Option<String>, Vec<Proof>), emit::Error> {
+) -> Result<(Option<String>, Vec<Proof>), PlanFault<E>> {
     let devices = Devices::new(Wanted::default());
     let mut proofs = Vec::new();
-    let whole = cases.len() * TARGETS.len();
-    for case in cases {
-        let written = Written::new(request, case.judged)?;
+    let whole = judged.len() * TARGETS.len();
+    for (i, judged) in judged.iter().enumerate() {
+        let frame = frame(judged.chosen().worst_frame).map_err(PlanFault::Frame)?;
+        let written = Written::new(request, judged).map_err(PlanFault::Function)?;
         for target in TARGETS {
-            proofs.push(written.proof(request, case, target, &devices)?);
+            let proof = written.proof(target, &frame.of_material[i], &devices);
+            proofs.push(proof.map_err(PlanFault::Function)?);
             progress(proofs.len() as u64, whole as u64);
         }
     }
-    let device = devices
-        .compute()
-        .ok()
-        .map(|device| device.adapter.to_string());
-    Ok((device, proofs))
+    let device = devices.compute().ok();
+    Ok((device.map(|device| device.adapter.to_string()), proofs))
 }
 
 /// The chosen function as it is written to a file.
-struct Written {
+struct Written<'a> {
+    request: &'a PlanRequest,
+    judged: &'a JudgedMaterial,
     functions: Vec<EmittedFunction>,
     /// The index of the function that is called.
     called: usize,
@@ -70,28 +93,38 @@ struct Written {
     trial: Trial,
 }
 
-impl Written {
-    fn new(request: &PlanRequest, judged: &JudgedMaterial) -> Result<Written, emit::Error> {
-        let Candidate { method, form, .. } = judged.chosen().candidate;
+impl<'a> Written<'a> {
+    fn new(
+        request: &'a PlanRequest,
+        judged: &'a JudgedMaterial,
+    ) -> Result<Written<'a>, emit::Error> {
+        let chosen = judged.chosen();
         let subject = &judged.material.subject;
         let naming = Naming {
             precision: request.precision,
             ..Naming::default()
         };
-        let functions = if judged.chosen().candidate.is_specialised() {
+        let functions = if chosen.is_specialised() {
             let bounds = Bounds::recorded();
-            vec![specialised_function(method, subject, &naming, &bounds)?]
+            vec![specialised_function(
+                chosen.method,
+                subject,
+                &naming,
+                &bounds,
+            )?]
         } else {
-            library_functions(method, &naming)?
+            library_functions(chosen.method, &naming)?
         };
-        let called = functions.iter().position(|one| one.form == form);
+        let called = functions.iter().position(|one| one.form == chosen.form);
         let called = called.expect("a candidate's form is one of its method's");
         let mut trial = material_trial(subject, &functions[called]);
-        if judged.chosen().candidate.channels() == 1 {
+        if chosen.channels() == 1 {
             // The green channel stands for all three.
             trial.values = trial.values.iter().map(|value| [value[1]; 3]).collect();
         }
         Ok(Written {
+            request,
+            judged,
             functions,
             called,
             naming,
@@ -100,46 +133,37 @@ impl Written {
     }
 
     /// The text of the file that holds the function.
-    fn bytes(
-        &self,
-        judged: &JudgedMaterial,
-        target: &'static Target,
-    ) -> Result<Vec<u8>, emit::Error> {
+    fn bytes(&self, target: &'static Target) -> Result<Vec<u8>, emit::Error> {
         let heading = Heading {
             form: HeaderForm::Short,
             command: "fresnel-gen --plan plan.json",
         };
-        let subject = &judged.material.subject;
-        let files = if judged.chosen().candidate.is_specialised() {
+        let (subject, chosen) = (&self.judged.material.subject, self.judged.chosen());
+        let files = if chosen.is_specialised() {
             emit::material(target, subject, &self.functions, &self.naming, heading)?
         } else {
-            let method = judged.chosen().candidate.method;
-            emit::library(target, method, &self.functions, heading)?
+            emit::library(target, chosen.method, &self.functions, heading)?
         };
-        Ok(files
-            .into_iter()
-            .next()
-            .map(|file| file.bytes)
-            .unwrap_or_default())
+        let first = files.into_iter().next();
+        Ok(first.map(|file| file.bytes).unwrap_or_default())
     }
 
     fn proof(
         &self,
-        request: &PlanRequest,
-        case: &ProofCase,
         target: &'static Target,
+        pixels: &[ScenePixel],
         devices: &Devices,
     ) -> Result<Proof, emit::Error> {
-        let bytes = self.bytes(case.judged, target)?;
+        let bytes = self.bytes(target)?;
         let called = &self.functions[self.called];
         let mut cosines: Vec<f32> = step_cosines().iter().map(|c| *c as f32).collect();
         let steps = cosines.len();
-        cosines.extend(case.pixels.iter().map(|pixel| pixel.cos_theta));
+        cosines.extend(pixels.iter().map(|pixel| pixel.cos_theta));
         let mut proof = Proof {
-            material: case.judged.material.argument.clone(),
+            material: self.judged.material.argument.clone(),
             target: target.name,
             function: called.name.clone(),
-            frame: case.judged.chosen().worst_frame,
+            frame: self.judged.chosen().worst_frame,
             points: cosines.len(),
             error: None,
             error_8bit: None,
@@ -160,13 +184,13 @@ impl Written {
             .and_then(|runnable| runnable.run(&self.trial, &cosines));
         match ran {
             Ok(got) => {
-                let picture = Picture::new(request, case, &got[..steps], &got[steps..]);
-                let error = picture.error();
+                let got_parts = got.split_at(steps).into();
+                let picture = picture_errors(self.request, &self.judged.truth, pixels, got_parts);
                 let (code_abs, is_within) = self.code_error(&cosines, &got);
-                let holds = is_within && error <= request.budget + SLACK;
-                proof.error = Some(error);
-                proof.error_8bit = (request.metric != Metric::Itp).then(|| picture.error_8bit());
-                proof.codes = Some(picture.codes());
+                let holds = is_within && picture.error <= self.request.budget + SLACK;
+                proof.error = Some(picture.error);
+                proof.error_8bit = picture.error_8bit;
+                proof.codes = Some(picture.codes);
                 proof.code_abs = Some(code_abs);
                 proof.is_within_code_bound = Some(is_within);
                 proof.status = if holds { Status::Pass } else { Status::Fail };
@@ -199,84 +223,46 @@ impl Written {
 /// The last digit of an error that is printed with four.
 const SLACK: f64 = 5e-5;
 
-/// Both pictures of a material.
-struct Picture<'a> {
-    pixels: &'a [ScenePixel],
-    screen: Screen,
-    exposures: Vec<f64>,
-    places: Vec<PixelPlace>,
-    truth: Curve<'a>,
-    /// The reflectance of every pixel, as the device computed it.
-    got: Vec<[f64; 3]>,
+/// Errors of a picture, in the plan's metric.
+struct PictureErrors {
+    error: f64,
+    /// The error where both pictures are in 8-bit codes.
+    error_8bit: Option<f64>,
+    /// The largest difference in 8-bit codes.
+    codes: u8,
 }
 
-impl<'a> Picture<'a> {
-    fn new(
-        request: &PlanRequest,
-        case: &ProofCase<'a>,
-        steps: &[[f32; 3]],
-        pixels: &[[f32; 3]],
-    ) -> Picture<'a> {
-        let places: Vec<PixelPlace> = case.pixels.iter().map(PixelPlace::of).collect();
-        let rule = RoughRule::new();
-        let wide = |value: &[f32; 3]| value.map(f64::from);
-        let steps: Vec<[f64; 3]> = steps.iter().map(wide).collect();
-        let curve = Curve::new(&steps, &places, &rule);
-        // A mirror takes the value at its own cosine. A rough surface takes the mean over half vectors.
-        let value = |(i, place): (usize, &PixelPlace)| {
-            if case.pixels[i].roughness > 0.0 {
-                curve.at(place)
-            } else {
-                wide(&pixels[i])
-            }
-        };
-        Picture {
-            pixels: case.pixels,
-            screen: Screen::new(request.metric, request.display, request.space),
-            exposures: request.exposures(),
-            got: places.iter().enumerate().map(value).collect(),
-            truth: Curve::new(&case.judged.truth, &places, &rule),
-            places,
+/// The errors of a material's picture, from what the device computed at each step of a table, and at each pixel.
+fn picture_errors(
+    request: &PlanRequest,
+    truth: &[[f64; 3]],
+    pixels: &[ScenePixel],
+    [steps, got]: [&[[f32; 3]]; 2],
+) -> PictureErrors {
+    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
+    let rule = RoughRule::new();
+    let wide = |value: &[f32; 3]| value.map(f64::from);
+    let steps: Vec<[f64; 3]> = steps.iter().map(wide).collect();
+    let curve = Curve::new(&steps, &places, &rule);
+    let truth = Curve::new(truth, &places, &rule);
+    // A mirror takes the value at its own cosine. A rough surface takes the mean over half vectors.
+    let value = |i: usize| {
+        if pixels[i].roughness > 0.0 {
+            curve.at(&places[i])
+        } else {
+            wide(&got[i])
         }
-    }
-
-    /// The pixels as the screen shows them at this many stops of exposure: from the device, and by the exact law.
-    fn shown(&self, stops: f64) -> impl Iterator<Item = [DVec3; 2]> {
-        (0..self.pixels.len()).map(move |i| {
-            let truth = self.truth.at(&self.places[i]);
-            let shown = |value| self.screen.shown(radiance(&self.pixels[i], value), stops);
-            [self.got[i], truth].map(shown)
-        })
-    }
-
-    fn error(&self) -> f64 {
-        self.error_of(&|shown| shown)
-    }
-
-    fn error_8bit(&self) -> f64 {
-        let linear = |x: f64| srgb_linear(f64::from(srgb_byte(x)) / 255.0);
-        self.error_of(&|shown: DVec3| DVec3::from_array(shown.to_array().map(linear)))
-    }
-
-    /// The error at the exposure where it is worst.
-    fn error_of(&self, coded: &dyn Fn(DVec3) -> DVec3) -> f64 {
-        let of_exposure = |stops: &f64| {
-            let differences = self.shown(*stops).zip(self.pixels);
-            let differences = differences.map(|(pair, pixel)| {
-                let [got, truth] = pair.map(|shown| self.screen.place(coded(shown)));
-                let difference = self.screen.difference(got, truth);
-                (difference, f64::from(pixel.coverage))
-            });
-            error_of(differences.collect())
-        };
-        self.exposures.iter().map(of_exposure).fold(0.0, f64::max)
-    }
-
-    fn codes(&self) -> u8 {
-        let apart = |[got, truth]: [DVec3; 2]| {
-            let [got, truth] = [got, truth].map(|shown| shown.to_array().map(srgb_byte));
-            (0..3).map(|c| got[c].abs_diff(truth[c])).fold(0, u8::max)
-        };
-        self.shown(0.0).map(apart).fold(0, u8::max)
+    };
+    let error = |screen: &Screen, exposures: &[f64], error_of| {
+        let exact = |i: usize| truth.at(&places[i]);
+        JudgedPixels::new(pixels, screen, exposures, exact).error(error_of, value)
+    };
+    let (screen, exposures) = (request.screen(), request.exposures());
+    let codes = Screen::new(Metric::Code8, request.display, request.space);
+    PictureErrors {
+        error: error(&screen, &exposures, percentile),
+        error_8bit: (request.metric != Metric::Itp)
+            .then(|| error(&screen.coded(), &exposures, percentile)),
+        codes: error(&codes, &[0.0], largest) as u8,
     }
 }

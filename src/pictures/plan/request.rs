@@ -1,7 +1,7 @@
 //! The settings of a plan.
 
 use super::curve::step_cosines;
-use super::metric::Metric;
+use super::metric::{Metric, Screen};
 use crate::generator::reference::{MaterialInMedium, ReferenceCurve};
 use crate::lab::cost::Family;
 use crate::language::methods::{Light, Method};
@@ -14,6 +14,19 @@ use crate::pictures::scene::Display;
 const TOGETHER: usize = 256;
 /// The largest step between exposures of a range, in stops.
 const STOPS: f64 = 1.0;
+
+/// A material of the scene.
+#[derive(Clone, Debug)]
+pub struct PlannedMaterial {
+    /// The name or path by which a user names it.
+    pub argument: String,
+    /// The scene's names for it, each once.
+    pub names: Vec<String>,
+    /// The material.
+    pub subject: MaterialInMedium,
+    /// Whether it has no file that a function could be specialised to.
+    pub is_library_only: bool,
+}
 
 /// The settings of a plan: its budget, its metric and its candidates.
 #[derive(Clone, Debug)]
@@ -89,6 +102,11 @@ impl PlanTruth {
 }
 
 impl PlanRequest {
+    /// The screen that shows the pictures.
+    pub(super) fn screen(&self) -> Screen {
+        Screen::new(self.metric, self.display, self.space)
+    }
+
     /// The exposures that are judged, in stops.
     pub(super) fn exposures(&self) -> Vec<f64> {
         let range = self.exposure_range;

@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::candidate::Candidate;
+use super::candidate::SHARED;
 use super::choice::{Choosable, total_cost};
-use super::planned::{JudgedCandidate, JudgedMaterial, Judgement};
+use super::planned::{JudgedMaterial, Judgement};
 use super::request::PlanRequest;
 use crate::generator::emit::FunctionForm;
 use crate::generator::fit::values_for_material_in;
 use crate::lab::cost::CostBasis;
-use crate::lab::verify::Status;
 use crate::physics::num::Precision;
 
 /// The function that a material gets.
@@ -99,36 +98,6 @@ pub struct SharedFunction {
     pub error: f64,
 }
 
-/// The result of running a function's text.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Proof {
-    /// The material, as a user names it.
-    pub material: String,
-    /// The target language.
-    pub target: &'static str,
-    /// The function that was called.
-    pub function: String,
-    /// The frame, from 0.
-    pub frame: usize,
-    /// At how many cosines the function was run.
-    pub points: usize,
-    /// The error of the picture, in the plan's metric.
-    pub error: Option<f64>,
-    /// The error between both pictures in 8-bit codes; `None` for screens of high dynamic range.
-    pub error_8bit: Option<f64>,
-    /// The largest difference in 8-bit codes.
-    pub codes: Option<u8>,
-    /// The largest absolute difference from the function's exact meaning in f64.
-    pub code_abs: Option<f64>,
-    /// Whether that is within the function's promised bound.
-    pub is_within_code_bound: Option<bool>,
-    /// Whether the picture is within the budget and the numbers within the bound.
-    pub status: Status,
-    /// Why it was not checked.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-}
-
 /// A plan file, read back: the functions that it consists of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PlanFile {
@@ -157,9 +126,6 @@ pub struct PlanFileRow {
     pub precision: Precision,
 }
 
-/// The library function that every plan is compared with: it suits every material.
-const SHARED: &str = "fitted";
-
 impl Judgement {
     /// The name in reports.
     pub fn name(self) -> &'static str {
@@ -172,60 +138,42 @@ impl Judgement {
 }
 
 impl JudgedMaterial {
-    /// The chosen candidate.
-    pub fn chosen(&self) -> &JudgedCandidate {
-        &self.candidates[self.chosen]
-    }
-
-    /// The candidates that cost less than the chosen one, the most accurate first.
-    pub fn cheaper(&self) -> Vec<&JudgedCandidate> {
-        let most = self.chosen().candidate.cost;
-        let all = self.candidates.iter();
-        let mut cheaper: Vec<_> = all.filter(|one| one.candidate.cost < most).collect();
-        cheaper.sort_by(|a, b| {
-            let by_name = || a.candidate.name().cmp(&b.candidate.name());
-            a.error.total_cmp(&b.error).then_with(by_name)
-        });
-        cheaper
-    }
-
     /// The row of the report, given the number of frames in all.
     pub fn row(&self, request: &PlanRequest, frames: usize) -> PlanRow {
-        let JudgedCandidate {
-            candidate,
-            error,
-            worst_frame,
-        } = self.chosen();
+        let chosen = self.chosen();
+        let cheaper = self.cheaper().into_iter().map(|one| CheaperFunction {
+            method: one.method.name,
+            form: one.form,
+            channels: one.channels(),
+            cost: one.cost,
+            error: one.error,
+        });
         PlanRow {
             material: self.material.argument.clone(),
             names: self.material.names.clone(),
-            method: candidate.method.name,
-            form: candidate.form,
-            channels: candidate.channels(),
+            method: chosen.method.name,
+            form: chosen.form,
+            channels: chosen.channels(),
             precision: request.precision,
             values: self.values(request.precision),
-            error: *error,
+            error: chosen.error,
             budget: request.budget,
-            is_within: *error <= request.budget,
-            cost: candidate.cost,
-            cost_by: candidate.basis,
+            is_within: chosen.error <= request.budget,
+            cost: chosen.cost,
+            cost_by: chosen.basis,
             cost_exact: self.cost_exact,
             pixels: self.pixels as f64 / frames.max(1) as f64,
             frames: self.frames,
-            worst_frame: *worst_frame,
+            worst_frame: chosen.worst_frame,
             judged_by: self.judgement.name(),
             why: self.why(request),
-            cheaper: self
-                .cheaper()
-                .into_iter()
-                .map(CheaperFunction::of)
-                .collect(),
+            cheaper: cheaper.collect(),
         }
     }
 
     /// The arguments of its library function.
     fn values(&self, precision: Precision) -> BTreeMap<String, Vec<f64>> {
-        let candidate = &self.chosen().candidate;
+        let candidate = self.chosen();
         if candidate.is_specialised() {
             return BTreeMap::new();
         }
@@ -252,7 +200,7 @@ impl JudgedMaterial {
             (Judgement::EveryAngle, _) => " at every angle, since too few pixels show the material",
             _ => "",
         };
-        let name = chosen.candidate.name();
+        let name = chosen.name();
         if chosen.error > budget {
             return format!(
                 "nothing is within {budget} {unit}{angles}: of {count} functions {name} errs least"
@@ -261,7 +209,7 @@ impl JudgedMaterial {
         let Some(next) = self.cheaper().first().copied() else {
             return format!("{name} is within {budget} {unit}{angles}, and nothing costs less");
         };
-        let next_name = next.candidate.name();
+        let next_name = next.name();
         if next.error > budget {
             format!(
                 "{name} is the cheapest of {count} functions within {budget} {unit}{angles}: of those that cost less {next_name} errs \
@@ -277,36 +225,15 @@ impl JudgedMaterial {
     }
 }
 
-impl CheaperFunction {
-    fn of(one: &JudgedCandidate) -> CheaperFunction {
-        CheaperFunction {
-            method: one.candidate.method.name,
-            form: one.candidate.form,
-            channels: one.candidate.channels(),
-            cost: one.candidate.cost,
-            error: one.error,
-        }
-    }
-}
-
 impl PlanTotal {
     /// The total of all materials over this many frames.
     pub fn of(judged: &[JudgedMaterial], price: f64, frames: usize) -> PlanTotal {
         let pixels = |material: &JudgedMaterial| material.pixels as f64 / frames.max(1) as f64;
         let exact =
             |material: &JudgedMaterial| Some(material.cost_exact? * pixels(material) + price);
-        let chosen: Vec<Choosable> = judged
-            .iter()
-            .map(|material| {
-                let candidate = &material.chosen().candidate;
-                Choosable {
-                    cost: candidate.cost * pixels(material),
-                    error: 0.0,
-                    name: String::new(),
-                    shared: (!candidate.is_specialised()).then(|| shared_place(judged, candidate)),
-                }
-            })
-            .collect();
+        let chosen = judged.iter();
+        let chosen = chosen.map(|material| material.chosen().choosable(pixels(material)));
+        let chosen: Vec<Choosable> = chosen.collect();
         PlanTotal {
             cost: total_cost(chosen.iter(), price),
             cost_exact: judged.iter().map(exact).sum(),
@@ -314,18 +241,6 @@ impl PlanTotal {
             price,
         }
     }
-}
-
-/// The first material that takes a library function. It serves to tell functions apart.
-fn shared_place(judged: &[JudgedMaterial], candidate: &Candidate) -> usize {
-    let name = candidate.name();
-    let takes = |material: &JudgedMaterial| material.chosen().candidate.name() == name;
-    judged.iter().position(takes).unwrap_or(0)
-}
-
-/// Whether it is the library function that plans are compared with.
-pub(super) fn is_shared(candidate: &Candidate) -> bool {
-    candidate.method.name == SHARED && candidate.form == FunctionForm::Library
 }
 
 impl SharedFunction {
@@ -341,8 +256,8 @@ impl SharedFunction {
         };
         for material in judged {
             let mut all = material.candidates.iter();
-            let one = all.find(|one| is_shared(&one.candidate))?;
-            shared.cost += one.candidate.cost * pixels(material);
+            let one = all.find(|one| one.is_shared())?;
+            shared.cost += one.cost * pixels(material);
             shared.error = shared.error.max(one.error);
         }
         Some(shared)

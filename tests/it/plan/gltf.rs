@@ -57,7 +57,7 @@ pub fn read_with(json: &Value, buffer: &[u8]) -> Result<GltfScene, GltfFault> {
         _ => Err("it is not there".to_owned()),
     };
     let bytes = serde_json::to_vec(json).unwrap();
-    GltfScene::read("a.gltf", &bytes, &VIEW, &mut read)
+    GltfScene::read(&bytes, &VIEW, &mut read)
 }
 
 fn read(json: &Value) -> Result<GltfScene, GltfFault> {
@@ -88,7 +88,7 @@ pub fn no_file(path: &str) -> Result<Vec<u8>, String> {
 fn a_sphere_is_the_sphere_of_a_scene_file() {
     let (json, buffer) = file(&SPHERE.mesh());
     let scene = read_with(&json, &buffer).unwrap();
-    assert!(scene.has_cameras && scene.unplanned.is_empty());
+    assert!(scene.frames() == 1 && scene.unplanned.is_empty());
     let text = "size = [64, 48]\n[camera]\nvertical_degrees = 45\neye = [0, 0, 3]\n[light]\nuniform = [1, 0.5, 0.25]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\nroughness = 0.5\n";
     let own = SceneFile::parse("s.toml", text).unwrap();
     let wanted = own.frame(0, &own.read(&mut no_file).unwrap());
@@ -115,14 +115,14 @@ fn all_three_forms_of_a_file_are_one() {
     assert_eq!(read_with(&json, &[]).unwrap().frame(0), wanted);
     json["buffers"][0].as_object_mut().unwrap().remove("uri");
     let bytes = glb(&json, &buffer);
-    let scene = GltfScene::read("a.glb", &bytes, &VIEW, &mut no_file).unwrap();
+    let scene = GltfScene::read(&bytes, &VIEW, &mut no_file).unwrap();
     assert_eq!(scene.frame(0), wanted);
     // Whatever its end or a byte of it says, it is a fault or a scene.
     for end in (0..bytes.len()).step_by(3) {
-        assert!(GltfScene::read("a.glb", &bytes[..end], &VIEW, &mut no_file).is_err());
+        assert!(GltfScene::read(&bytes[..end], &VIEW, &mut no_file).is_err());
         let mut changed = bytes.clone();
         changed[end] ^= 0x15;
-        let _ = GltfScene::read("a.glb", &changed, &VIEW, &mut no_file);
+        let _ = GltfScene::read(&changed, &VIEW, &mut no_file);
     }
 }
 
@@ -335,8 +335,8 @@ fn numbers_that_are_none_are_refused() {
     let fault = read_with(&json, &buffer).unwrap_err();
     assert!(fault.what.contains("element 0 is not finite"), "{fault}");
     let text = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"translation\":[1e39,0,0]}]}";
-    assert!(GltfScene::read("a.gltf", text.as_bytes(), &VIEW, &mut no_file).is_err());
-    let fault = GltfScene::read("a.gltf", b"{", &VIEW, &mut no_file).unwrap_err();
+    assert!(GltfScene::read(text.as_bytes(), &VIEW, &mut no_file).is_err());
+    let fault = GltfScene::read(b"{", &VIEW, &mut no_file).unwrap_err();
     assert!(fault.place.starts_with("line 1"), "{fault}");
 }
 
@@ -573,7 +573,6 @@ fn cameras_turn_about_what_has_none() {
     let mut json = file(&CUBE.mesh()).0;
     json["nodes"][1].as_object_mut().unwrap().remove("camera");
     let scene = read(&json).unwrap();
-    assert!(!scene.has_cameras && scene.view().starts_with("36 cameras"));
     assert_eq!(scene.frames(), 36);
     for index in 0..36 {
         let frame = scene.frame(index);

@@ -206,7 +206,7 @@ fn a_chunk_that_is_padded_with_nul_is_read() {
     assert_eq!(&nul[end..end + 3], b"   ");
     nul[end..end + 3].fill(0);
     let read = |bytes: &[u8]| {
-        GltfScene::read("a.glb", bytes, &VIEW, &mut no_file)
+        GltfScene::read(bytes, &VIEW, &mut no_file)
             .unwrap()
             .frame(0)
     };

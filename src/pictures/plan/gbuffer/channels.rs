@@ -6,44 +6,27 @@ use exr::meta::MetaData;
 use exr::meta::header::Header;
 use exr::prelude::Vec2;
 
-use super::GbufferFault;
+use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::names::{nearest_names, offered};
 use crate::physics::spectra::Space;
 
-/// A channel.
-pub struct GbufferChannel {
-    /// Its name in the file.
-    pub name: &'static str,
-    /// The value used where the file lacks the channel; `None` where the channel is required.
-    pub default: Option<f64>,
-}
+/// Why a file is no usable G-buffer: what was found, where, and what is allowed. The caller puts the file's name before it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct GbufferFault(pub(super) String);
 
-const fn needed(name: &'static str) -> GbufferChannel {
-    GbufferChannel {
-        name,
-        default: None,
-    }
-}
-
-const fn optional(name: &'static str, default: f64) -> GbufferChannel {
-    GbufferChannel {
-        name,
-        default: Some(default),
-    }
-}
-
-/// All channels.
-pub const CHANNELS: [GbufferChannel; 10] = [
-    needed("cos_theta"),
-    needed("material_id"),
-    optional("roughness", 0.0),
-    optional("coverage", 1.0),
-    needed("light.R"),
-    needed("light.G"),
-    needed("light.B"),
-    optional("other.R", 0.0),
-    optional("other.G", 0.0),
-    optional("other.B", 0.0),
+/// The name of each channel, and the value used where the file lacks it; `None` where the channel is required.
+pub const CHANNELS: [(&str, Option<f64>); 10] = [
+    ("cos_theta", None),
+    ("material_id", None),
+    ("roughness", Some(0.0)),
+    ("coverage", Some(1.0)),
+    ("light.R", None),
+    ("light.G", None),
+    ("light.B", None),
+    ("other.R", Some(0.0)),
+    ("other.G", Some(0.0)),
+    ("other.B", Some(0.0)),
 ];
 /// Indices into the list; three channels begin at `LIGHT`, and three at `OTHER`.
 pub const COS_THETA: usize = 0;
@@ -65,27 +48,26 @@ impl Places {
     pub fn of(parts: &[Header]) -> Result<Places, GbufferFault> {
         let present = present_channels(parts);
         let mut places = [None; CHANNELS.len()];
-        for (place, channel) in places.iter_mut().zip(&CHANNELS) {
-            let exact = |one: &&PresentChannel| one.has_name(channel.name);
-            let in_layer = |one: &&PresentChannel| one.has_name_in_layer(channel.name);
+        for (place, (channel, _)) in places.iter_mut().zip(CHANNELS) {
+            let exact = |one: &&PresentChannel| one.has_name(channel);
+            let in_layer = |one: &&PresentChannel| one.has_name_in_layer(channel);
             let mut found: Vec<&PresentChannel> = present.iter().filter(exact).collect();
             if found.is_empty() {
                 found = present.iter().filter(in_layer).collect();
             }
             *place = found.first().map(|one| one.place);
             if let [first, second, ..] = found[..] {
-                return Err(GbufferFault::Twice {
-                    channel: channel.name,
-                    names: [first, second].map(|one| one.name.clone()),
-                    parts: [first, second].map(|one| one.place.0),
-                });
+                let what = twice_in(first, second);
+                return Err(GbufferFault(format!(
+                    "channel `{channel}` stands twice, {what}; it must stand once"
+                )));
             }
         }
         let has_other = places[OTHER..].iter().any(Option::is_some);
-        for (at, (place, channel)) in places.iter().zip(&CHANNELS).enumerate() {
-            let is_needed = channel.default.is_none() || (at >= OTHER && has_other);
+        for (at, (place, (channel, default))) in places.iter().zip(CHANNELS).enumerate() {
+            let is_needed = default.is_none() || (at >= OTHER && has_other);
             if place.is_none() && is_needed {
-                return Err(missing(channel.name, &present));
+                return Err(missing(channel, &present));
             }
         }
         Ok(Places(places))
@@ -139,29 +121,40 @@ fn present_channels(parts: &[Header]) -> Vec<PresentChannel> {
     present
 }
 
-fn missing(channel: &'static str, present: &[PresentChannel]) -> GbufferFault {
+/// Where a channel stands twice: its names where they differ, else the parts, counted from 1.
+fn twice_in(first: &PresentChannel, second: &PresentChannel) -> String {
+    let [name, other] = [&first.name, &second.name];
+    if name != other {
+        return format!("as `{}` and as `{}`", Foreign(name), Foreign(other));
+    }
+    let [part, other] = [first.place.0 + 1, second.place.0 + 1];
+    if part == other {
+        format!("both times in part {part}")
+    } else {
+        format!("in part {part} and in part {other}")
+    }
+}
+
+fn missing(channel: &str, present: &[PresentChannel]) -> GbufferFault {
     let full = |one: &PresentChannel| one.long_name.clone().unwrap_or(one.name.clone());
     let names: Vec<String> = present.iter().map(full).collect();
     // A channel that is already used under its right name is not offered for another.
     let is_known =
         |one: &PresentChannel, name: &str| one.has_name(name) || one.has_name_in_layer(name);
-    let is_free = |one: &&PresentChannel| !CHANNELS.iter().any(|known| is_known(one, known.name));
+    let is_free = |one: &&PresentChannel| !CHANNELS.iter().any(|(known, _)| is_known(one, known));
     let free: Vec<String> = present.iter().filter(is_free).map(full).collect();
     let free: Vec<&str> = free.iter().map(String::as_str).collect();
     let listed = names.iter().take(LISTED).cloned().collect::<Vec<_>>();
-    let rest = match names.len().saturating_sub(LISTED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
+    let present = match names.len().saturating_sub(LISTED) {
+        0 if listed.is_empty() => "no channel".to_owned(),
+        0 => listed.join(", "),
+        more => format!("{} and {more} more", listed.join(", ")),
     };
-    GbufferFault::Missing {
-        channel,
-        offered: offered(&nearest_names(channel, &free)),
-        present: if listed.is_empty() {
-            "no channel".to_owned()
-        } else {
-            listed.join(", ") + &rest
-        },
-    }
+    GbufferFault(format!(
+        "channel `{channel}` is missing{}; the file has {}",
+        one_line(&offered(&nearest_names(channel, &free))),
+        Foreign(present)
+    ))
 }
 
 /// Checks the primaries that a file states against the plan's space. A file that states none is assumed to be in it.
@@ -185,12 +178,13 @@ pub fn check_primaries(bytes: &[u8], space: Space) -> Result<(), GbufferFault> {
     let own = Space::ALL
         .into_iter()
         .find(|space| space.has(&primaries, &white));
-    Err(GbufferFault::Primaries {
-        stated: own.map_or("another space", Space::title),
-        wanted: space.title(),
-        advice: match own {
-            Some(own) => format!("--space {}", own.name()),
-            None => "write the frame in one of the spaces of --space".to_owned(),
-        },
-    })
+    let stated = own.map_or("another space", Space::title);
+    let advice = match own {
+        Some(own) => format!("--space {}", own.name()),
+        None => "write the frame in one of the spaces of --space".to_owned(),
+    };
+    Err(GbufferFault(format!(
+        "its `chromaticities` are those of {stated}, and the plan's light is in {}: {advice}",
+        space.title()
+    )))
 }

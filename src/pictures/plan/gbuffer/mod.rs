@@ -13,19 +13,15 @@
 //! channel `R` is `light.R`. Blender's `ViewLayer.light.R` is `light.R`, and its `ViewLayer.cos_theta.V` is `cos_theta`. Pixels are counted from the top left of the data window.
 
 mod channels;
-mod fault;
 mod samples;
 
-use super::ids::{MaterialIds, Shown};
-use super::{FramePixels, ScenePixel};
+use super::frame::{FramePixels, ScenePixel};
+use super::ids::MaterialIds;
 use channels::{COS_THETA, COVERAGE, LIGHT, MATERIAL_ID, OTHER, Places, ROUGHNESS};
 use samples::Planes;
 
-pub use channels::check_primaries;
-pub use fault::GbufferFault;
+pub use channels::{GbufferFault, check_primaries};
 
-/// Pixels across, and down: no frame has more.
-pub const GREATEST_SIDE: usize = 8192;
 /// How far interpolated cosines and rounded shares may leave [0, 1].
 const ROUNDING: f64 = 1e-3;
 
@@ -95,17 +91,8 @@ impl Frame {
             );
             return Err(self.fault(MATERIAL_ID, place, what));
         }
-        let id = value as u32;
-        match ids.shown(id) {
-            Some(Shown::Material(material)) => Ok(Some(material)),
-            Some(Shown::Ignored) => Ok(None),
-            None => {
-                let what = format!(
-                    "no material has the id {id}; add `[[material]]` with `id = {id}` to the map of materials, or {id} to its `ignore`"
-                );
-                Err(self.fault(MATERIAL_ID, place, what))
-            }
-        }
+        let material = ids.material_of(value as u32);
+        material.map_err(|what| self.fault(MATERIAL_ID, place, what))
     }
 
     /// A number in [0, 1].
@@ -133,11 +120,8 @@ impl Frame {
     }
 
     fn fault(&self, channel: usize, place: usize, what: String) -> GbufferFault {
-        GbufferFault::Value {
-            channel: channels::CHANNELS[channel].name,
-            x: place % self.width,
-            y: place / self.width,
-            what,
-        }
+        let (x, y) = (place % self.width, place / self.width);
+        let channel = channels::CHANNELS[channel].0;
+        GbufferFault(format!("channel {channel}, pixel ({x}, {y}): {what}"))
     }
 }

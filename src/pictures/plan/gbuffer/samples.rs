@@ -3,6 +3,7 @@
 //! The crate allocates whatever a header announces. So sizes are compared with the length of the file before anything is
 //! allocated, and only lossless compressions are read.
 
+use core::fmt::Display;
 use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::ops::Range;
@@ -13,9 +14,12 @@ use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 use exr::prelude::{Compression, SampleType, Vec2, f16};
 
-use super::channels::{CHANNELS, Places};
-use super::{GREATEST_SIDE, GbufferFault};
+use super::channels::{CHANNELS, GbufferFault, Places};
+use crate::physics::foreign::Foreign;
 use crate::pictures::scene::is_deep;
+
+/// Pixels across, and down: no frame has more.
+const GREATEST_SIDE: usize = 8192;
 
 /// A file whose headers are read.
 pub type Opened<'a> = Reader<Cursor<&'a [u8]>>;
@@ -24,14 +28,14 @@ pub type Opened<'a> = Reader<Cursor<&'a [u8]>>;
 /// The file does not begin as OpenEXR files do, or its headers contradict themselves.
 pub fn opened(bytes: &[u8]) -> Result<Opened<'_>, GbufferFault> {
     if is_deep(bytes) {
-        let what = "it holds deep pixels; flat ones are read";
-        return Err(GbufferFault::Unreadable(what.to_owned()));
+        return Err(unreadable("it holds deep pixels; flat ones are read"));
     }
-    exr::block::read(Cursor::new(bytes), false).map_err(|why| unreadable(&why))
+    exr::block::read(Cursor::new(bytes), false).map_err(unreadable)
 }
 
-fn unreadable(why: &exr::error::Error) -> GbufferFault {
-    GbufferFault::Unreadable(why.to_string())
+/// The file is no OpenEXR file, or is truncated or broken.
+fn unreadable(why: impl Display) -> GbufferFault {
+    GbufferFault(format!("not a readable OpenEXR file: {}", Foreign(why)))
 }
 
 /// Pixels across and down. `held` is the length of the file.
@@ -52,19 +56,22 @@ pub fn size(parts: &[Header], places: &Places, held: usize) -> Result<[usize; 2]
         check_stored(header, channel)?;
         let Vec2(width, height) = header.layer_size;
         if !is_frame([width, height]) {
-            return Err(GbufferFault::Size { width, height });
+            return Err(GbufferFault(format!(
+                "a frame of {width} x {height} pixels; the largest has {GREATEST_SIDE} x {GREATEST_SIDE}, the smallest 1 x 1"
+            )));
         }
         let bytes_a_pixel = header.channels.bytes_per_pixel as u64;
         let bytes = bytes_a_pixel.saturating_mul((width * height) as u64);
         announced(bytes / most_a_byte(header.compression), held)?;
         let (first_channel, leading) = *first.get_or_insert((channel, header));
         if window(leading) != window(header) {
-            return Err(GbufferFault::Windows {
-                channel: CHANNELS[channel].name,
-                found: window(header),
-                first_channel: CHANNELS[first_channel].name,
-                first: window(leading),
-            });
+            return Err(GbufferFault(format!(
+                "channel `{}` has the data window {}, and `{}` has {}; all channels need the same",
+                CHANNELS[channel].0,
+                window(header),
+                CHANNELS[first_channel].0,
+                window(leading)
+            )));
         }
     }
     let size = first.map_or(Vec2(0, 0), |(_, header)| header.layer_size);
@@ -75,10 +82,9 @@ fn announced(bytes: u64, held: usize) -> Result<(), GbufferFault> {
     if bytes <= held as u64 {
         return Ok(());
     }
-    Err(GbufferFault::Announced {
-        announced: bytes,
-        held,
-    })
+    Err(GbufferFault(format!(
+        "its header announces {bytes} bytes of pixels, which {held} bytes of file cannot hold: the file is broken or cut short"
+    )))
 }
 
 /// The most bytes that a byte of the file can stand for. RLE: 128 bytes in 2. Deflate, used by ZIP: 258 bytes in 2 bits. PIZ: 256
@@ -108,7 +114,7 @@ fn check_tiles(part: usize, header: &Header) -> Result<(), GbufferFault> {
     }
     let part = part + 1;
     let what = format!("part {part} has tiles of {width} x {height} pixels");
-    Err(GbufferFault::Unreadable(what))
+    Err(unreadable(what))
 }
 
 fn is_frame(sides: [usize; 2]) -> bool {
@@ -118,13 +124,14 @@ fn is_frame(sides: [usize; 2]) -> bool {
 /// # Errors
 /// The part is deep, subsampled or compressed with loss.
 fn check_stored(header: &Header, channel: usize) -> Result<(), GbufferFault> {
-    let fault = |found: String, allowed| GbufferFault::Stored {
-        channel: CHANNELS[channel].name,
-        found,
-        allowed,
+    let fault = |found: &str, allowed: &str| {
+        let (channel, found) = (CHANNELS[channel].0, Foreign(found));
+        Err(GbufferFault(format!(
+            "the part with channel `{channel}` has {found}; {allowed}"
+        )))
     };
     if header.deep {
-        return Err(fault("deep pixels".to_owned(), "flat ones are read"));
+        return fault("deep pixels", "flat ones are read");
     }
     match header.compression {
         Compression::Uncompressed
@@ -134,13 +141,13 @@ fn check_stored(header: &Header, channel: usize) -> Result<(), GbufferFault> {
         | Compression::PIZ => {}
         other => {
             let allowed = "lossless ones are read: none, RLE, ZIPS, ZIP and PIZ, since others change ids and cosines";
-            return Err(fault(other.to_string(), allowed));
+            return fault(&other.to_string(), allowed);
         }
     }
     let mut sampled = header.channels.list.iter().map(|one| one.sampling);
     if sampled.any(|sampling| sampling != Vec2(1, 1)) {
-        let found = "a channel with fewer samples than pixels".to_owned();
-        return Err(fault(found, "every pixel needs its sample"));
+        let found = "a channel with fewer samples than pixels";
+        return fault(found, "every pixel needs its sample");
     }
     Ok(())
 }
@@ -180,7 +187,7 @@ pub fn planes(
 ) -> Result<Planes, GbufferFault> {
     let parts = reader.headers();
     let empty = |channel: usize| match places.0[channel] {
-        None => Samples::Same(CHANNELS[channel].default.unwrap_or(0.0)),
+        None => Samples::Same(CHANNELS[channel].1.unwrap_or(0.0)),
         Some((part, at)) => match parts[part].channels.list[at].sample_type {
             SampleType::F16 => Samples::Half(vec![f16::ZERO; width * height]),
             SampleType::F32 => Samples::Float(vec![0.0; width * height]),
@@ -188,17 +195,17 @@ pub fn planes(
         },
     };
     let mut planes = Planes(std::array::from_fn(empty));
-    let mut chunks = reader.all_chunks(false).map_err(|why| unreadable(&why))?;
+    let mut chunks = reader.all_chunks(false).map_err(unreadable)?;
     let headers = chunks.meta_data().headers.clone();
     let mut seen = BTreeSet::new();
     while let Some(chunk) = chunks.next() {
-        let chunk = chunk.map_err(|why| unreadable(&why))?;
+        let chunk = chunk.map_err(unreadable)?;
         let part = chunk.layer_index;
         if places.first_of(part).is_none() {
             continue;
         }
         let block = UncompressedBlock::decompress_chunk(chunk, chunks.meta_data(), false)
-            .map_err(|why| unreadable(&why))?;
+            .map_err(unreadable)?;
         let (level, position) = (block.index.level, block.index.pixel_position);
         seen.insert((part, [level.0, level.1], [position.0, position.1]));
         if level == Vec2(0, 0) {
@@ -210,7 +217,7 @@ pub fn planes(
         if places.first_of(part).is_some() && blocks != header.chunk_count {
             let (part, wanted) = (part + 1, header.chunk_count);
             let what = format!("part {part} has {blocks} of its {wanted} blocks of pixels");
-            return Err(GbufferFault::Unreadable(what));
+            return Err(unreadable(what));
         }
     }
     Ok(planes)
@@ -235,7 +242,7 @@ impl Planes {
             let range = first..first + line.location.sample_count;
             if self.0[channel].enter(range, line.value).is_none() {
                 let what = format!("a block of pixels at ({x}, {y}) lies outside of the frame");
-                return Err(GbufferFault::Unreadable(what));
+                return Err(unreadable(what));
             }
         }
         Ok(())

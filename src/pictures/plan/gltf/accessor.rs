@@ -3,12 +3,13 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
+use gltf_json::accessor::sparse::Sparse;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root, buffer};
 
-use super::super::scene_file::ReadFile;
-use super::container::{Container, Place, embedded, path_of};
+use super::super::drawn::ReadFile;
+use super::container::{Container, GltfFault, embedded, path_of};
 use crate::lab::raster::MOST_TRIANGLES;
 
 /// The most elements of an accessor: three corners for each triangle.
@@ -25,31 +26,17 @@ pub struct Buffers<'a> {
     bytes: Vec<Cow<'a, [u8]>>,
 }
 
-/// Elements in a buffer, each of `size` bytes.
-struct Strided<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-    size: usize,
-    count: usize,
-}
-
-impl<'a> Strided<'a> {
-    fn elements(&self) -> impl Iterator<Item = &'a [u8]> + '_ {
-        (0..self.count).map(|i| &self.bytes[i * self.stride..][..self.size])
-    }
-}
-
 impl<'a> Buffers<'a> {
     /// The bytes of all buffers. Each has at least as many as the file announces.
     pub fn read(
         root: &'a Root,
         container: &Container<'a>,
         read: ReadFile,
-    ) -> Result<Buffers<'a>, Place> {
+    ) -> Result<Buffers<'a>, GltfFault> {
         let mut bytes: Vec<Cow<[u8]>> = Vec::new();
         let mut total = 0;
         for (i, buffer) in root.buffers.iter().enumerate() {
-            let fault = |what: String| Place::new(format!("buffers[{i}].uri"), what);
+            let fault = |what: String| GltfFault::new(format!("buffers[{i}].uri"), what);
             let found: Cow<[u8]> = match (&buffer.uri, container.binary) {
                 (Some(uri), _) => Cow::Owned(match embedded(uri) {
                     Some(data) => data.map_err(fault)?,
@@ -68,12 +55,12 @@ impl<'a> Buffers<'a> {
             let length = buffer.byte_length.0;
             if length > found.len() as u64 {
                 let what = format!("it says {length} bytes and has {}", found.len());
-                return Err(Place::new(format!("buffers[{i}].byteLength"), what));
+                return Err(GltfFault::new(format!("buffers[{i}].byteLength"), what));
             }
             total += found.len();
             if total > MOST_BYTES {
                 let what = format!("the buffers up to here have more than {MOST_BYTES} bytes");
-                return Err(Place::new(format!("buffers[{i}]"), what));
+                return Err(GltfFault::new(format!("buffers[{i}]"), what));
             }
             bytes.push(found);
         }
@@ -81,25 +68,19 @@ impl<'a> Buffers<'a> {
     }
 
     /// Vectors of three floats.
-    pub fn vectors(&self, index: Index<Accessor>, place: &str) -> Result<Vec<DVec3>, Place> {
+    pub fn vectors(&self, index: Index<Accessor>, place: &str) -> Result<Vec<DVec3>, GltfFault> {
         let accessor = &self.root.accessors[index.value()];
         self.check(accessor, Type::Vec3, &[ComponentType::F32], index, place)?;
-        let mut all: Vec<DVec3> = match self.base(accessor, 12, place)? {
-            Some(elements) => elements.elements().map(vector).collect(),
-            None => vec![DVec3::ZERO; count(accessor, place)?],
-        };
-        self.replace(accessor, 12, place, &mut |at, bytes| {
-            all[at] = vector(bytes)
-        })?;
+        let all = self.elements(accessor, 12, place, vector)?;
         match all.iter().position(|vector| !vector.is_finite()) {
-            Some(at) => Err(Place::new(place, format!("element {at} is not finite"))),
+            Some(at) => Err(GltfFault::new(place, format!("element {at} is not finite"))),
             None => Ok(all),
         }
     }
 
     /// Colours of three or four channels in [0, 1]; a missing fourth is 1. The specification wants floats clamped (section
     /// 3.7.2.1).
-    pub fn colours(&self, index: Index<Accessor>, place: &str) -> Result<Vec<[f32; 4]>, Place> {
+    pub fn colours(&self, index: Index<Accessor>, place: &str) -> Result<Vec<[f32; 4]>, GltfFault> {
         let accessor = &self.root.accessors[index.value()];
         let kinds = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
         let kind = match accessor.type_ {
@@ -112,43 +93,28 @@ impl<'a> Buffers<'a> {
                 "accessors[{}] has whole numbers that are not normalized",
                 index.value()
             );
-            return Err(Place::new(place, what));
+            return Err(GltfFault::new(place, what));
         }
         let channels = if kind == Type::Vec4 { 4 } else { 3 };
         let size = channels * component.size();
-        let colour = |bytes: &[u8]| colour(bytes, component);
-        let mut all: Vec<[f32; 4]> = match self.base(accessor, size, place)? {
-            Some(elements) => elements.elements().map(colour).collect(),
-            None => vec![colour(&vec![0; size]); count(accessor, place)?],
-        };
-        self.replace(accessor, size, place, &mut |at, bytes| {
-            all[at] = colour(bytes)
-        })?;
+        let all = self.elements(accessor, size, place, |bytes| colour(bytes, component))?;
         if all.iter().flatten().any(|channel| channel.is_nan()) {
-            Err(Place::new(place, "a colour is no number"))
+            Err(GltfFault::new(place, "a colour is no number"))
         } else {
             Ok(all)
         }
     }
 
     /// Indices of corners.
-    pub fn indices(&self, index: Index<Accessor>, place: &str) -> Result<Vec<u32>, Place> {
+    pub fn indices(&self, index: Index<Accessor>, place: &str) -> Result<Vec<u32>, GltfFault> {
         let accessor = &self.root.accessors[index.value()];
         let kinds = [ComponentType::U8, ComponentType::U16, ComponentType::U32];
         let component = self.check(accessor, Type::Scalar, &kinds, index, place)?;
-        let size = component.size();
-        let mut all: Vec<u32> = match self.base(accessor, size, place)? {
-            Some(elements) => elements.elements().map(whole).collect(),
-            None => vec![0; count(accessor, place)?],
-        };
-        self.replace(accessor, size, place, &mut |at, bytes| {
-            all[at] = whole(bytes)
-        })?;
-        Ok(all)
+        self.elements(accessor, component.size(), place, whole)
     }
 
     /// How many elements an accessor announces.
-    pub fn count(&self, index: Index<Accessor>, place: &str) -> Result<usize, Place> {
+    pub fn count(&self, index: Index<Accessor>, place: &str) -> Result<usize, GltfFault> {
         count(&self.root.accessors[index.value()], place)
     }
 
@@ -159,13 +125,13 @@ impl<'a> Buffers<'a> {
         allowed: &[ComponentType],
         index: Index<Accessor>,
         place: &str,
-    ) -> Result<ComponentType, Place> {
+    ) -> Result<ComponentType, GltfFault> {
         let fault = || {
             let what = format!(
                 "accessors[{}] has another type: {wanted:?} of {allowed:?} is read",
                 index.value()
             );
-            Place::new(place, what)
+            GltfFault::new(place, what)
         };
         let component = match accessor.component_type {
             Checked::Valid(component) => component.0,
@@ -179,41 +145,50 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// The elements in the accessor's buffer; `None` where it has no buffer.
-    fn base(
+    /// The elements of an accessor, each of `size` bytes: those in its buffer, or zeros where it has none, some of them replaced
+    /// where it is sparse.
+    fn elements<T: Clone>(
         &self,
         accessor: &Accessor,
         size: usize,
         place: &str,
-    ) -> Result<Option<Strided<'_>>, Place> {
+        element: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, GltfFault> {
         let count = count(accessor, place)?;
-        let Some(view) = accessor.buffer_view else {
-            return Ok(None);
+        let mut all: Vec<T> = match accessor.buffer_view {
+            None => vec![element(&vec![0; size]); count],
+            Some(view) => {
+                let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+                let elements = self.strided(view, offset, [count, size], place)?;
+                elements.map(&element).collect()
+            }
         };
-        let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-        self.strided(view, offset, [count, size], place).map(Some)
+        if let Some(sparse) = &accessor.sparse {
+            self.replace(sparse, size, place, &mut all, element)?;
+        }
+        Ok(all)
     }
 
-    /// Passes on the elements that a sparse accessor replaces.
-    fn replace(
+    /// Replaces the elements that a sparse accessor states.
+    fn replace<T>(
         &self,
-        accessor: &Accessor,
+        sparse: &Sparse,
         size: usize,
         place: &str,
-        enter: &mut dyn FnMut(usize, &[u8]),
-    ) -> Result<(), Place> {
-        let Some(sparse) = &accessor.sparse else {
-            return Ok(());
-        };
-        let all = count(accessor, place)?;
+        all: &mut [T],
+        element: impl Fn(&[u8]) -> T,
+    ) -> Result<(), GltfFault> {
+        let count = all.len();
         let replaced = usize::try_from(sparse.count.0).unwrap_or(usize::MAX);
-        if replaced > all {
-            let what = format!("it replaces {replaced} of {all} elements");
-            return Err(Place::new(place, what));
+        if replaced > count {
+            let what = format!("it replaces {replaced} of {count} elements");
+            return Err(GltfFault::new(place, what));
         }
         let kind = match sparse.indices.component_type {
             Checked::Valid(kind) => kind.0.size(),
-            Checked::Invalid => return Err(Place::new(place, "its sparse indices have no type")),
+            Checked::Invalid => {
+                return Err(GltfFault::new(place, "its sparse indices have no type"));
+            }
         };
         let (indices, values) = (&sparse.indices, &sparse.values);
         let at = self.strided(
@@ -229,16 +204,16 @@ impl<'a> Buffers<'a> {
             place,
         )?;
         let mut last = None;
-        for (at, value) in at.elements().map(whole).zip(values.elements()) {
+        for (at, value) in at.map(whole).zip(values) {
             if last.is_some_and(|last| last >= at) {
-                return Err(Place::new(place, "its sparse indices do not increase"));
+                return Err(GltfFault::new(place, "its sparse indices do not increase"));
             }
             last = Some(at);
-            if at as usize >= all {
-                let what = format!("it replaces element {at} of {all}");
-                return Err(Place::new(place, what));
-            }
-            enter(at as usize, value);
+            let Some(replaced) = all.get_mut(at as usize) else {
+                let what = format!("it replaces element {at} of {count}");
+                return Err(GltfFault::new(place, what));
+            };
+            *replaced = element(value);
         }
         Ok(())
     }
@@ -250,20 +225,22 @@ impl<'a> Buffers<'a> {
         offset: u64,
         [count, size]: [usize; 2],
         place: &str,
-    ) -> Result<Strided<'_>, Place> {
+    ) -> Result<impl Iterator<Item = &[u8]>, GltfFault> {
         let index = view.value();
         let view = &self.root.buffer_views[index];
         let stride = view.byte_stride.map_or(size, |stride| stride.0);
         if stride < size {
             let what = format!("elements of {size} bytes, {stride} apart");
-            return Err(Place::new(format!("bufferViews[{index}].byteStride"), what));
+            return Err(GltfFault::new(
+                format!("bufferViews[{index}].byteStride"),
+                what,
+            ));
         }
         let bytes = &self.bytes[view.buffer.value()];
         let from = view.byte_offset.map_or(0, |offset| offset.0);
-        let part = part(bytes, from, view.byte_length.0);
-        let part = part.ok_or_else(|| {
+        let of_view = part(bytes, from, view.byte_length.0).ok_or_else(|| {
             let what = format!("it leaves its buffer, which has {} bytes", bytes.len());
-            Place::new(format!("bufferViews[{index}]"), what)
+            GltfFault::new(format!("bufferViews[{index}]"), what)
         })?;
         let needed = match count {
             0 => Some(0),
@@ -271,22 +248,15 @@ impl<'a> Buffers<'a> {
                 .checked_mul(stride)
                 .and_then(|all| all.checked_add(size)),
         };
-        let length = (part.len() as u64).saturating_sub(offset);
-        let fits = needed.is_some_and(|needed| needed as u64 <= length);
-        let bytes = super::accessor::part(part, offset, length).filter(|_| fits);
-        let bytes = bytes.ok_or_else(|| {
+        let elements = needed.and_then(|needed| part(of_view, offset, needed as u64));
+        let elements = elements.ok_or_else(|| {
             let what = format!(
                 "{count} elements do not fit into bufferViews[{index}], which has {} bytes",
-                part.len()
+                of_view.len()
             );
-            Place::new(place, what)
+            GltfFault::new(place, what)
         })?;
-        Ok(Strided {
-            bytes,
-            stride,
-            size,
-            count,
-        })
+        Ok((0..count).map(move |i| &elements[i * stride..][..size]))
     }
 }
 
@@ -297,7 +267,7 @@ fn part(bytes: &[u8], from: u64, length: u64) -> Option<&[u8]> {
 }
 
 /// The number of elements, checked against the limit.
-fn count(accessor: &Accessor, place: &str) -> Result<usize, Place> {
+fn count(accessor: &Accessor, place: &str) -> Result<usize, GltfFault> {
     let most = match accessor.buffer_view {
         Some(_) => MOST_ELEMENTS,
         None => MOST_ZEROS,
@@ -306,7 +276,7 @@ fn count(accessor: &Accessor, place: &str) -> Result<usize, Place> {
     if count <= most as u64 {
         Ok(count as usize)
     } else {
-        Err(Place::new(
+        Err(GltfFault::new(
             place,
             format!("it has {count} elements; at most {most} are read"),
         ))

@@ -19,7 +19,7 @@ pub struct Container<'a> {
 }
 
 impl<'a> Container<'a> {
-    pub fn of(bytes: &'a [u8]) -> Result<Container<'a>, Place> {
+    pub fn of(bytes: &'a [u8]) -> Result<Container<'a>, GltfFault> {
         if !bytes.starts_with(MAGIC) {
             return Ok(Container {
                 json: bytes,
@@ -27,27 +27,27 @@ impl<'a> Container<'a> {
             });
         }
         if number(bytes, 4) != Some(2) {
-            return Err(Place::new("byte 4", "no GLB of version 2"));
+            return Err(GltfFault::new("byte 4", "no GLB of version 2"));
         }
         let length = number(bytes, 8).unwrap_or(0) as usize;
         let Some(bytes) = bytes.get(..length) else {
             let what = format!("the GLB says {length} bytes and has {}", bytes.len());
-            return Err(Place::new("byte 8", what));
+            return Err(GltfFault::new("byte 8", what));
         };
-        let json = chunk(bytes, 12, JSON)?;
-        let Some(json) = json else {
-            return Err(Place::new("byte 12", "the first chunk of a GLB is JSON"));
+        let Some(json) = chunk(bytes, 12, JSON)? else {
+            return Err(GltfFault::new(
+                "byte 12",
+                "the first chunk of a GLB is JSON",
+            ));
         };
         let next = 20 + json.len();
-        let has_more = bytes.len() > next;
-        let binary = if has_more {
-            chunk(bytes, next, BINARY)?
-        } else {
-            None
-        };
         Ok(Container {
             json: without_padding(json),
-            binary,
+            binary: if bytes.len() > next {
+                chunk(bytes, next, BINARY)?
+            } else {
+                None
+            },
         })
     }
 }
@@ -64,15 +64,13 @@ fn number(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 /// The chunk that begins here, if it is of this kind.
-fn chunk<'a>(bytes: &'a [u8], at: usize, kind: &[u8]) -> Result<Option<&'a [u8]>, Place> {
-    let ends = || Place::new(format!("byte {at}"), "the GLB ends within a chunk");
+fn chunk<'a>(bytes: &'a [u8], at: usize, kind: &[u8]) -> Result<Option<&'a [u8]>, GltfFault> {
+    let ends = || GltfFault::new(format!("byte {at}"), "the GLB ends within a chunk");
     let length = number(bytes, at).ok_or_else(ends)? as usize;
     let found = bytes.get(at + 4..at + 8).ok_or_else(ends)?;
     let from = at + 8;
-    let whole = from
-        .checked_add(length)
-        .and_then(|end| bytes.get(from..end));
-    let whole = whole.ok_or_else(ends)?;
+    let end = from.checked_add(length).ok_or_else(ends)?;
+    let whole = bytes.get(from..end).ok_or_else(ends)?;
     Ok((found == kind).then_some(whole))
 }
 
@@ -90,9 +88,9 @@ pub fn embedded(uri: &str) -> Option<Result<Vec<u8>, String>> {
 
 /// The path that a relative URI means, with `%20` and the like decoded.
 pub fn path_of(uri: &str) -> Result<String, String> {
-    let is_elsewhere = uri.starts_with(['/', '\\']) || uri.contains(':');
-    if is_elsewhere || uri.is_empty() {
-        return Err("a buffer is in a file below the glTF file's folder, or embedded".to_owned());
+    const ELSEWHERE: &str = "a buffer is in a file below the glTF file's folder, or embedded";
+    if uri.starts_with(['/', '\\']) || uri.contains(':') || uri.is_empty() {
+        return Err(ELSEWHERE.to_owned());
     }
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -111,48 +109,31 @@ pub fn path_of(uri: &str) -> Result<String, String> {
         }
     }
     let path = String::from_utf8(bytes).map_err(|_| "the path is not UTF-8".to_owned())?;
-    let leaves = path.contains('\0')
+    let leaves = path.contains(['\0', ':'])
         || path.starts_with(['/', '\\'])
         || path.split(['/', '\\']).any(|part| part == "..");
-    if leaves || path.contains(':') {
-        Err("a buffer is in a file below the glTF file's folder, or embedded".to_owned())
+    if leaves {
+        Err(ELSEWHERE.to_owned())
     } else {
         Ok(path)
     }
 }
 
-/// A fault of a glTF file.
+/// A fault of a glTF file. The caller puts the file's name before it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}: {}: {}", Foreign(file), Foreign(place), one_line(what))]
+#[error("{}: {}", Foreign(place), one_line(what))]
 pub struct GltfFault {
-    /// The file, as the user named it.
-    pub file: String,
     /// The place in its JSON, such as `meshes[2].primitives[0].attributes.POSITION`, or in its bytes.
     pub place: String,
     /// What was found, and what is allowed.
     pub what: String,
 }
 
-/// A fault before the file's name is known.
-#[derive(Debug)]
-pub struct Place {
-    place: String,
-    what: String,
-}
-
-impl Place {
-    pub fn new(place: impl Into<String>, what: impl Into<String>) -> Place {
-        Place {
+impl GltfFault {
+    pub(super) fn new(place: impl Into<String>, what: impl Into<String>) -> GltfFault {
+        GltfFault {
             place: place.into(),
             what: what.into(),
-        }
-    }
-
-    pub fn fault(self, file: &str) -> GltfFault {
-        GltfFault {
-            file: file.to_owned(),
-            place: self.place,
-            what: self.what,
         }
     }
 }

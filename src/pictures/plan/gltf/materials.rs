@@ -16,10 +16,9 @@ use gltf_json::{Index, Material as GltfMaterial, Root};
 use serde::Serialize;
 
 use super::super::drawn::SurfaceLook;
-use super::super::metric::MappedMaterial;
+use super::super::frame::MappedMaterial;
 use super::super::sky::SceneLight;
-use super::container::Place;
-use super::nodes::not_read;
+use super::container::GltfFault;
 use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::materials::{self, Material, MaterialKind};
 use crate::physics::names::UnknownName;
@@ -30,63 +29,53 @@ const USUAL_INDEX: f32 = 1.5;
 const CONSTANT: &str = "ior_";
 /// The key in a material's extras.
 const KEY: &str = "fresnel_gen";
-/// How a material's extension changes the reflection of its surface.
-enum Effect {
-    /// Nothing.
-    None,
-    /// A change, unless this factor is 0 in all its channels. A factor that is not given is 0.
-    Factor(&'static str, &'static str),
-    /// A change in every case.
-    Always(&'static str),
-}
 
-/// All ratified material extensions that are not read, and two deprecated ones. Those that are read are `KHR_materials_ior`,
-/// `KHR_materials_specular` and `KHR_materials_transmission`. Dispersion, by its specification, bends what is seen through a
-/// material and does not change the index of its reflection.
-const EXTENSIONS: [(&str, Effect); 13] = [
-    ("KHR_materials_volume", Effect::None),
-    ("KHR_materials_volume_scatter", Effect::None),
-    ("KHR_materials_dispersion", Effect::None),
-    ("KHR_materials_diffuse_transmission", Effect::None),
-    ("KHR_materials_emissive_strength", Effect::None),
-    ("KHR_materials_variants", Effect::None),
+/// Ratified material extensions that are not read and do not change the reflection of a surface. Dispersion, by its
+/// specification, bends what is seen through a material and does not change the index of its reflection.
+const HARMLESS: [&str; 6] = [
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
+    "KHR_materials_dispersion",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_variants",
+];
+
+/// All other ratified material extensions that are not read, and two deprecated ones: the factor that does nothing where it is 0
+/// in all its channels or not given, if there is one, and how the extension changes the reflection. Those that are read are
+/// `KHR_materials_ior`, `KHR_materials_specular` and `KHR_materials_transmission`.
+const CHANGES: [(&str, Option<&str>, &str); 7] = [
     (
         "KHR_materials_clearcoat",
-        Effect::Factor(
-            "clearcoatFactor",
-            "a coat over it reflects too, and takes light from it",
-        ),
+        Some("clearcoatFactor"),
+        "a coat over it reflects too, and takes light from it",
     ),
     (
         "KHR_materials_iridescence",
-        Effect::Factor("iridescenceFactor", "a film on it colours what it reflects"),
+        Some("iridescenceFactor"),
+        "a film on it colours what it reflects",
     ),
     (
         "KHR_materials_sheen",
-        Effect::Factor(
-            "sheenColorFactor",
-            "fibres on it reflect too, and take light from it",
-        ),
+        Some("sheenColorFactor"),
+        "fibres on it reflect too, and take light from it",
     ),
     (
         "KHR_materials_anisotropy",
-        Effect::Factor(
-            "anisotropyStrength",
-            "it is rougher in one direction than in the other, and a plan knows one roughness",
-        ),
+        Some("anisotropyStrength"),
+        "it is rougher in one direction than in the other, and a plan knows one roughness",
     ),
     (
         "KHR_materials_unlit",
-        Effect::Always("it is not lit, so that it reflects nothing"),
+        None,
+        "it is not lit, so that it reflects nothing",
     ),
     (
         "KHR_materials_pbrSpecularGlossiness",
-        Effect::Always("it states the colour that it reflects head-on, and no index"),
+        None,
+        "it states the colour that it reflects head-on, and no index",
     ),
-    (
-        "KHR_techniques_webgl",
-        Effect::Always("a shader of its own draws it"),
-    ),
+    ("KHR_techniques_webgl", None, "a shader of its own draws it"),
 ];
 
 /// A material that is seen but not planned.
@@ -130,7 +119,6 @@ pub struct Looks<'a> {
     around: [f32; 3],
     /// By the index of the file's material; the default one has none.
     known: HashMap<Option<usize>, Option<SurfaceLook>>,
-    default: GltfMaterial,
 }
 
 impl<'a> Looks<'a> {
@@ -142,7 +130,6 @@ impl<'a> Looks<'a> {
             root,
             around: light.mean(),
             known: HashMap::new(),
-            default: GltfMaterial::default(),
         }
     }
 
@@ -150,13 +137,12 @@ impl<'a> Looks<'a> {
     pub fn of(
         &mut self,
         material: Option<Index<GltfMaterial>>,
-    ) -> Result<Option<SurfaceLook>, Place> {
+    ) -> Result<Option<SurfaceLook>, GltfFault> {
         let key = material.map(|material| material.value());
         if let Some(known) = self.known.get(&key) {
             return Ok(*known);
         }
-        let root = self.root;
-        let default = self.default.clone();
+        let (root, default) = (self.root, GltfMaterial::default());
         let material = key.map_or(&default, |key| &root.materials[key]);
         let look = self.look(material, key)?;
         self.known.insert(key, look);
@@ -167,7 +153,7 @@ impl<'a> Looks<'a> {
         &mut self,
         material: &GltfMaterial,
         key: Option<usize>,
-    ) -> Result<Option<SurfaceLook>, Place> {
+    ) -> Result<Option<SurfaceLook>, GltfFault> {
         let factors = Factors::of(material, key)?;
         if factors.coverage == 0.0 {
             return Ok(None);
@@ -188,19 +174,16 @@ impl<'a> Looks<'a> {
                 None
             }
         };
-        let is_dielectric =
-            index.is_some_and(|index| is_dielectric(&self.materials[index].material));
-        let other = |i: usize| {
-            if is_dielectric {
-                factors.colour[i] * self.around[i]
-            } else {
-                0.0
-            }
+        let reflects_apart = index.is_some_and(|i| is_dielectric(&self.materials[i].material));
+        let around = if reflects_apart {
+            self.around
+        } else {
+            [0.0; 3]
         };
         Ok(Some(SurfaceLook {
             material: index,
             roughness: factors.roughness,
-            other: [other(0), other(1), other(2)],
+            other: [0, 1, 2].map(|i| factors.colour[i] * around[i]),
             coverage: factors.coverage,
             is_one_sided: !material.double_sided,
         }))
@@ -208,15 +191,11 @@ impl<'a> Looks<'a> {
 
     /// The file's name for a material, made distinct from others of the same name.
     fn free_name(&self, material: &GltfMaterial, key: Option<usize>) -> String {
-        let place = key.map_or("the default material".to_owned(), |key| {
-            format!("materials[{key}]")
-        });
-        let own = material
-            .name
-            .as_deref()
-            .map(one_line)
-            .filter(|name| !name.trim().is_empty());
-        let Some(own) = own else { return place };
+        let place = key.map_or("the default material".to_owned(), place_of);
+        let own = material.name.as_deref().map(one_line);
+        let Some(own) = own.filter(|name| !name.trim().is_empty()) else {
+            return place;
+        };
         let planned = self.materials.iter().map(|known| &known.name);
         let mut all = planned.chain(self.unplanned.iter().map(|known| &known.name));
         if all.any(|known| *known == own) {
@@ -225,6 +204,10 @@ impl<'a> Looks<'a> {
             own
         }
     }
+}
+
+fn place_of(material: usize) -> String {
+    format!("materials[{material}]")
 }
 
 fn is_dielectric(name: &str) -> bool {
@@ -243,20 +226,15 @@ struct Factors {
 }
 
 impl Factors {
-    fn of(material: &GltfMaterial, key: Option<usize>) -> Result<Factors, Place> {
+    fn of(material: &GltfMaterial, key: Option<usize>) -> Result<Factors, GltfFault> {
         let pbr = &material.pbr_metallic_roughness;
         let check = |value: f32, what: &str| {
             if (0.0..=1.0).contains(&value) {
                 Ok(value)
             } else {
-                let place = format!(
-                    "materials[{}].pbrMetallicRoughness.{what}",
-                    key.unwrap_or(0)
-                );
-                Err(Place::new(
-                    place,
-                    format!("it is {value}; it must lie between 0 and 1"),
-                ))
+                let place = place_of(key.unwrap_or(0)) + ".pbrMetallicRoughness." + what;
+                let what = format!("it is {value}; it must lie between 0 and 1");
+                Err(GltfFault::new(place, what))
             }
         };
         let [red, green, blue, alpha] = pbr.base_color_factor.0;
@@ -283,16 +261,12 @@ fn stands_for(
     material: &GltfMaterial,
     factors: &Factors,
     key: Option<usize>,
-) -> Result<Result<String, String>, Place> {
+) -> Result<Result<String, String>, GltfFault> {
     if let Some(named) = named(material, key)? {
         return Ok(Ok(named));
     }
-    let own = material
-        .name
-        .as_deref()
-        .unwrap_or("")
-        .to_lowercase()
-        .replace(' ', "_");
+    let own = material.name.as_deref().unwrap_or("");
+    let own = own.to_lowercase().replace(' ', "_");
     if materials::source(&own).is_some() {
         return Ok(Ok(own));
     }
@@ -306,7 +280,7 @@ fn stands_for(
 }
 
 /// The name in the extras.
-fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, Place> {
+fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, GltfFault> {
     let Some(extras) = &material.extras else {
         return Ok(None);
     };
@@ -315,8 +289,8 @@ fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, 
         return Ok(None);
     };
     let fault = |what: String| {
-        let place = format!("materials[{}].extras.{KEY}", key.unwrap_or(0));
-        Err(Place::new(place, what))
+        let place = place_of(key.unwrap_or(0)) + ".extras." + KEY;
+        Err(GltfFault::new(place, what))
     };
     match name.as_str() {
         None => fault("it wants the name of a material of the catalogue".to_owned()),
@@ -330,12 +304,7 @@ fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, 
 /// A dielectric, by its index alone.
 fn by_index(material: &GltfMaterial) -> Result<String, String> {
     let extensions = material.extensions.as_ref();
-    let others = extensions.map(|all| &all.others);
-    if let Some(reason) = others
-        .into_iter()
-        .flatten()
-        .find_map(|(name, value)| change(name, value))
-    {
+    if let Some(reason) = first_change(material) {
         return Err(reason);
     }
     if let Some(specular) = extensions.and_then(|all| all.specular.as_ref()) {
@@ -361,29 +330,63 @@ fn by_index(material: &GltfMaterial) -> Result<String, String> {
     })
 }
 
+/// A remark on the parts of a material that are not read.
+fn not_read(material: &GltfMaterial, name: &str) -> Option<String> {
+    let pbr = &material.pbr_metallic_roughness;
+    let emits = material.emissive_factor.0 != [0.0; 3];
+    let parts = [
+        (pbr.base_color_texture.is_some(), "baseColorTexture"),
+        (
+            pbr.metallic_roughness_texture.is_some(),
+            "metallicRoughnessTexture",
+        ),
+        (material.normal_texture.is_some(), "normalTexture"),
+        (material.occlusion_texture.is_some(), "occlusionTexture"),
+        (
+            emits && material.emissive_texture.is_some(),
+            "emissiveTexture",
+        ),
+        (
+            emits && material.emissive_texture.is_none(),
+            "emissiveFactor",
+        ),
+    ];
+    let parts = parts.iter().filter(|(is_there, _)| *is_there);
+    let parts: Vec<&str> = parts.map(|(_, part)| *part).collect();
+    let list = parts.join(", ");
+    (!parts.is_empty()).then(|| format!("{name}: not read: {list}"))
+}
+
 /// A remark on the extensions that change a material which a catalogue material stands for, since only the latter is planned.
 fn left_out(material: &GltfMaterial, name: &str, found: &str) -> Option<String> {
-    let others = material.extensions.as_ref().map(|all| &all.others);
-    let mut others = others.into_iter().flatten();
-    let reason = others.find_map(|(extension, value)| change(extension, value))?;
+    let reason = first_change(material)?;
     Some(format!("{name}: planned as {found} alone; {reason}"))
+}
+
+/// The first change of the reflection by an extension that is not read, in words.
+fn first_change(material: &GltfMaterial) -> Option<String> {
+    let extensions = material.extensions.iter();
+    let mut others = extensions.flat_map(|extensions| &extensions.others);
+    others.find_map(|(name, value)| change(name, value))
 }
 
 /// The change of the reflection by an extension, in words; `None` where it changes nothing.
 fn change(name: &str, value: &serde_json::Value) -> Option<String> {
-    let known = EXTENSIONS.iter().find(|(known, _)| *known == name);
+    if HARMLESS.contains(&name) {
+        return None;
+    }
     let is_zero = |factor: &serde_json::Value| match factor.as_array() {
         Some(channels) => channels.iter().all(|channel| channel.as_f64() == Some(0.0)),
         None => factor.as_f64() == Some(0.0),
     };
+    let known = CHANGES.iter().find(|(known, ..)| *known == name);
     let name = Foreign(name);
-    match known.map(|(_, effect)| effect) {
-        Some(Effect::None) => None,
-        Some(Effect::Factor(factor, _)) if value.get(factor).is_none_or(is_zero) => None,
-        Some(Effect::Factor(factor, why)) => {
+    match known {
+        Some((_, Some(factor), _)) if value.get(factor).is_none_or(is_zero) => None,
+        Some((_, Some(factor), why)) => {
             Some(format!("{name}: {why}; a {factor} of 0 does nothing"))
         }
-        Some(Effect::Always(why)) => Some(format!("{name}: {why}")),
+        Some((_, None, why)) => Some(format!("{name}: {why}")),
         None => Some(format!("{name} changes what it reflects")),
     }
 }

@@ -22,18 +22,16 @@ use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 use gltf_json::{Accessor, Index, Root};
 
-use super::drawn::DrawnScene;
-use super::metric::{FramePixels, MappedMaterial};
-use super::scene_file::ReadFile;
+use super::drawn::{DrawnScene, ReadFile};
+use super::frame::{FramePixels, MappedMaterial};
 use super::sky::SceneLight;
-use crate::lab::raster::{Camera, Mesh};
+use crate::lab::raster::Camera;
 use crate::physics::foreign::Foreign;
 use crate::physics::user_text::without_mark;
 use accessor::Buffers;
-use container::{Container, Place};
+use container::Container;
 use materials::Looks;
 use nodes::cameras;
-use primitives::Tints;
 
 pub use container::GltfFault;
 pub use materials::{Unplanned, constant_index};
@@ -50,53 +48,39 @@ pub struct GltfView {
 /// A glTF scene, ready to be drawn.
 #[derive(Clone, Debug)]
 pub struct GltfScene {
-    /// Whether the cameras are the file's own. If it has none, 36 turn about its middle ([`GltfScene::view`]).
-    pub has_cameras: bool,
     /// The materials that are seen but not planned, with the reasons.
     pub unplanned: Vec<Unplanned>,
     /// What the file states and this program does not read although it changes the picture.
     pub remarks: Vec<String>,
     scene: DrawnScene,
+    /// The file's own. If it has none, 36 turn about its middle.
     cameras: Vec<Camera>,
     materials: Vec<MappedMaterial>,
 }
 
 impl GltfScene {
-    /// Reads a `.gltf` or `.glb`. `file` is only for messages; `read` gets the path of a buffer's file as the glTF file states
-    /// it.
+    /// Reads a `.gltf` or `.glb`. `read` gets the path of a buffer's file as the glTF file states it.
     ///
     /// # Errors
     /// The file is no glTF 2.0, an index leads to nothing, a buffer is shorter than it should be, a number is not finite, it
     /// needs an extension that changes its triangles, or it has too many triangles. The fault has its place in the JSON.
-    pub fn read(
-        file: &str,
-        bytes: &[u8],
-        view: &GltfView,
-        read: ReadFile,
-    ) -> Result<GltfScene, GltfFault> {
-        let fault = |place: Place| place.fault(file);
-        let container = Container::of(bytes).map_err(fault)?;
-        let root = root(&container).map_err(fault)?;
-        let buffers = Buffers::read(&root, &container, read).map_err(fault)?;
-        let nodes = nodes::placed(&root).map_err(fault)?;
+    pub fn read(bytes: &[u8], view: &GltfView, read: ReadFile) -> Result<GltfScene, GltfFault> {
+        let container = Container::of(bytes)?;
+        let root = root(&container)?;
+        let buffers = Buffers::read(&root, &container, read)?;
+        let nodes = nodes::placed(&root)?;
         let mut looks = Looks::new(&root, &view.light);
         let mut scene = DrawnScene::new(0, view.light.clone());
-        let add = &mut |mesh: &Mesh, look, tints: Option<Tints>| match tints {
-            Some(tints) => scene.add_tinted(mesh, look, tints),
-            None => scene.add(mesh, look),
-        };
-        primitives::add_parts(&root, &nodes, &buffers, &mut looks, add).map_err(fault)?;
-        let own = cameras(&root, &nodes, view.size).map_err(fault)?;
+        primitives::add_parts(&root, &nodes, &buffers, &mut looks, &mut scene)?;
+        let mut cameras = cameras(&root, &nodes, view.size)?;
+        if cameras.is_empty() {
+            cameras = nodes::around(scene.mesh(), view.size);
+        }
         Ok(GltfScene {
-            has_cameras: !own.is_empty(),
             unplanned: looks.unplanned,
             remarks: [looks.remarks, nodes::of_scene(&root, view.size)].concat(),
-            cameras: if own.is_empty() {
-                nodes::around(scene.mesh(), view.size)
-            } else {
-                own
-            },
             scene,
+            cameras,
             materials: looks.materials,
         })
     }
@@ -104,15 +88,6 @@ impl GltfScene {
     /// How many frames it has.
     pub fn frames(&self) -> usize {
         self.cameras.len()
-    }
-
-    /// The cameras of the scene, in words.
-    pub fn view(&self) -> String {
-        if self.has_cameras {
-            "the file's cameras".to_owned()
-        } else {
-            nodes::AROUND_IN_WORDS.to_owned()
-        }
     }
 
     /// Its materials that can be planned, in the order of [`FramePixels::of_material`].
@@ -127,24 +102,22 @@ impl GltfScene {
 }
 
 /// The JSON, with every index checked.
-fn root(container: &Container) -> Result<Root, Place> {
-    let json = without_mark(container.json).map_err(|fault| Place::new("line 1", fault.what))?;
+fn root(container: &Container) -> Result<Root, GltfFault> {
+    let json =
+        without_mark(container.json).map_err(|fault| GltfFault::new("line 1", fault.what))?;
     let root = Root::from_slice(json).map_err(|error| {
         let place = format!("line {}, column {}", error.line(), error.column());
-        Place::new(place, format!("no glTF: {error}"))
+        GltfFault::new(place, format!("no glTF: {error}"))
     })?;
     if !root.asset.version.starts_with("2.") {
         let what = format!("it is {}; version 2.0 is read", root.asset.version);
-        return Err(Place::new("asset.version", what));
+        return Err(GltfFault::new("asset.version", what));
     }
-    if let Some(least) = root
-        .asset
-        .min_version
-        .as_deref()
-        .filter(|least| *least != "2.0")
+    if let Some(least) = &root.asset.min_version
+        && least != "2.0"
     {
         let what = format!("it is {}; version 2.0 is read", Foreign(least));
-        return Err(Place::new("asset.minVersion", what));
+        return Err(GltfFault::new("asset.minVersion", what));
     }
     check_positions(&root)?;
     let mut first = None;
@@ -164,14 +137,14 @@ fn root(container: &Container) -> Result<Root, Place> {
             Error::Oversize => "it is too large for this machine",
             Error::Invalid | Error::Unsupported => "the specification does not allow this value",
         };
-        return Err(Place::new(place, what));
+        return Err(GltfFault::new(place, what));
     }
     check_extensions(&root)?;
     Ok(root)
 }
 
 /// The crate assumes that the accessors of positions exist before it checks any index.
-fn check_positions(root: &Root) -> Result<(), Place> {
+fn check_positions(root: &Root) -> Result<(), GltfFault> {
     for (i, mesh) in root.meshes.iter().enumerate() {
         for (j, primitive) in mesh.primitives.iter().enumerate() {
             let positions = primitive
@@ -180,14 +153,14 @@ fn check_positions(root: &Root) -> Result<(), Place> {
             let is_there = |index: &Index<Accessor>| index.value() < root.accessors.len();
             if !positions.is_none_or(is_there) {
                 let place = format!("meshes[{i}].primitives[{j}].attributes.POSITION");
-                return Err(Place::new(place, "the index leads to nothing"));
+                return Err(GltfFault::new(place, "the index leads to nothing"));
             }
         }
     }
     Ok(())
 }
 
-fn check_extensions(root: &Root) -> Result<(), Place> {
+fn check_extensions(root: &Root) -> Result<(), GltfFault> {
     for (i, name) in root.extensions_required.iter().enumerate() {
         // These change the look of surfaces, which the catalogue's materials replace.
         let is_harmless = [
@@ -201,7 +174,7 @@ fn check_extensions(root: &Root) -> Result<(), Place> {
             let what = format!(
                 "the file needs the extension `{name}`, which is not read; export it without"
             );
-            return Err(Place::new(format!("extensionsRequired[{i}]"), what));
+            return Err(GltfFault::new(format!("extensionsRequired[{i}]"), what));
         }
     }
     Ok(())

@@ -4,10 +4,10 @@
 //! although it changes the picture, so that nothing is ignored silently.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
-use gltf_json::{Material, Node, Root, camera};
+use gltf_json::{Node, Root, camera};
 
-use super::super::scene_file::MOST_FRAMES;
-use super::container::Place;
+use super::super::drawn::MOST_FRAMES;
+use super::container::GltfFault;
 use crate::lab::raster::{Camera, Lens, Mesh, rotated};
 use crate::physics::foreign::Foreign;
 
@@ -24,7 +24,7 @@ pub struct PlacedNode<'a> {
 ///
 /// # Errors
 /// A node stands in two places or below itself, or a number of its transform is not finite.
-pub fn placed(root: &Root) -> Result<Vec<PlacedNode<'_>>, Place> {
+pub fn placed(root: &Root) -> Result<Vec<PlacedNode<'_>>, GltfFault> {
     let first = (!root.scenes.is_empty()).then_some(0);
     let scene = root.scene.map(|scene| scene.value()).or(first);
     let mut seen = vec![false; root.nodes.len()];
@@ -49,13 +49,13 @@ pub fn placed(root: &Root) -> Result<Vec<PlacedNode<'_>>, Place> {
     while let Some((index, parent, place)) = pending.pop() {
         if std::mem::replace(&mut seen[index], true) {
             let what = format!("node {index} stands in two places, or below itself");
-            return Err(Place::new(place, what));
+            return Err(GltfFault::new(place, what));
         }
         let node = &root.nodes[index];
         let into_world = parent * own_transform(node);
         if !into_world.is_finite() {
             let what = "its transform into the world is not finite";
-            return Err(Place::new(format!("nodes[{index}]"), what));
+            return Err(GltfFault::new(format!("nodes[{index}]"), what));
         }
         placed.push(PlacedNode {
             index,
@@ -112,33 +112,6 @@ const READ: [&str; 3] = ["KHR_materials_", "KHR_texture_", "EXT_texture_"];
 /// How far a camera's aspect may differ from that of the frames, as rounding does.
 const ROUNDING: f64 = 0.005;
 
-/// A remark on the parts of a material that are not read.
-pub fn not_read(material: &Material, name: &str) -> Option<String> {
-    let pbr = &material.pbr_metallic_roughness;
-    let emits = material.emissive_factor.0 != [0.0; 3];
-    let parts = [
-        (pbr.base_color_texture.is_some(), "baseColorTexture"),
-        (
-            pbr.metallic_roughness_texture.is_some(),
-            "metallicRoughnessTexture",
-        ),
-        (material.normal_texture.is_some(), "normalTexture"),
-        (material.occlusion_texture.is_some(), "occlusionTexture"),
-        (
-            emits && material.emissive_texture.is_some(),
-            "emissiveTexture",
-        ),
-        (
-            emits && material.emissive_texture.is_none(),
-            "emissiveFactor",
-        ),
-    ];
-    let parts = parts.iter().filter(|(is_there, _)| *is_there);
-    let parts: Vec<&str> = parts.map(|(_, part)| *part).collect();
-    let list = parts.join(", ");
-    (!parts.is_empty()).then(|| format!("{name}: not read: {list}"))
-}
-
 /// Remarks on the parts of the scene that are not read; `size` is that of the frames.
 pub fn of_scene(root: &Root, size: [u32; 2]) -> Vec<String> {
     let mut remarks = Vec::new();
@@ -190,7 +163,6 @@ fn aspect(root: &Root, frames: f64) -> Option<String> {
 }
 
 /// The cameras that stand in for those of a file without any.
-pub const AROUND_IN_WORDS: &str = "36 cameras about the middle of all triangles, 10 degrees apart about y, 20 degrees above it, 45 degrees of view, as far away as shows all";
 const FRAMES: u32 = 36;
 const ABOVE_DEGREES: f64 = 20.0;
 const VERTICAL_DEGREES: f64 = 45.0;
@@ -199,7 +171,11 @@ const VERTICAL_DEGREES: f64 = 45.0;
 ///
 /// # Errors
 /// A field of view or a height lies outside its limits, a transform has no directions, or there are too many cameras.
-pub fn cameras(root: &Root, nodes: &[PlacedNode], size: [u32; 2]) -> Result<Vec<Camera>, Place> {
+pub fn cameras(
+    root: &Root,
+    nodes: &[PlacedNode],
+    size: [u32; 2],
+) -> Result<Vec<Camera>, GltfFault> {
     let mut cameras = Vec::new();
     for node in nodes {
         let Some(index) = node.node.camera.map(|camera| camera.value()) else {
@@ -208,13 +184,13 @@ pub fn cameras(root: &Root, nodes: &[PlacedNode], size: [u32; 2]) -> Result<Vec<
         let matrix = node.into_world.matrix3;
         let axes = axes(-matrix.z_axis, matrix.y_axis).ok_or_else(|| {
             let what = "its transform leaves the camera no direction";
-            Place::new(format!("nodes[{}]", node.index), what)
+            GltfFault::new(format!("nodes[{}]", node.index), what)
         })?;
         let place = format!("cameras[{index}]");
         let eye = node.into_world.translation;
         cameras.push(camera(&root.cameras[index], eye, axes, size, &place)?);
         if cameras.len() > MOST_FRAMES {
-            return Err(Place::new(
+            return Err(GltfFault::new(
                 place,
                 format!("the scene has more than {MOST_FRAMES} cameras"),
             ));
@@ -236,13 +212,13 @@ fn camera(
     axes: [DVec3; 3],
     size: [u32; 2],
     place: &str,
-) -> Result<Camera, Place> {
+) -> Result<Camera, GltfFault> {
     let within = |value: f64, [low, high]: [f64; 2], what: &str| {
         if (low..=high).contains(&value) {
             Ok(value)
         } else {
             let says = format!("it is {value}; it must lie between {low} and {high}");
-            Err(Place::new(format!("{place}.{what}"), says))
+            Err(GltfFault::new(format!("{place}.{what}"), says))
         }
     };
     match (&camera.perspective, &camera.orthographic) {
@@ -266,7 +242,7 @@ fn camera(
             let height = 2.0 * half;
             Ok(Camera::orthographic(eye, axes, height, size).clipped(planes, Some(height)))
         }
-        (None, None) => Err(Place::new(
+        (None, None) => Err(GltfFault::new(
             place,
             "it is neither perspective nor orthographic",
         )),
@@ -274,14 +250,14 @@ fn camera(
 }
 
 /// The distances of a camera's clip planes (section 3.10.3).
-fn planes([near, far]: [f64; 2], place: &str, what: &str) -> Result<[f64; 2], Place> {
+fn planes([near, far]: [f64; 2], place: &str, what: &str) -> Result<[f64; 2], GltfFault> {
     if near < 0.0 {
         let says = format!("it is {near}; it must not be below 0");
-        return Err(Place::new(format!("{place}.{what}.znear"), says));
+        return Err(GltfFault::new(format!("{place}.{what}.znear"), says));
     }
     if far <= near {
         let says = format!("it is {far}; it must be greater than znear, {near}");
-        return Err(Place::new(format!("{place}.{what}.zfar"), says));
+        return Err(GltfFault::new(format!("{place}.{what}.zfar"), says));
     }
     Ok([near, far])
 }

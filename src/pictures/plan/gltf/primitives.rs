@@ -6,20 +6,17 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-use super::super::drawn::SurfaceLook;
+use super::super::drawn::{DrawnScene, Tints};
 use super::accessor::{Buffers, MOST_ELEMENTS};
-use super::container::Place;
+use super::container::GltfFault;
 use super::materials::Looks;
 use super::nodes::PlacedNode;
 use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex};
 
-/// The factors of COLOR_0 at each corner: red, green, blue, alpha.
-pub type Tints = Vec<[f32; 4]>;
-
 /// The largest coordinate along each axis, in metres.
 const FARTHEST: f64 = 1e6;
 
-/// Passes the triangles of each primitive and their look to `add`.
+/// Adds the triangles of each primitive to the scene.
 ///
 /// # Errors
 /// An accessor is malformed, a number is not finite or too large, or there are too many triangles.
@@ -28,8 +25,8 @@ pub fn add_parts(
     nodes: &[PlacedNode],
     buffers: &Buffers,
     looks: &mut Looks,
-    add: &mut dyn FnMut(&Mesh, SurfaceLook, Option<Tints>),
-) -> Result<(), Place> {
+    scene: &mut DrawnScene,
+) -> Result<(), GltfFault> {
     // The counts so far, of triangles and of accessor elements.
     let (mut triangles, mut elements) = (0, 0);
     for node in nodes {
@@ -50,20 +47,20 @@ pub fn add_parts(
                     "the scene up to here has more than {} elements",
                     2 * MOST_ELEMENTS
                 );
-                return Err(Place::new(place, what));
+                return Err(GltfFault::new(place, what));
             }
             let mesh = corners.read(buffers, node)?;
             triangles += mesh.triangles.len();
             if triangles > MOST_TRIANGLES {
                 let what = format!("the scene up to here has more than {MOST_TRIANGLES} triangles");
-                return Err(Place::new(place, what));
+                return Err(GltfFault::new(place, what));
             }
             let tints = corners.tints(buffers, alpha_mode(root, primitive), mesh.vertices.len())?;
-            add(&mesh, look, tints);
+            scene.add(&mesh, look, tints);
         }
     }
     match triangles {
-        0 => Err(Place::new("meshes", "the scene has no triangle")),
+        0 => Err(GltfFault::new("meshes", "the scene has no triangle")),
         _ => Ok(()),
     }
 }
@@ -113,7 +110,7 @@ impl Corners {
     }
 
     /// The number of elements that its accessors announce.
-    fn elements(&self, buffers: &Buffers) -> Result<usize, Place> {
+    fn elements(&self, buffers: &Buffers) -> Result<usize, GltfFault> {
         let parts = [
             (Some(self.positions), "attributes.POSITION"),
             (self.normals, "attributes.NORMAL"),
@@ -129,7 +126,7 @@ impl Corners {
         Ok(sum)
     }
 
-    fn read(&self, buffers: &Buffers, node: &PlacedNode) -> Result<Mesh, Place> {
+    fn read(&self, buffers: &Buffers, node: &PlacedNode) -> Result<Mesh, GltfFault> {
         let place = self.place_of("attributes.POSITION");
         let positions = buffers.vectors(self.positions, &place)?;
         // Without normals faces are flat (section 3.7.2.1); the rasteriser draws corners without a normal so.
@@ -139,7 +136,7 @@ impl Corners {
             normals = buffers.vectors(index, &place)?;
             if normals.len() != positions.len() {
                 let what = format!("{} normals of {} corners", normals.len(), positions.len());
-                return Err(Place::new(place, what));
+                return Err(GltfFault::new(place, what));
             }
         }
         let corners = positions.iter().zip(&normals);
@@ -151,7 +148,7 @@ impl Corners {
         };
         if let Some(at) = vertices.iter().position(|vertex| !is_near(vertex)) {
             let what = format!("node {} takes corner {at} beyond {FARTHEST} m", node.index);
-            return Err(Place::new(place, what));
+            return Err(GltfFault::new(place, what));
         }
         let mut triangles = self.triangles(buffers, vertices.len())?;
         // A mirroring transform reverses the winding (section 3.7.4).
@@ -170,7 +167,7 @@ impl Corners {
         buffers: &Buffers,
         mode: AlphaMode,
         corners: usize,
-    ) -> Result<Option<Tints>, Place> {
+    ) -> Result<Option<Tints>, GltfFault> {
         let Some(index) = self.colours else {
             return Ok(None);
         };
@@ -178,11 +175,11 @@ impl Corners {
         let mut tints = buffers.colours(index, &place)?;
         if tints.len() != corners {
             let what = format!("{} colours of {corners} corners", tints.len());
-            return Err(Place::new(place, what));
+            return Err(GltfFault::new(place, what));
         }
         if mode == AlphaMode::Mask && tints.iter().any(|tint| tint[3] < 1.0) {
             let what = "its alpha cuts parts out of the surface (alphaMode MASK), which is not read; export it without";
-            return Err(Place::new(place, what));
+            return Err(GltfFault::new(place, what));
         }
         if mode == AlphaMode::Opaque {
             tints.iter_mut().for_each(|tint| tint[3] = 1.0);
@@ -190,7 +187,7 @@ impl Corners {
         Ok(Some(tints))
     }
 
-    fn triangles(&self, buffers: &Buffers, corners: usize) -> Result<Vec<[u32; 3]>, Place> {
+    fn triangles(&self, buffers: &Buffers, corners: usize) -> Result<Vec<[u32; 3]>, GltfFault> {
         let order = match self.indices {
             None => (0..corners as u32).collect(),
             Some(index) => {
@@ -199,7 +196,7 @@ impl Corners {
                 if let Some(beyond) = order.iter().find(|index| **index as usize >= corners) {
                     let what =
                         format!("index {beyond} leads to nothing: there are {corners} corners");
-                    return Err(Place::new(place, what));
+                    return Err(GltfFault::new(place, what));
                 }
                 order
             }
@@ -223,11 +220,9 @@ impl Corners {
             _ => order.as_chunks::<3>().0.to_vec(),
         })
     }
-}
 
-impl Corners {
     /// Refuses a count of corners or indices that does not make whole triangles (section 3.7.2.1).
-    fn check_whole(&self, count: usize) -> Result<(), Place> {
+    fn check_whole(&self, count: usize) -> Result<(), GltfFault> {
         let is_whole = match self.mode {
             Mode::Triangles => count.is_multiple_of(3),
             _ => count >= 3,
@@ -244,7 +239,7 @@ impl Corners {
             _ => "three at least",
         };
         let what = format!("{count} {what} make no whole triangles; there must be {wanted}");
-        Err(Place::new(self.place_of(place), what))
+        Err(GltfFault::new(self.place_of(place), what))
     }
 }
 

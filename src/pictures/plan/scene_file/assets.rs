@@ -3,7 +3,7 @@
 use glam::DVec3;
 use toml::Spanned;
 
-use super::super::drawn::DrawnScene;
+use super::super::drawn::{DrawnScene, ReadFile};
 use super::super::sky::SceneLight;
 use super::check::FARTHEST;
 use super::{Light, Object, SceneFile, Shape};
@@ -13,9 +13,6 @@ use crate::pictures::scene::Environment;
 
 /// How far a plane reaches beyond everything else, so that it ends within 1e-7 of the horizon.
 const BEYOND: f64 = 1e7;
-
-/// Reads a file that a scene names, by its path as the scene states it, or says why it cannot.
-pub type ReadFile<'a> = &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>;
 
 impl SceneFile {
     /// The scene with all files that it names.
@@ -27,24 +24,29 @@ impl SceneFile {
         let mut scene = DrawnScene::new(self.materials.len(), light);
         let mut planes = Vec::new();
         for object in &self.objects {
-            let is_plane = matches!(object.shape.get_ref(), Shape::Plane);
-            if is_plane {
-                planes.push(object);
-                continue;
-            }
-            let mesh = self.placed(object, read)?;
+            let mesh = match object.shape.get_ref() {
+                Shape::Plane => {
+                    planes.push(object);
+                    continue;
+                }
+                Shape::Body(body) => {
+                    let mesh = body.mesh().with_extent(object.extent.unwrap_or(1.0));
+                    moved(mesh, object.at.unwrap_or(DVec3::ZERO))
+                }
+                Shape::Mesh(path) => self.mesh(object, path, read)?,
+            };
             let triangles = scene.triangles() + mesh.triangles.len();
             if triangles + 2 * self.objects.len() > MOST_TRIANGLES {
                 let what =
                     format!("the objects up to here have more than {MOST_TRIANGLES} triangles");
                 return Err(self.fault(object.shape.span().start, what));
             }
-            scene.add(&mesh, object.look);
+            scene.add(&mesh, object.look, None);
         }
         let radius = BEYOND * self.radius(scene.mesh());
         for plane in planes {
             let height = plane.at.unwrap_or(DVec3::ZERO).y;
-            scene.add(&square(radius, height), plane.look);
+            scene.add(&square(radius, height), plane.look, None);
         }
         Ok(scene)
     }
@@ -68,29 +70,20 @@ impl SceneFile {
         read(path).map_err(|why| self.fault(at.span().start, format!("{path}: {why}")))
     }
 
-    /// The triangles of an object in its place.
-    fn placed(&self, object: &Object, read: ReadFile) -> Result<Mesh, FileFault> {
-        match object.shape.get_ref() {
-            Shape::Body(body) => {
-                let mesh = body.mesh().with_extent(object.extent.unwrap_or(1.0));
-                Ok(moved(mesh, object.at.unwrap_or(DVec3::ZERO)))
-            }
-            Shape::Plane => Ok(Mesh::default()),
-            Shape::Mesh(path) => {
-                let bytes = self.bytes(&object.shape, path, read)?;
-                let text = mesh_text(bytes).map_err(|fault| {
-                    let what = format!("{path}: {}", fault.what);
-                    self.fault(object.shape.span().start, what)
-                })?;
-                let mesh = mesh_of_obj(&text).map_err(|fault| FileFault {
-                    file: path.clone(),
-                    line: fault.line,
-                    column: 1,
-                    what: fault.what,
-                })?;
-                self.own_place(mesh, object)
-            }
-        }
+    /// A user's mesh in its place.
+    fn mesh(&self, object: &Object, path: &str, read: ReadFile) -> Result<Mesh, FileFault> {
+        let bytes = self.bytes(&object.shape, path, read)?;
+        let text = mesh_text(bytes).map_err(|fault| {
+            let what = format!("{path}: {}", fault.what);
+            self.fault(object.shape.span().start, what)
+        })?;
+        let mesh = mesh_of_obj(&text).map_err(|fault| FileFault {
+            file: path.to_owned(),
+            line: fault.line,
+            column: 1,
+            what: fault.what,
+        })?;
+        self.own_place(mesh, object)
     }
 
     /// A user's mesh. It keeps its own size and place where the scene states none.

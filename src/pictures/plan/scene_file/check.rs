@@ -5,13 +5,14 @@ use std::collections::HashMap;
 use glam::DVec3;
 use toml::Spanned;
 
-use super::super::drawn::SurfaceLook;
-use super::super::metric::MappedMaterial;
-use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
-use super::{Light, MOST_FRAMES, Object, SIDES, Shape};
+use super::super::drawn::{MOST_FRAMES, SurfaceLook};
+use super::super::frame::MappedMaterial;
+use super::raw::{RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
+use super::{Light, Object, SceneFile, Shape};
 use crate::lab::raster::{Body, Camera, Lens, rotated};
 use crate::physics::materials;
 use crate::physics::names::UnknownName;
+use crate::physics::spectra::Space;
 use crate::physics::user_text::{FileFault, FileText};
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 
@@ -21,61 +22,60 @@ pub const FARTHEST: f64 = 1e6;
 const SMALLEST: f64 = 1e-6;
 /// The largest finite number of binary16, which environments hold.
 const BRIGHTEST: f64 = 65504.0;
+/// The least and the most pixels along a side of a frame.
+const SIDES: [u32; 2] = [16, 4096];
 /// Pixels of a frame whose size is not stated.
 const USUAL_SIZE: [u32; 2] = [512, 512];
 /// The name of a plane among the bodies.
 const PLANE: &str = "plane";
 
-/// The checked contents of a scene file.
-pub struct Checked {
-    pub display: Display,
-    pub cameras: Vec<Camera>,
-    pub camera_at: usize,
-    pub light: Light,
-    pub objects: Vec<Object>,
-    pub materials: Vec<MappedMaterial>,
-    pub materials_at: Vec<usize>,
-}
-
 type Read<T> = Result<T, FileFault>;
 
-impl Checked {
-    pub fn of(raw: RawScene, place: &FileText) -> Read<Checked> {
+impl SceneFile {
+    /// Reads a scene file. `file` is only for messages.
+    ///
+    /// # Errors
+    /// The text is not TOML, a key is missing or unknown, a value lies outside its limits, or the catalogue has no such material.
+    pub fn parse(file: &str, text: &str) -> Read<SceneFile> {
+        let place = FileText { file, text };
+        let raw: RawScene = toml::from_str(text).map_err(|error| place.toml_fault(&error))?;
         let size = place.size(raw.size.as_ref())?;
-        let mut checked = Checked {
+        let mut scene = SceneFile {
             display: Display {
                 exposure: place.or(raw.exposure.as_ref(), "exposure", [-64.0, 64.0], 0.0)?,
                 curve: place.tone(raw.tone.as_ref())?,
             },
+            space: Space::default(),
             cameras: Vec::new(),
-            camera_at: first_place(&raw.camera),
+            file: file.to_owned(),
+            text: text.to_owned(),
+            camera_at: raw.camera.0.first().map_or(0, |camera| camera.span().start),
             light: place.light(&raw.light)?,
             objects: Vec::new(),
             materials: Vec::new(),
             materials_at: Vec::new(),
         };
         for camera in &raw.camera.0 {
-            let cameras = place.cameras(camera, size)?;
-            checked.cameras.extend(cameras);
-            if checked.cameras.len() > MOST_FRAMES {
+            scene.cameras.extend(place.cameras(camera, size)?);
+            if scene.cameras.len() > MOST_FRAMES {
                 let what = format!("the cameras up to here have more than {MOST_FRAMES} frames");
                 return Err(place.fault(camera.span().start, what));
             }
         }
         let mut known = HashMap::new();
         for object in &raw.object.0 {
-            let material = checked.material(object.get_ref(), &mut known, place)?;
-            checked.objects.push(place.object(object, material)?);
+            let material = scene.material(object.get_ref(), &mut known, &place)?;
+            scene.objects.push(place.object(object, material)?);
         }
         for (is_empty, key) in [
-            (checked.cameras.is_empty(), "camera"),
-            (checked.objects.is_empty(), "object"),
+            (scene.cameras.is_empty(), "camera"),
+            (scene.objects.is_empty(), "object"),
         ] {
             if is_empty {
                 return Err(place.fault(0, format!("`{key}` is empty; a scene has one or more")));
             }
         }
-        Ok(checked)
+        Ok(scene)
     }
 
     /// The index of an object's material among all materials. A new material is appended.
@@ -88,8 +88,7 @@ impl Checked {
         let material = object.material.get_ref();
         let is_path = material.contains(['.', '/', '\\']);
         if !is_path && materials::source(material).is_none() {
-            let unknown = UnknownName::new("material", material, &materials::names());
-            return Err(place.fault(object.material.span().start, unknown.to_string()));
+            return Err(place.unknown("material", &object.material, &materials::names()));
         }
         place.legible("material", &object.material)?;
         if let Some(name) = &object.name {
@@ -110,11 +109,12 @@ impl Checked {
     }
 }
 
-fn first_place(cameras: &OneOrMany<RawCamera>) -> usize {
-    cameras.0.first().map_or(0, |camera| camera.span().start)
-}
-
 impl FileText<'_> {
+    fn unknown(&self, kind: &'static str, name: &Spanned<String>, known: &[&str]) -> FileFault {
+        let unknown = UnknownName::new(kind, name.get_ref(), known);
+        self.fault(name.span().start, unknown.to_string())
+    }
+
     fn number(&self, value: &Spanned<f64>, key: &str, [low, high]: [f64; 2]) -> Read<f64> {
         let number = *value.get_ref();
         // NaN fails every range.
@@ -154,34 +154,25 @@ impl FileText<'_> {
 
     /// Refuses a name that is empty or holds control characters, which a terminal would obey.
     fn legible(&self, key: &str, text: &Spanned<String>) -> Read<()> {
-        let is_legible =
-            !text.get_ref().trim().is_empty() && !text.get_ref().chars().any(materials::is_hidden);
-        let what = || {
-            format!("`{key}` is empty or holds a control character; it wants a line of plain text")
-        };
-        if is_legible {
-            Ok(())
-        } else {
-            Err(self.fault(text.span().start, what()))
+        let word = text.get_ref();
+        if !word.trim().is_empty() && !word.chars().any(materials::is_hidden) {
+            return Ok(());
         }
+        let what =
+            format!("`{key}` is empty or holds a control character; it wants a line of plain text");
+        Err(self.fault(text.span().start, what))
     }
 
     fn size(&self, raw: Option<&[Spanned<i64>; 2]>) -> Read<[u32; 2]> {
         let mut size = USUAL_SIZE;
         let [low, high] = SIDES;
         for (side, value) in size.iter_mut().zip(raw.into_iter().flatten()) {
-            let within = |number: i64| {
-                (low..=high)
-                    .contains(&u32::try_from(number).ok()?)
-                    .then_some(number)
-            };
-            let Some(number) = within(*value.get_ref()) else {
-                let what = format!(
-                    "`size` has a side of {} pixels; sides have {low} to {high}",
-                    value.get_ref()
-                );
+            let number = *value.get_ref();
+            if !(i64::from(low)..=i64::from(high)).contains(&number) {
+                let what =
+                    format!("`size` has a side of {number} pixels; sides have {low} to {high}");
                 return Err(self.fault(value.span().start, what));
-            };
+            }
             *side = number as u32;
         }
         Ok(size)
@@ -191,12 +182,10 @@ impl FileText<'_> {
         let Some(raw) = raw else {
             return Ok(TONE_CURVES[0]);
         };
-        let found = TONE_CURVES.iter().find(|curve| curve.name == raw.get_ref());
+        let mut curves = TONE_CURVES.into_iter();
+        let found = curves.find(|curve| curve.name == raw.get_ref());
         let names = TONE_CURVES.map(|curve| curve.name);
-        let unknown = || UnknownName::new("tone curve", raw.get_ref(), &names).to_string();
-        found
-            .copied()
-            .ok_or_else(|| self.fault(raw.span().start, unknown()))
+        found.ok_or_else(|| self.unknown("tone curve", raw, &names))
     }
 
     fn light(&self, raw: &Spanned<RawLight>) -> Read<Light> {
@@ -216,10 +205,8 @@ impl FileText<'_> {
     fn cameras(&self, spanned: &Spanned<RawCamera>, size: [u32; 2]) -> Read<Vec<Camera>> {
         let raw = spanned.get_ref();
         let eye = self.position(&raw.eye, "eye")?;
-        let at = raw
-            .at
-            .as_ref()
-            .map_or(Ok(DVec3::ZERO), |at| self.position(at, "at"))?;
+        let at = raw.at.as_ref();
+        let at = at.map_or(Ok(DVec3::ZERO), |at| self.position(at, "at"))?;
         if (eye - at).length() < SMALLEST {
             let what = format!("`eye` and `at` are less than {SMALLEST} m apart");
             return Err(self.fault(raw.eye[0].span().start, what));
@@ -311,30 +298,22 @@ impl FileText<'_> {
         let raw = spanned.get_ref();
         match (&raw.body, &raw.mesh) {
             (Some(body), None) => {
-                let found = Body::ALL
-                    .into_iter()
-                    .find(|known| known.name == body.get_ref());
-                let names: Vec<&str> = Body::ALL
-                    .iter()
-                    .map(|body| body.name)
-                    .chain([PLANE])
-                    .collect();
-                let shape = match found {
+                let mut bodies = Body::ALL.into_iter();
+                let shape = match bodies.find(|known| known.name == body.get_ref()) {
                     Some(found) => Shape::Body(found),
                     None if body.get_ref() == PLANE => Shape::Plane,
                     None => {
-                        let unknown = UnknownName::new("body", body.get_ref(), &names);
-                        return Err(self.fault(body.span().start, unknown.to_string()));
+                        let names = Body::ALL.iter().map(|body| body.name);
+                        let names: Vec<&str> = names.chain([PLANE]).collect();
+                        return Err(self.unknown("body", body, &names));
                     }
                 };
                 Ok(Spanned::new(body.span(), shape))
             }
             (None, Some(path)) => {
                 self.legible("mesh", path)?;
-                Ok(Spanned::new(
-                    path.span(),
-                    Shape::Mesh(path.get_ref().clone()),
-                ))
+                let shape = Shape::Mesh(path.get_ref().clone());
+                Ok(Spanned::new(path.span(), shape))
             }
             _ => {
                 let what = "an object wants one of `body` and `mesh`";

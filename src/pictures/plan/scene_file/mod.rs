@@ -31,23 +31,15 @@ mod assets;
 mod check;
 mod raw;
 
+use glam::DVec3;
 use toml::Spanned;
 
-use super::drawn::DrawnScene;
-use super::metric::{FramePixels, MappedMaterial};
-use crate::lab::raster::Camera;
+use super::drawn::{DrawnScene, SurfaceLook};
+use super::frame::{FramePixels, MappedMaterial};
+use crate::lab::raster::{Body, Camera};
 use crate::physics::spectra::Space;
-use crate::physics::user_text::{FileFault, FileText};
+use crate::physics::user_text::FileFault;
 use crate::pictures::scene::Display;
-use check::Checked;
-use raw::RawScene;
-
-pub use assets::ReadFile;
-
-/// The most frames of a scene.
-pub const MOST_FRAMES: usize = 720;
-/// The least and the most pixels along a side of a frame.
-pub const SIDES: [u32; 2] = [16, 4096];
 
 /// A scene that this program draws itself.
 #[derive(Clone, Debug)]
@@ -56,9 +48,10 @@ pub struct SceneFile {
     pub display: Display,
     /// The working space, into which environments are brought; sRGB unless it is changed.
     pub space: Space,
+    /// A frame each.
+    pub cameras: Vec<Camera>,
     file: String,
     text: String,
-    cameras: Vec<Camera>,
     /// The offset of the first camera in the text.
     camera_at: usize,
     light: Light,
@@ -77,7 +70,7 @@ enum Light {
 /// The source of an object's triangles.
 #[derive(Clone, Debug)]
 enum Shape {
-    Body(&'static crate::lab::raster::Body),
+    Body(&'static Body),
     Plane,
     /// The path of a mesh.
     Mesh(String),
@@ -86,42 +79,15 @@ enum Shape {
 #[derive(Clone, Debug)]
 struct Object {
     shape: Spanned<Shape>,
-    look: super::drawn::SurfaceLook,
+    look: SurfaceLook,
     extent: Option<f64>,
-    at: Option<glam::DVec3>,
+    at: Option<DVec3>,
 }
 
 impl SceneFile {
-    /// Reads a scene file. `file` is only for messages.
-    ///
-    /// # Errors
-    /// The text is not TOML, a key is missing or unknown, a value lies outside its limits, or the catalogue has no such material.
-    pub fn parse(file: &str, text: &str) -> Result<SceneFile, FileFault> {
-        let place = FileText { file, text };
-        let raw: RawScene = toml::from_str(text).map_err(|error| place.toml_fault(&error))?;
-        let checked = Checked::of(raw, &place)?;
-        Ok(SceneFile {
-            display: checked.display,
-            space: Space::default(),
-            file: file.to_owned(),
-            text: text.to_owned(),
-            cameras: checked.cameras,
-            camera_at: checked.camera_at,
-            light: checked.light,
-            objects: checked.objects,
-            materials: checked.materials,
-            materials_at: checked.materials_at,
-        })
-    }
-
     /// How many frames it has.
     pub fn frames(&self) -> usize {
         self.cameras.len()
-    }
-
-    /// Pixels across and down of its frames.
-    pub fn size(&self) -> [u32; 2] {
-        self.cameras[0].lens.size
     }
 
     /// Its materials, in the order of [`FramePixels::of_material`].

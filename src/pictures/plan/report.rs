@@ -1,32 +1,32 @@
 //! The report of a plan: text for people, and JSON that `--plan` reads back.
 
-mod page;
-
 use serde::Serialize;
 
+use super::gltf::Unplanned;
+use super::planned::JudgedMaterial;
+use super::proof::Proof;
+use super::request::PlanRequest;
+use super::row::{PlanRow, PlanTotal};
 use crate::generator::envelope::Origin;
 use crate::lab::verify::Status;
 use crate::physics::foreign::{self, Foreign, one_line};
-use crate::pictures::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
 use crate::pictures::table::{short_number, text_table};
-
-pub use page::plan_page;
 
 /// A plan as JSON.
 #[derive(Debug, Serialize)]
 pub struct PlanReport {
     #[serde(flatten)]
-    origin: Origin,
+    pub(super) origin: Origin,
     device: Option<String>,
     /// The GPU family whose costs decide.
-    gpu: &'static str,
+    pub(super) gpu: &'static str,
     /// What a cost counts.
-    cost_of: &'static str,
+    pub(super) cost_of: &'static str,
     /// The metric of errors.
     metric: &'static str,
     /// The metric's unit in words.
     #[serde(skip)]
-    unit: &'static str,
+    pub(super) unit: &'static str,
     /// The reference that functions are compared with.
     reference: &'static str,
     /// The colour space of the pictures and of the functions.
@@ -35,29 +35,29 @@ pub struct PlanReport {
     frames: usize,
     total: PlanTotal,
     /// Materials that are not planned, with the reasons.
-    unplanned: Vec<Unplanned>,
+    pub(super) unplanned: Vec<Unplanned>,
     /// What the scene states and this program does not read.
-    remarks: Vec<String>,
+    pub(super) remarks: Vec<String>,
     /// The results of running the functions' text, where it was run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     proofs: Vec<Proof>,
-    rows: Vec<PlanRow>,
+    pub(super) rows: Vec<PlanRow>,
 }
 
 impl PlanReport {
-    /// The report that this command writes.
+    /// The report that this command writes. `proofs` are the results of running the functions' text, where it was run, and the
+    /// name of the device.
     pub fn new(
         command: String,
         request: &PlanRequest,
+        judged: &[JudgedMaterial],
         frames: usize,
-        total: PlanTotal,
-        unplanned: Vec<Unplanned>,
-        remarks: Vec<String>,
-        rows: Vec<PlanRow>,
+        (unplanned, remarks): (Vec<Unplanned>, Vec<String>),
+        (device, proofs): (Option<String>, Vec<Proof>),
     ) -> PlanReport {
         PlanReport {
             origin: Origin::new(command),
-            device: None,
+            device,
             gpu: request.family.name,
             cost_of: request.family.columns.measure,
             metric: request.metric.name(),
@@ -65,36 +65,22 @@ impl PlanReport {
             reference: request.truth.name(),
             space: request.space.name(),
             frames,
-            total,
+            total: PlanTotal::of(judged, request.price, frames),
             unplanned,
             remarks,
-            proofs: Vec::new(),
-            rows,
-        }
-    }
-
-    /// The same report, with the results of running the functions' text on a device.
-    #[must_use]
-    pub fn with_proofs(self, device: Option<String>, proofs: Vec<Proof>) -> PlanReport {
-        PlanReport {
-            device,
             proofs,
-            ..self
+            rows: judged.iter().map(|one| one.row(request, frames)).collect(),
         }
     }
 
-    /// The command that makes the report again.
-    fn command(&self) -> &str {
-        self.origin.command()
-    }
-
-    /// The exit code that follows from the proofs: 1 where one fails, 3 where one could not be made.
-    pub fn proof_code(&self) -> u8 {
+    /// The exit code: 1 where a material has nothing within the budget or a proof fails, 3 where a proof could not be made.
+    pub fn exit_code(&self) -> u8 {
         let has = |status| self.proofs.iter().any(|proof| proof.status == status);
-        match (has(Status::Fail), has(Status::NotChecked)) {
-            (true, _) => 1,
-            (false, true) => 3,
-            (false, false) => 0,
+        let is_beyond = self.rows.iter().any(|row| !row.is_within);
+        if has(Status::NotChecked) && !has(Status::Fail) {
+            3
+        } else {
+            u8::from(is_beyond || has(Status::Fail))
         }
     }
 
@@ -134,7 +120,7 @@ impl PlanReport {
         format!("{}\n{}", cells.concat(), rest.concat())
     }
 
-    fn total(&self) -> String {
+    pub(super) fn total(&self) -> String {
         let PlanTotal {
             cost,
             cost_exact,
@@ -173,7 +159,7 @@ impl PlanReport {
 }
 
 /// A material, and what the scene calls it where that is something else.
-fn named(row: &PlanRow) -> String {
+pub(super) fn named(row: &PlanRow) -> String {
     let others = row.names.iter().filter(|name| **name != row.material);
     let others: Vec<&str> = others.map(String::as_str).collect();
     if others.is_empty() {
@@ -181,6 +167,12 @@ fn named(row: &PlanRow) -> String {
     } else {
         format!("{} ({})", row.material, others.join(", "))
     }
+}
+
+/// What the exact law costs, in words.
+pub(super) fn cost_exact(row: &PlanRow) -> String {
+    let cost = row.cost_exact.map(short_number);
+    cost.unwrap_or_else(|| "not known".to_owned())
 }
 
 /// The line on the result of a function's text.
@@ -227,8 +219,7 @@ fn cells(row: &PlanRow) -> Vec<String> {
         row.channels.to_string(),
         format!("{:.4}{}", row.error, if row.is_within { "" } else { " !" }),
         short_number(row.cost),
-        row.cost_exact
-            .map_or_else(|| "not known".to_owned(), short_number),
+        cost_exact(row),
         format!("{:.0}", row.pixels),
         judged.to_owned(),
     ]

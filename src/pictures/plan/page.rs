@@ -1,21 +1,16 @@
 //! The HTML page of a plan: for each material the choice and its reason, the angles with errors over them, and pictures.
 
-use base64::Engine;
-use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::Context;
 
-use super::{PlanReport, named};
-use crate::physics::spectra::srgb_byte;
+use super::page_data::{AngleCurve, MaterialView, ViewPicture};
+use super::report::{PlanReport, cost_exact, named};
+use super::row::PlanRow;
 use crate::pictures::html;
-use crate::pictures::plan::{AngleCurve, MaterialView, PlanRow, ViewPicture};
 use crate::pictures::plot::{ChartAxis, LineChart, Look, Series, Style, ticks};
-use crate::pictures::png::rgb_png;
 use crate::pictures::table::short_number;
 
-const TEMPLATE: &str = include_str!("../../../../templates/plan.html.tera");
-/// The colour of a picture's empty pixels.
-const EMPTY: [u8; 3] = [40, 42, 46];
+const TEMPLATE: &str = include_str!("../../../templates/plan.html.tera");
 /// A chart ends at this many times the budget, or above the chosen function's largest error.
 const ABOVE_BUDGET: f64 = 4.0;
 /// The height of the histogram, as a share of the chart.
@@ -36,33 +31,25 @@ const BUDGET: Look = Look {
 
 /// What the page says of a material.
 #[derive(Serialize)]
-struct Section {
+struct Section<'a> {
     material: String,
     why: String,
     /// Facts about the choice, as pairs of name and text.
     facts: Vec<[String; 2]>,
     /// The chart as SVG.
     chart: String,
-    pictures: Vec<Shown>,
+    pictures: &'a [ViewPicture],
     cheaper: Vec<[String; 3]>,
-}
-
-/// A picture with its bytes in base64.
-#[derive(Serialize)]
-struct Shown {
-    title: String,
-    size: [u32; 2],
-    png: String,
 }
 
 /// The page, or why it cannot be made.
 ///
 /// # Errors
-/// A picture cannot be encoded, or the template cannot be filled.
+/// The template cannot be filled.
 pub fn plan_page(report: &PlanReport, views: &[MaterialView]) -> Result<String, String> {
     let sections = report.rows.iter().zip(views);
     let sections = sections.map(|(row, view)| section(report, row, view));
-    let sections = sections.collect::<Result<Vec<Section>, String>>()?;
+    let sections: Vec<Section> = sections.collect();
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("unplanned", &report.unplanned);
@@ -71,34 +58,31 @@ pub fn plan_page(report: &PlanReport, views: &[MaterialView]) -> Result<String, 
     context.insert("cost_of", report.cost_of);
     context.insert("gpu", report.gpu);
     context.insert("unit", report.unit);
-    context.insert("command", report.command());
+    context.insert("command", report.origin.command());
     html::fill(TEMPLATE, &context)
 }
 
-fn section(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> Result<Section, String> {
+fn section<'a>(report: &PlanReport, row: &PlanRow, view: &'a MaterialView) -> Section<'a> {
     let fact = |name: &str, value: String| [name.to_owned(), value];
-    let exact = row
-        .cost_exact
-        .map_or_else(|| "not known".to_owned(), short_number);
     let cheaper = row.cheaper.iter().map(|one| {
         let form = format!("{}, {}", one.method, one.form.name());
         [form, short_number(one.cost), format!("{:.4}", one.error)]
     });
-    Ok(Section {
+    Section {
         material: named(row),
         why: row.why.clone(),
         facts: vec![
             fact("function", format!("{}, {}", row.method, row.form.name())),
             fact("error", format!("{:.4} {}", row.error, report.unit)),
             fact("cost", short_number(row.cost)),
-            fact("the exact law costs", exact),
+            fact("the exact law costs", cost_exact(row)),
             fact("pixels of a frame", format!("{:.0}", row.pixels)),
             fact("worst frame (the first is 0)", row.worst_frame.to_string()),
         ],
         chart: chart(report, row, view).svg(),
-        pictures: view.pictures.iter().map(shown).collect::<Result<_, _>>()?,
+        pictures: &view.pictures,
         cheaper: cheaper.collect(),
-    })
+    }
 }
 
 /// The chart of errors over angles, above a histogram of the angles.
@@ -156,15 +140,4 @@ fn chart(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> LineChart {
         marks: Vec::new(),
         foot: String::new(),
     }
-}
-
-fn shown(picture: &ViewPicture) -> Result<Shown, String> {
-    let byte = |pixel: &Option<[f64; 3]>| pixel.map_or(EMPTY, |rgb| rgb.map(srgb_byte));
-    let bytes: Vec<u8> = picture.pixels.iter().flat_map(byte).collect();
-    let png = rgb_png(&bytes, picture.size, String::new())?;
-    Ok(Shown {
-        title: picture.title.clone(),
-        size: picture.size,
-        png: BASE64_STANDARD.encode(png),
-    })
 }
