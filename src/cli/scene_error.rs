@@ -397,7 +397,7 @@ fn pictures(
 }
 
 /// The errors, a line each.
-pub fn scene_error_text(rows: &[SceneErrorRow]) -> String {
+fn scene_error_text(rows: &[SceneErrorRow]) -> String {
     let Some(first) = rows.first() else {
         return String::new();
     };
@@ -444,25 +444,15 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
     names.chain(errors.map(error)).chain(last).collect()
 }
 
-/// A picture as PNG, in sRGB. `about` is ASCII.
-///
-/// # Errors
-/// The picture cannot be encoded; the text says why.
-pub fn painted_png(picture: &Painted, about: &str) -> Result<Vec<u8>, String> {
+/// A picture as PNG, in sRGB, or why it cannot be encoded. `about` is ASCII.
+fn painted_png(picture: &Painted, about: &str) -> Result<Vec<u8>, String> {
     let bytes = picture.pixels.iter().map(|pixel| pixel.map(srgb_byte));
     let bytes = bytes.collect::<Vec<_>>().concat();
     rgb_png(&bytes, picture.size, about.to_owned())
 }
 
-/// A picture as OpenEXR in binary32, linear, with the colour space of its channels where they have one.
-///
-/// # Errors
-/// The picture cannot be encoded; the text says why.
-pub fn painted_exr(
-    picture: &Painted,
-    space: Option<Space>,
-    about: &str,
-) -> Result<Vec<u8>, String> {
+/// A picture as OpenEXR in binary32, linear, with the colour space of its channels where they have one; or why it cannot be encoded.
+fn painted_exr(picture: &Painted, space: Option<Space>, about: &str) -> Result<Vec<u8>, String> {
     let texels = picture.pixels.iter();
     let texture = Picture {
         name: String::new(),

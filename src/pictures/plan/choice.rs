@@ -39,7 +39,10 @@ pub fn choose(materials: &[Vec<Choosable>], budget: f64, price: f64) -> Vec<usiz
         let functions = functions.into_iter().map(|(place, function)| Open {
             place,
             function,
-            library: library.binary_search(&&*function.name).ok(),
+            library: library
+                .binary_search(&&*function.name)
+                .ok()
+                .filter(|_| !function.is_own),
         });
         functions.collect()
     });
