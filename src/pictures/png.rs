@@ -40,12 +40,12 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
     // On the white ground nothing is transparent.
     let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
     let colours: Vec<u8> = colours.copied().collect();
-    let encoding = Encoding {
-        compression: Compression::Balanced,
-        intent: SrgbRenderingIntent::RelativeColorimetric,
-        text: ("Software", MARK.to_owned()),
-    };
-    encoded(&colours, [width, height], encoding)
+    let intent = SrgbRenderingIntent::RelativeColorimetric;
+    let (how, text) = (
+        (Compression::Balanced, intent),
+        ("Software", MARK.to_owned()),
+    );
+    encoded(&colours, [width, height], how, text)
         .map_err(|why| format!("the picture cannot be written as PNG: {why}"))
 }
 
@@ -92,33 +92,23 @@ fn pixels(length: f32, scale: f32) -> Result<u32, String> {
 /// # Errors
 /// The picture cannot be encoded; the text says why.
 pub fn rgb_png(pixels: &[u8], size: [u32; 2], about: String) -> Result<Vec<u8>, String> {
-    let encoding = Encoding {
-        compression: Compression::High,
-        intent: SrgbRenderingIntent::Perceptual,
-        text: ("Comment", about),
-    };
-    encoded(pixels, size, encoding).map_err(|why| why.to_string())
+    let how = (Compression::High, SrgbRenderingIntent::Perceptual);
+    encoded(pixels, size, how, ("Comment", about)).map_err(|why| why.to_string())
 }
 
-/// How pixels are written, and a text beside them with its keyword.
-struct Encoding {
-    compression: Compression,
-    intent: SrgbRenderingIntent,
-    text: (&'static str, String),
-}
-
+/// A PNG with a text beside its pixels, by its keyword.
 fn encoded(
     pixels: &[u8],
     [width, height]: [u32; 2],
-    encoding: Encoding,
+    (compression, intent): (Compression, SrgbRenderingIntent),
+    (keyword, text): (&str, String),
 ) -> Result<Vec<u8>, EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(encoding.compression);
-    encoder.set_source_srgb(encoding.intent);
-    let (keyword, text) = encoding.text;
+    encoder.set_compression(compression);
+    encoder.set_source_srgb(intent);
     encoder.add_text_chunk(keyword.to_owned(), text)?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;

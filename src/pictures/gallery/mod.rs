@@ -29,7 +29,7 @@ use orbit::Orbit;
 use packed::{PackedMesh, PackedTexture, SKY, textures_of};
 use passes::ShowPrograms;
 
-pub use packed::{CUBE, SKY_HEIGHT, as_stored, reduced_tables};
+pub use packed::{CUBE, as_stored, reduced_tables};
 pub use passes::FunctionTexts;
 pub use row::{GalleryRow, methods_of, rows};
 

@@ -9,7 +9,7 @@ use half::f16;
 use serde::Serialize;
 
 use crate::pictures::scene::{
-    Body, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky_of, vertex_numbers,
+    Body, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky, vertex_numbers,
 };
 
 /// Bytes as a page holds them.
@@ -49,8 +49,6 @@ pub struct PackedTexture {
 
 /// The sky's name among textures.
 pub const SKY: &str = "Sky";
-/// Texels of the sky from pole to pole.
-pub const SKY_HEIGHT: usize = 1024;
 /// Texels along a side of the room's cube map: fewer than in pictures, since every reader downloads them.
 pub const CUBE: usize = 512;
 /// The greatest width of a body's tables after reduction: for colours, and for others, which deflate badly.
@@ -58,7 +56,7 @@ const WIDEST: [usize; 2] = [512, 320];
 
 /// The sky as a texture.
 pub fn sky_texture() -> PackedTexture {
-    texture(SKY.to_owned(), &sky_of(SKY_HEIGHT).table)
+    texture(SKY.to_owned(), &sky().table)
 }
 
 /// The textures that a row reads besides what it draws, by slot.

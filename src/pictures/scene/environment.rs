@@ -135,12 +135,7 @@ const POST_TOP: f64 = 0.3;
 
 /// The default sky.
 pub fn sky() -> Environment {
-    sky_of(HEIGHT)
-}
-
-/// The default sky with this many texels from pole to pole.
-pub fn sky_of(height: usize) -> Environment {
-    Environment::baked(height, radiance)
+    Environment::baked(HEIGHT, radiance)
 }
 
 /// The direction of the sun's middle.

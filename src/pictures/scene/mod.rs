@@ -26,7 +26,7 @@ pub use caustics::{
     Gathering, Photons, TRIANGLES, Window, caustic_error, caustics, exact_caustics,
 };
 pub use draw::{Scenery, draw};
-pub use environment::{Environment, sky, sky_of};
+pub use environment::{Environment, sky};
 pub use frame::{
     ABSORPTION_AT, BACK, Camera, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };

@@ -8,7 +8,7 @@ use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{Device, Wanted};
-use fresnel_gen::pictures::gallery::{CUBE, SKY_HEIGHT, as_stored, reduced_tables};
+use fresnel_gen::pictures::gallery::{CUBE, as_stored, reduced_tables};
 use fresnel_gen::pictures::scene::{
     self, Around, Body, Camera, Environment, OpticalMaterial, RenderRow, RowText, Scenery, Things,
     Window,
@@ -57,7 +57,7 @@ impl Held {
             device,
             subjects: subjects(),
             sky: Environment {
-                table: as_stored(&scene::sky_of(SKY_HEIGHT).table),
+                table: as_stored(&scene::sky().table),
             },
         }
     }
