@@ -13,9 +13,9 @@ use crate::language::ir::Checked;
 use crate::language::methods::{Contract, Light, Method};
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::num::{Precision, in_parallel};
-use choice::{cheapest, most_accurate, spread};
+use choice::{CheapestFunction, cheapest, most_accurate, spread};
 
-pub use choice::{BudgetCandidate, CheapestFunction, Error, NoFunction, Spread, rounded_error};
+pub use choice::{BudgetCandidate, Error, NoFunction, Spread, rounded_error};
 
 /// The request: an error and a family of GPUs.
 #[derive(Clone, Copy, Debug)]

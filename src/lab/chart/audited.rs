@@ -69,8 +69,8 @@ fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     let rows = rows.iter().filter(|row| no_cost(row).is_none());
     for cost in rows.flat_map(|row| &row.cost) {
         let Some(net) = cost.net else { continue };
-        let most = costs.entry(cost.gpu.to_owned()).or_insert(net);
-        *most = net.max(*most);
+        let largest = costs.entry(cost.gpu.to_owned()).or_insert(net);
+        *largest = net.max(*largest);
     }
     costs
 }

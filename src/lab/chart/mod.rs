@@ -7,11 +7,10 @@ mod left_out;
 mod sets;
 mod view;
 
-pub use audited::{ChartedFunction, charted_function};
+pub use audited::charted_function;
 pub use data::{chart_data, cost_names};
-pub use left_out::{LeftOutErrors, left_out};
-pub use sets::{MaterialSet, STATISTICS, set_name};
+pub use sets::{STATISTICS, set_name};
 pub use view::{
     ChartData, ChartEntry, ChartPoint, ChartView, CostAxis, ERRORS, ErrorAxis, FunctionOrigin,
-    LEAST_ERROR, PointRow, UserFunction, drawn, without_point,
+    LEAST_ERROR, drawn, without_point,
 };
