@@ -206,13 +206,10 @@ fn of_materials(
         progress(done, whole, "materials");
     });
     let mut rows = Vec::new();
-    for (row, subject, form) in found.into_iter().flatten() {
+    for row in found.into_iter().flatten() {
         match row {
-            Some(row) => rows.push(row),
-            None => remarks.push(format!(
-                "left out: {} with {form}: {NO_FIT}",
-                Foreign(subject)
-            )),
+            Ok(row) => rows.push(row),
+            Err(left_out) => remarks.push(left_out),
         }
     }
     Ok((rows, remarks))
@@ -221,12 +218,12 @@ fn of_materials(
 /// Why a fit has no row.
 const NO_FIT: &str = "under these weights its terms do not tell angles apart";
 
-/// A row for each form that describes a material, or `None` where there is no fit, with the names of both.
+/// A row for each form that describes a material, or the remark that there is no fit.
 fn of_subject(
     subject: &MaterialInMedium,
     aim: FitObjective,
     forms: &[Form],
-) -> Vec<(Option<FitRow>, String, &'static str)> {
+) -> Vec<Result<FitRow, String>> {
     let free = FitObjective {
         gamut: Gamut::Keep,
         ..aim
@@ -253,10 +250,13 @@ fn of_subject(
             ..FitRow::new(method, &fitted, &error, form.cost, aim.space.name())
         })
     };
-    let own = forms
-        .iter()
-        .filter(|form| subject.is_described_by(form.method));
-    own.map(|form| (row(form), subject.argument.clone(), form.method.name))
+    let left_out = |form: &Form| {
+        let (material, method) = (Foreign(&subject.argument), form.method.name);
+        format!("left out: {material} with {method}: {NO_FIT}")
+    };
+    let own = forms.iter();
+    let own = own.filter(|form| subject.is_described_by(form.method));
+    own.map(|form| row(form).ok_or_else(|| left_out(form)))
         .collect()
 }
 

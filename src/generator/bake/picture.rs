@@ -47,10 +47,8 @@ impl<'a> Baking<'a> {
         (axis, texels): (TableAxis, usize),
         formats: Vec<Format>,
     ) -> Result<Baking<'a>, Error> {
-        let tables = subjects
-            .iter()
-            .map(|subject| Table::new(&subject.name, &subject.reference, axis, texels))
-            .collect::<Result<Vec<_>, _>>()?;
+        let table = |one: &TableMaterial| Table::new(&one.name, &one.reference, axis, texels);
+        let tables = subjects.iter().map(table).collect::<Result<Vec<_>, _>>()?;
         Ok(Baking {
             rounded: rounded(subjects, &tables, &formats, texels),
             request,
@@ -72,15 +70,20 @@ impl<'a> Baking<'a> {
     }
 
     /// The depths, each with the names of its files.
-    pub fn by_depth(&self) -> impl Iterator<Item = (String, &Rounded)> {
+    fn by_depth(&self) -> impl Iterator<Item = (String, &Rounded)> {
         self.rounded.iter().map(|rounded| {
-            let formats = self.formats.iter();
-            let own = formats.filter(|format| format.depth() == rounded.depth);
-            let names: Vec<String> = own
-                .map(|format| format!("{}{}", self.name, format.ending()))
-                .collect();
-            (names.join(", "), rounded)
+            let own = self.formats.iter();
+            let own = own.filter(|format| format.depth() == rounded.depth);
+            let names = own.map(|format| format!("{}{}", self.name, format.ending()));
+            (names.collect::<Vec<_>>().join(", "), rounded)
         })
+    }
+
+    /// The scale of all files, if they share one.
+    fn shared_scale(&self) -> Option<f32> {
+        let mut scales = self.rounded.iter().map(Rounded::scale);
+        let first = scales.next().unwrap_or(1.0);
+        scales.all(|scale| scale == first).then_some(first)
     }
 
     /// The path of a file.
@@ -103,7 +106,7 @@ impl<'a> Baking<'a> {
     }
 
     /// The first lines of every file of the picture: how to make it again, what it shows, how to look it up.
-    pub fn about(
+    fn about(
         &self,
         formats: &[Format],
         targets: &[&'static Target],
@@ -138,7 +141,7 @@ impl<'a> Baking<'a> {
 
 impl Rounded {
     /// value = texel × scale, with one scale for all tables of a picture.
-    pub fn scale(&self) -> f32 {
+    fn scale(&self) -> f32 {
         self.tables.first().map_or(1.0, |table| table.scale)
     }
 }
@@ -156,20 +159,23 @@ fn rounded(
     let all: Vec<&Table> = tables.iter().collect();
     let in_depth = |depth: Depth| {
         let scale = Table::shared_scale(&all, depth);
-        let stored = |table| Stored::scaled(table, depth, scale);
-        let tables: Vec<Stored> = tables.iter().map(stored).collect();
-        let error = |((stored, subject), between): ((&Stored, &TableMaterial), &BetweenTexels)| {
-            [Weights::Steps256, Weights::Exact]
-                .map(|weights| table_error(stored, weights, &subject.reference, between))
-        };
-        let errors = tables.iter().zip(subjects).zip(&between).map(error);
-        Rounded {
+        let mut rounded = Rounded {
             depth,
-            errors: errors.collect(),
-            tables,
+            tables: Vec::new(),
+            errors: Vec::new(),
+        };
+        for ((table, subject), between) in tables.iter().zip(subjects).zip(&between) {
+            let stored = Stored::scaled(table, depth, scale);
+            let error = |weights| table_error(&stored, weights, &subject.reference, between);
+            rounded
+                .errors
+                .push([Weights::Steps256, Weights::Exact].map(error));
+            rounded.tables.push(stored);
         }
+        rounded
     };
-    Format::depths(formats).into_iter().map(in_depth).collect()
+    let depths = Format::depths(formats).into_iter();
+    depths.map(in_depth).collect()
 }
 
 /// Paths and bytes of the files with functions.
@@ -181,27 +187,16 @@ pub fn functions(baking: &Baking) -> Result<Vec<(String, Vec<u8>)>, Error> {
 fn function(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), Error> {
     let name = baking.name;
     let path = format!("{TABLES}/{}/{name}.{}", target.name, target.extension);
-    let function = lookup(
-        baking.axis,
-        baking.texels,
-        shared_scale(baking),
-        baking.subjects.len(),
-    );
+    let (scale, rows) = (baking.shared_scale(), baking.subjects.len());
+    let function = lookup(baking.axis, baking.texels, scale, rows);
     let function = function.map_err(|fault| emit::Error::generated(&path, fault))?;
-    let emitted = format!("{}{name}_lookup", baking.request.prefix);
-    let bytes = emit::lookup(target, emitted, function, about(baking, target))?;
+    let name = format!("{}{name}_lookup", baking.request.prefix);
+    let bytes = emit::lookup(target, name, function, function_head(baking, target))?;
     Ok((path, bytes))
 }
 
-/// The scale of all files, if they share one.
-fn shared_scale(baking: &Baking) -> Option<f32> {
-    let mut scales = baking.by_depth().map(|(_, rounded)| rounded.scale());
-    let first = scales.next().unwrap_or(1.0);
-    scales.all(|scale| scale == first).then_some(first)
-}
-
-/// The head: what all files of the picture say, and how they differ.
-fn about(baking: &Baking, target: &'static Target) -> Vec<String> {
+/// The head of a function's file: what all files of the picture say, and how they differ.
+fn function_head(baking: &Baking, target: &'static Target) -> Vec<String> {
     let Some((format, rounded)) = baking.each().next() else {
         return Vec::new();
     };
@@ -210,24 +205,18 @@ fn about(baking: &Baking, target: &'static Target) -> Vec<String> {
     if picture.height() > 1 {
         lines.push("row: v of that row's middle, as above.".to_owned());
     }
-    match shared_scale(baking) {
-        Some(_) => lines.extend(picture.scaling()),
-        None => lines.push(scales(baking)),
+    if baking.shared_scale().is_some() {
+        lines.extend(picture.scaling());
+    } else {
+        let scale = |(names, own): (String, &Rounded)| format!("{:?} for {names}", own.scale());
+        let scales: Vec<String> = baking.by_depth().map(scale).collect();
+        lines.push(format!("table_scale: {}.", scales.join("; ")));
     }
     lines.extend(baking.by_depth().map(|(names, rounded)| {
         let errors = error_line(&rounded.errors);
         format!("{names}: {errors}")
     }));
     lines
-}
-
-/// The scale of each depth's files.
-fn scales(baking: &Baking) -> String {
-    let each = baking.by_depth();
-    let scales: Vec<String> = each
-        .map(|(names, rounded)| format!("{:?} for {names}", rounded.scale()))
-        .collect();
-    format!("table_scale: {}.", scales.join("; "))
 }
 
 /// The errors of all rows in one line, for the file's own description.

@@ -1,5 +1,5 @@
-//! What a bake gives: files in memory, and the rows of the report, which say what a file is, how to look it up, and the error of the
-//! lookup.
+//! What a bake gives: files in memory, and the rows of the report, which say what a file is, how to look it up, and the error of
+//! the lookup.
 
 use serde::Serialize;
 

@@ -40,18 +40,16 @@ pub fn batch_program(
     let inputs: String = (0..most.max().unwrap_or(0))
         .map(|at| filled(batch.input, &[("at", &at.to_string())]))
         .collect();
-    let entries: String = functions
-        .iter()
-        .map(|one| {
-            let value = value(batch, &target.spelling, harness.texture_argument, one);
-            let value = match one.function.ty() {
-                Ty::Scalar => filled(harness.splat, &[("value", &value)]),
-                _ => value,
-            };
-            let entry = batch_entry(&one.name);
-            filled(batch.entry, &[("entry", &entry), ("value", &value)])
-        })
-        .collect();
+    let mut entries = String::new();
+    for one in functions {
+        let value = value(batch, &target.spelling, harness.texture_argument, one);
+        let value = match one.function.ty() {
+            Ty::Scalar => filled(harness.splat, &[("value", &value)]),
+            _ => value,
+        };
+        let entry = batch_entry(&one.name);
+        entries += &filled(batch.entry, &[("entry", &entry), ("value", &value)]);
+    }
     let holes: &[(&str, &str)] = &[("inputs", &inputs), ("texture", texture)];
     let declarations = filled(batch.declarations, holes);
     Some(format!("{}{file}{declarations}{entries}", harness.before))

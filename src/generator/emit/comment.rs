@@ -12,32 +12,22 @@ const HANGING: &str = "    ";
 
 /// These lines, made safe and broken between words.
 pub fn lines(lines: Vec<String>) -> Vec<String> {
-    let is_command = |line: &str| COMMANDS.iter().any(|start| line.starts_with(start));
-    let parts = |line: String| {
-        if is_command(&line) {
-            vec![line]
+    let mut written = Vec::new();
+    for line in lines.iter().map(|line| safe(line)) {
+        if COMMANDS.iter().any(|start| line.starts_with(start)) {
+            written.push(line);
         } else {
-            broken(&line)
+            written.extend(broken(&line));
         }
-    };
-    lines
-        .iter()
-        .map(|line| safe(line))
-        .flat_map(parts)
-        .collect()
+    }
+    written
 }
 
 /// The line in ASCII: names keep their letters without accents, µm becomes um.
 fn safe(line: &str) -> String {
-    let legal = |c: char| {
-        if c == ' ' || c.is_ascii_graphic() {
-            c
-        } else {
-            '?'
-        }
-    };
     let spelt: String = line.chars().map(spelt).collect();
-    let ascii: String = spelt.chars().map(legal).collect();
+    let is_legal = |c: char| c == ' ' || c.is_ascii_graphic();
+    let ascii = spelt.replace(|c| !is_legal(c), "?");
     without_continuation(&ascii).to_owned()
 }
 
@@ -73,10 +63,10 @@ fn broken(line: &str) -> Vec<String> {
         is_empty = false;
     }
     // A backslash that ended up last on a broken line would swallow the next one just as well.
-    lines
+    let safe = lines
         .iter()
-        .map(|line| without_continuation(line).to_owned())
-        .collect()
+        .map(|line| without_continuation(line).to_owned());
+    safe.collect()
 }
 
 #[cfg(test)]
@@ -99,11 +89,8 @@ mod tests {
 
     #[test]
     fn long_lines_are_broken_between_words() {
-        let long = format!("  {} {}", "a".repeat(80), "b".repeat(80));
-        let (first, second) = (
-            format!("  {}", "a".repeat(80)),
-            format!("      {}", "b".repeat(80)),
-        );
-        check(&long, &[&first, &second]);
+        let [a, b] = ["a", "b"].map(|letter| letter.repeat(80));
+        let [first, second] = [format!("  {a}"), format!("      {b}")];
+        check(&format!("  {a} {b}"), &[&first, &second]);
     }
 }

@@ -199,6 +199,16 @@ struct ArgumentDetail {
     domain: String,
 }
 
+impl ArgumentDetail {
+    fn new(input: &Input, domain: String) -> ArgumentDetail {
+        ArgumentDetail {
+            name: input.name,
+            meaning: input.meaning,
+            domain,
+        }
+    }
+}
+
 /// A code error, or null with the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
@@ -387,23 +397,23 @@ fn model_error(error: ModelError) -> ModelErrorDetail {
 }
 
 fn parameters(emitted: &EmittedFunction) -> Parameters {
+    let inputs = emitted.method.inputs.iter();
     if let Some(part) = emitted.effect {
         return Parameters::Arguments(arguments_of_effect(part, emitted));
     }
     if emitted.constants.is_empty() {
-        let argument = |input: &Input| ArgumentDetail {
-            name: input.name,
-            meaning: input.meaning,
-            domain: emitted.method.range(input, emitted.precision).words(),
-        };
-        return Parameters::Arguments(emitted.method.inputs.iter().map(argument).collect());
+        let range = |input| emitted.method.range(input, emitted.precision).words();
+        let arguments = inputs.map(|input| ArgumentDetail::new(input, range(input)));
+        return Parameters::Arguments(arguments.collect());
     }
     let row = |input: &Input| {
         let values = emitted.constants.get(input.name)?;
-        let present = values.map(|value| input.present(value));
-        Some((input.name.to_owned(), present))
+        Some((
+            input.name.to_owned(),
+            values.map(|value| input.present(value)),
+        ))
     };
-    Parameters::Constants(emitted.method.inputs.iter().filter_map(row).collect())
+    Parameters::Constants(inputs.filter_map(row).collect())
 }
 
 /// The arguments of an effect's function that are left at run time.
@@ -413,11 +423,8 @@ fn arguments_of_effect(part: EffectPart, emitted: &EmittedFunction) -> Vec<Argum
         meaning: one.meaning,
         domain: one.domain.words(),
     });
-    let inputs = emitted.method.inputs.iter().map(|input| ArgumentDetail {
-        name: input.name,
-        meaning: input.meaning,
-        domain: input.range.words(),
-    });
+    let inputs = emitted.method.inputs.iter();
+    let inputs = inputs.map(|input| ArgumentDetail::new(input, input.range.words()));
     let params = &emitted.function.params;
     let is_left = |one: &ArgumentDetail| params.iter().any(|param| param.name == one.name);
     own.chain(inputs).filter(is_left).collect()

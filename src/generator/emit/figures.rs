@@ -25,26 +25,24 @@ pub fn half_promise(method: &Method) -> String {
 
 /// What a method promises in a precision, one line each.
 pub fn promises(precision: Precision, method: &Method) -> Vec<String> {
-    let code = if precision.is_half() {
-        half_promise(method)
-    } else if method.is_textured() {
+    let mut lines: Vec<String> = model_promises(method).collect();
+    if precision.is_half() {
+        lines.push(half_promise(method));
+        return lines;
+    }
+    let media = method.code_media();
+    lines.push(if method.is_textured() {
         format!("Code error: {FILTERED}")
     } else {
-        let bound = bound(method.claims.code_ulp);
-        format!("Code error for {}: {bound}", method.code_media())
-    };
-    let colours = method.claims.colours.filter(|_| !precision.is_half());
-    let colours = colours.map(|colours| colours_line(method, colours));
-    let coefficients = method.coefficients.filter(|_| !precision.is_half());
-    let coefficients = coefficients.map(|finds| {
-        let (media, bound) = (method.code_media(), unfused(finds.code_abs));
-        format!("Code error of the coefficients for {media}: {bound}")
+        format!("Code error for {media}: {}", bound(method.claims.code_ulp))
     });
-    model_promises(method)
-        .chain([code])
-        .chain(colours)
-        .chain(coefficients)
-        .collect()
+    let colours = method.claims.colours;
+    lines.extend(colours.map(|colours| colours_line(method, colours)));
+    lines.extend(method.coefficients.map(|finds| {
+        let bound = unfused(finds.code_abs);
+        format!("Code error of the coefficients for {media}: {bound}")
+    }));
+    lines
 }
 
 /// What a method promises of its model error, one line for each set of media.
@@ -60,11 +58,8 @@ pub(super) fn model_promises(method: &Method) -> impl Iterator<Item = String> {
 
 /// What a method promises to artists, if colours outside its range may be far off.
 pub(super) fn beyond_colours(method: &Method) -> Option<String> {
-    let colours = method
-        .claims
-        .colours
-        .filter(|colours| !colours.beyond.is_empty())?;
-    Some(colours_line(method, colours))
+    let colours = method.claims.colours?;
+    (!colours.beyond.is_empty()).then(|| colours_line(method, colours))
 }
 
 /// What a method promises to artists.
@@ -130,11 +125,8 @@ pub(super) fn code_line(emitted: &EmittedFunction) -> String {
 
 /// A bound in ulp, with the absolute one that holds near zeros.
 fn bound(ulp: f64) -> String {
-    let ulp = if ulp > 0.0 {
-        format!("{ulp} ulp or ")
-    } else {
-        String::new()
-    };
+    let ulp = (ulp > 0.0).then(|| format!("{ulp} ulp or "));
+    let ulp = ulp.unwrap_or_default();
     format!("at most {ulp}2^-22, unfused f32 against f64")
 }
 

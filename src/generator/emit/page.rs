@@ -27,17 +27,17 @@ struct PageView<'a> {
     /// The directive that must precede all code.
     directive: &'a str,
     /// The functions in their order.
-    functions: Vec<FunctionView>,
+    functions: Vec<FunctionView<'a>>,
     /// The numbers that a library method takes after `cos_theta`.
-    parameters: Vec<ParameterView>,
+    parameters: Vec<ParameterView<'a>>,
     /// The textures that the functions read.
-    textures: BTreeSet<String>,
+    textures: BTreeSet<&'a str>,
 }
 
 #[derive(Serialize)]
-struct FunctionView {
+struct FunctionView<'a> {
     /// Comments above it.
-    doc: Vec<String>,
+    doc: &'a [String],
     /// Its signature, without a brace.
     head: String,
     /// The lines of its body.
@@ -49,9 +49,22 @@ struct FunctionView {
 }
 
 #[derive(Serialize)]
-struct ParameterView {
-    name: String,
+struct ParameterView<'a> {
+    name: &'a str,
     ty: &'static str,
+}
+
+impl<'a> FunctionView<'a> {
+    fn new(target: &Target, index: usize, (doc, emitted): &'a Documented) -> FunctionView<'a> {
+        let spelling = target.spelling_in(emitted.precision);
+        FunctionView {
+            doc,
+            head: print::shown_head(&emitted.function, &emitted.name, spelling),
+            body: print::body(&emitted.function, spelling),
+            entry: entry_point(index, emitted),
+            call: call(target, emitted),
+        }
+    }
 }
 
 /// A function, and the comments above it.
@@ -88,12 +101,29 @@ impl<'a> PageRequest<'a> {
 
     /// The bytes of a file.
     pub fn render(&self) -> Result<Vec<u8>, Error> {
-        render_template(
-            self.page.template,
-            &view(self),
-            self.target.finish,
-            self.file,
-        )
+        let (target, first) = (self.target, self.functions[0].1);
+        let numbers = first.function.params.iter();
+        let numbers = numbers.filter(|param| is_number(param));
+        let functions = self.functions.iter();
+        let params = functions.flat_map(|(_, one)| &one.function.params);
+        let textures = params.filter(|param| param.ty == Ty::Texture);
+        let functions = self.functions.iter().enumerate();
+        let view = PageView {
+            header: self.header,
+            guard: self.guard,
+            directive: target.directive_in(first.precision),
+            functions: functions
+                .map(|(i, one)| FunctionView::new(target, i, one))
+                .collect(),
+            textures: textures.map(|param| param.name.as_str()).collect(),
+            parameters: numbers
+                .map(|param| ParameterView {
+                    name: &param.name,
+                    ty: target.spelling.ty(param.ty),
+                })
+                .collect(),
+        };
+        render_template(self.page.template, &view, target.finish, self.file)
     }
 }
 
@@ -129,36 +159,6 @@ pub fn render_template(
         Finish::Spirv => spirv(&text),
     };
     bytes.map_err(|fault| Error::generated(file, fault))
-}
-
-fn view<'a>(request: &'a PageRequest) -> PageView<'a> {
-    let functions = request.functions.iter().enumerate();
-    let first = &request.functions[0].1.function;
-    let numbers = first.params.iter().filter(|param| is_number(param));
-    PageView {
-        header: request.header,
-        guard: request.guard,
-        directive: request
-            .target
-            .directive_in(request.functions[0].1.precision),
-        functions: functions
-            .map(|(i, (doc, emitted))| function(request.target, i, doc, emitted))
-            .collect(),
-        textures: textures(request),
-        parameters: numbers
-            .map(|param| ParameterView {
-                name: param.name.clone(),
-                ty: request.target.spelling.ty(param.ty),
-            })
-            .collect(),
-    }
-}
-
-fn textures(request: &PageRequest) -> BTreeSet<String> {
-    let functions = request.functions.iter();
-    let params = functions.flat_map(|(_, emitted)| &emitted.function.params);
-    let textures = params.filter(|param| param.ty == Ty::Texture);
-    textures.map(|param| param.name.clone()).collect()
 }
 
 /// Whether a parameter lies in a module's uniform block: it is neither the cosine nor a texture.
@@ -201,22 +201,6 @@ fn call(target: &Target, emitted: &EmittedFunction) -> String {
     match emitted.precision {
         Precision::F32 => call,
         Precision::F16 => format!("{}({call})", target.spelling.ty(emitted.function.ty())),
-    }
-}
-
-fn function(
-    target: &Target,
-    index: usize,
-    doc: &[String],
-    emitted: &EmittedFunction,
-) -> FunctionView {
-    let spelling = target.spelling_in(emitted.precision);
-    FunctionView {
-        doc: doc.to_vec(),
-        head: print::shown_head(&emitted.function, &emitted.name, spelling),
-        body: print::body(&emitted.function, spelling),
-        entry: entry_point(index, emitted),
-        call: call(target, emitted),
     }
 }
 

@@ -4,7 +4,7 @@
 //! precedence makes needless. Equal precedence on the right keeps its parentheses, because floating-point sums and products do
 //! not associate.
 
-use crate::language::ir::{Checked, Node, NodeId, Op, Payload, Ty};
+use crate::language::ir::{Checked, Node, NodeId, Op, Param, Payload, Ty};
 use crate::language::targets::{Form, Spelling, filled, precedence};
 
 /// Longer lines are broken, and their comments then stand above.
@@ -14,25 +14,18 @@ const WIDTH: usize = 110;
 pub fn body(function: &Checked, spelling: &Spelling) -> Vec<String> {
     let printer = Printer { function, spelling };
     let mut lines = Vec::new();
-    for (id, node) in function.nodes.iter().enumerate() {
-        if let Some(label) = node.label.as_ref().filter(|_| id != function.result) {
-            let statement = |value: &str| {
-                let (ty, name) = (spelling.ty(node.ty), label.name.as_str());
-                let holes: &[(&str, &str)] = &[("type", ty), ("name", name), ("value", value)];
-                filled(spelling.local, holes)
-            };
-            push(
-                &mut lines,
-                printer.statement(id, statement),
-                &label.why,
-                spelling.comment,
-            );
-        }
+    let steps = function.nodes.iter().enumerate();
+    for (id, node) in steps.filter(|(id, _)| *id != function.result) {
+        let Some(label) = &node.label else { continue };
+        let (ty, name) = (spelling.ty(node.ty), label.name.as_str());
+        let statement = printer.statement(id, |value| {
+            let holes: &[(&str, &str)] = &[("type", ty), ("name", name), ("value", value)];
+            filled(spelling.local, holes)
+        });
+        push(&mut lines, statement, &label.why, spelling.comment);
     }
-    let why = function.nodes[function.result]
-        .label
-        .as_ref()
-        .map_or("", |label| &label.why);
+    let label = function.nodes[function.result].label.as_ref();
+    let why = label.map_or("", |label| &label.why);
     let returned = printer.statement(function.result, |value| format!("return {value};"));
     push(&mut lines, returned, why, spelling.comment);
     lines
@@ -40,19 +33,16 @@ pub fn body(function: &Checked, spelling: &Spelling) -> Vec<String> {
 
 /// The signature of a function: name, arguments, result.
 pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
-    let params: Vec<String> = function
-        .params
-        .iter()
-        .map(|param| {
-            let pattern = match param.ty {
-                Ty::Texture => spelling.texture,
-                Ty::Cube => spelling.cube,
-                _ => spelling.param,
-            };
-            let holes: &[(&str, &str)] = &[("type", spelling.ty(param.ty)), ("name", &param.name)];
-            filled(pattern, holes)
-        })
-        .collect();
+    let param = |param: &Param| {
+        let pattern = match param.ty {
+            Ty::Texture => spelling.texture,
+            Ty::Cube => spelling.cube,
+            _ => spelling.param,
+        };
+        let holes: &[(&str, &str)] = &[("type", spelling.ty(param.ty)), ("name", &param.name)];
+        filled(pattern, holes)
+    };
+    let params: Vec<String> = function.params.iter().map(param).collect();
     let holes: &[(&str, &str)] = &[
         ("name", name),
         ("type", spelling.ty(function.ty())),
@@ -63,13 +53,12 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
 
 /// A function alone, without comments: the part of its text that a compiler reads.
 pub fn bare(function: &Checked, name: &str, spelling: &Spelling) -> String {
-    let lines = body(function, spelling);
-    let code = lines.iter().map(|line| {
-        let code = line.split(spelling.comment).next();
-        code.unwrap_or_default().trim_end()
-    });
-    let body: String = code.map(|line| format!("    {line}\n")).collect();
-    format!("{} {{\n{body}}}\n", head(function, name, spelling))
+    let mut text = format!("{} {{\n", head(function, name, spelling));
+    for line in body(function, spelling) {
+        let code = line.split(spelling.comment).next().unwrap_or_default();
+        text += &format!("    {}\n", code.trim_end());
+    }
+    text + "}\n"
 }
 
 /// The signature as a page shows it: each argument on its own line where one line is too short for all.
@@ -85,19 +74,17 @@ pub fn shown_head(function: &Checked, name: &str, spelling: &Spelling) -> String
     }
 }
 
+/// Adds a statement with its reason: on the same line if both fit, else above.
 fn push(lines: &mut Vec<String>, statement: Vec<String>, why: &str, comment: &str) {
-    let one_line = statement.len() == 1;
-    match (
-        why.is_empty(),
-        one_line && statement[0].len() + why.len() + 4 <= WIDTH,
-    ) {
-        (true, _) => lines.extend(statement),
-        (false, true) => lines.push(format!("{} {comment} {why}", statement[0])),
-        (false, false) => {
-            lines.push(format!("{comment} {why}"));
-            lines.extend(statement);
+    match &statement[..] {
+        _ if why.is_empty() => {}
+        [line] if line.len() + why.len() + 4 <= WIDTH => {
+            lines.push(format!("{line} {comment} {why}"));
+            return;
         }
+        _ => lines.push(format!("{comment} {why}")),
     }
+    lines.extend(statement);
 }
 
 /// Text and how tightly it binds.
@@ -107,11 +94,12 @@ struct Text {
 }
 
 impl Text {
+    fn new(text: String, tightness: u8) -> Text {
+        Text { text, tightness }
+    }
+
     fn tight(text: String) -> Text {
-        Text {
-            text,
-            tightness: precedence::TIGHT,
-        }
+        Text::new(text, precedence::TIGHT)
     }
 
     /// The text, in parentheses unless it binds at least this tightly.
@@ -150,11 +138,8 @@ impl Printer<'_> {
 
     /// A call with each argument on its own line.
     fn broken_call(&self, name: &str, node: &Node) -> String {
-        let lines: Vec<String> = node
-            .args
-            .iter()
-            .map(|arg| format!("    {}", self.expression(*arg).text))
-            .collect();
+        let line = |arg: &NodeId| format!("    {}", self.expression(*arg).text);
+        let lines: Vec<String> = node.args.iter().map(line).collect();
         format!("{name}(\n{}\n)", lines.join(",\n"))
     }
 
@@ -171,22 +156,23 @@ impl Printer<'_> {
         let arg = |i: usize, tightness: u8| self.expression(node.args[i]).at(tightness);
         match self.spelling.form(node.op) {
             Form::Leaf => self.leaf(node),
-            Form::Infix(sign, tightness) => self.infix(node, sign, tightness),
-            Form::Prefix(sign) => Text {
-                text: format!("{sign}{}", arg(0, precedence::PREFIX + 1)),
-                tightness: precedence::PREFIX,
-            },
+            Form::Infix(sign, tightness) => {
+                let (left, sign, right) = self.sides(node, sign, tightness);
+                Text::new(format!("{left} {sign} {right}"), tightness)
+            }
+            Form::Prefix(sign) => {
+                let text = format!("{sign}{}", arg(0, precedence::PREFIX + 1));
+                Text::new(text, precedence::PREFIX)
+            }
             Form::Call(name) => Text::tight(format!("{name}({})", self.arguments(node))),
             Form::CallUnit(name) => {
                 let [low, high] = [0.0, 1.0].map(|value| self.spelling.number(value));
                 Text::tight(format!("{name}({}, {low}, {high})", arg(0, 0)))
             }
-            Form::CallSelect(name) => Text::tight(format!(
-                "{name}({}, {}, {})",
-                arg(2, 0),
-                arg(1, 0),
-                arg(0, 0)
-            )),
+            Form::CallSelect(name) => {
+                let [condition, yes, no] = [0, 1, 2].map(|i| arg(i, 0));
+                Text::tight(format!("{name}({no}, {yes}, {condition})"))
+            }
             Form::Postfix(suffix) => {
                 Text::tight(format!("{}{suffix}", self.before_dot(node.args[0])))
             }
@@ -194,64 +180,38 @@ impl Printer<'_> {
                 let Payload::Index(index) = node.payload else {
                     unreachable!("a checked channel has an index")
                 };
-                Text::tight(format!(
-                    "{}.{}",
-                    arg(0, precedence::TIGHT),
-                    self.letter(node, index)
-                ))
+                let of = self.function.nodes[node.args[0]].ty;
+                let letter = self.function.letters.letter(of, index);
+                Text::tight(format!("{}.{letter}", arg(0, precedence::TIGHT)))
             }
             Form::Pattern(pattern) => self.filled(pattern, node),
             Form::Ternary => {
                 let loose = precedence::TERNARY + 1;
                 let text = format!("{} ? {} : {}", arg(0, loose), arg(1, loose), arg(2, loose));
-                Text {
-                    text,
-                    tightness: precedence::TERNARY,
-                }
+                Text::new(text, precedence::TERNARY)
             }
         }
     }
 
     fn filled(&self, pattern: &str, node: &Node) -> Text {
-        let fill = |text: String, (i, arg): (usize, &NodeId)| {
-            text.replace(&format!("{{{i}}}"), &self.expression(*arg).text)
-        };
-        let pattern = match node.payload {
+        let mut text = match node.payload {
             Payload::Index(row) => pattern.replace("{w}", ["x", "y", "z", "w"][row]),
             _ => pattern.to_owned(),
         };
-        let args = node.args.iter().enumerate();
-        Text::tight(args.fold(pattern, fill))
-    }
-
-    fn letter(&self, node: &Node, channel: usize) -> &'static str {
-        let of = self.function.nodes[node.args[0]].ty;
-        self.function.letters.letter(of, channel)
+        for (i, arg) in node.args.iter().enumerate() {
+            text = text.replace(&format!("{{{i}}}"), &self.expression(*arg).text);
+        }
+        Text::tight(text)
     }
 
     fn leaf(&self, node: &Node) -> Text {
         match node.payload {
-            Payload::Number(value) => {
-                let tightness = if value.is_sign_negative() {
-                    precedence::PREFIX
-                } else {
-                    precedence::TIGHT
-                };
-                Text {
-                    text: self.spelling.number(value),
-                    tightness,
-                }
+            Payload::Number(value) if value.is_sign_negative() => {
+                Text::new(self.spelling.number(value), precedence::PREFIX)
             }
+            Payload::Number(value) => Text::tight(self.spelling.number(value)),
             Payload::Index(index) => Text::tight(self.function.params[index].name.clone()),
             Payload::None => unreachable!("a checked leaf carries its payload"),
-        }
-    }
-
-    fn infix(&self, node: &Node, sign: &str, tightness: u8) -> Text {
-        let (left, sign, right) = self.sides(node, sign, tightness);
-        Text {
-            text: format!("{left} {sign} {right}"),
-            tightness,
         }
     }
 
@@ -272,25 +232,20 @@ impl Printer<'_> {
     /// The arguments of a call. Where the language broadcasts a scalar by itself, `max(colour, scalar)` is written.
     fn arguments(&self, node: &Node) -> String {
         let scalar_second = self.spelling.mixed_min_max && matches!(node.op, Op::Min | Op::Max);
-        let text = |(i, arg): (usize, &NodeId)| {
+        let mut arguments = Vec::new();
+        for (i, arg) in node.args.iter().enumerate() {
             let inner = &self.function.nodes[*arg];
             let narrow = scalar_second && i == 1 && inner.op == Op::Splat && inner.label.is_none();
-            self.expression(if narrow { inner.args[0] } else { *arg })
-                .text
-        };
-        node.args
-            .iter()
-            .enumerate()
-            .map(text)
-            .collect::<Vec<_>>()
-            .join(", ")
+            let arg = if narrow { inner.args[0] } else { *arg };
+            arguments.push(self.expression(arg).text);
+        }
+        arguments.join(", ")
     }
 
     /// The expression before a swizzle: a number needs parentheses there.
     fn before_dot(&self, id: NodeId) -> String {
-        let is_number = self.function.nodes[id].op == Op::Number;
         let text = self.expression(id);
-        if is_number {
+        if self.function.nodes[id].op == Op::Number {
             format!("({})", text.text)
         } else {
             text.at(precedence::TIGHT)

@@ -72,31 +72,35 @@ impl Candidate {
 
 /// Nests of `length` factors in all families, with powers within these limits.
 fn families(length: usize, powers: &[RangeInclusive<u32>]) -> Vec<Candidate> {
-    let of = |family: &'static str, nests: Vec<Vec<Factor>>| {
-        let one = move |factors: Vec<Factor>| Candidate {
+    let powers = powers
+        .iter()
+        .map(|limit| limit.clone().map(Factor::Grazing).collect());
+    let families = [
+        ("powers", nests(powers)),
+        ("exponentials", exponentials(length)),
+        ("reciprocals", reciprocals(length)),
+        ("bent", bent(length)),
+        ("peaks", peaks(length)),
+    ];
+    let mut all = Vec::new();
+    for (family, nests) in families {
+        all.extend(nests.into_iter().map(|factors| Candidate {
             shape: Shape {
                 factors: factors.leak(),
             },
             family,
             method: None,
-        };
-        nests.into_iter().map(one)
-    };
-    let all = of("powers", self::powers(powers))
-        .chain(of("exponentials", exponentials(length)))
-        .chain(of("reciprocals", reciprocals(length)))
-        .chain(of("bent", bent(length)))
-        .chain(of("peaks", peaks(length)));
-    all.collect()
+        }));
+    }
+    all
 }
 
-fn powers(limits: &[RangeInclusive<u32>]) -> Vec<Vec<Factor>> {
-    limits.iter().fold(vec![Vec::new()], |nests, limit| {
+/// All nests that have one of these factors in each place.
+fn nests(places: impl Iterator<Item = Vec<Factor>>) -> Vec<Vec<Factor>> {
+    places.fold(vec![Vec::new()], |nests, choices| {
         let longer = |nest: &Vec<Factor>| {
-            let nest = nest.clone();
-            limit
-                .clone()
-                .map(move |power| [&nest[..], &[Factor::Grazing(power)]].concat())
+            let longer = choices.iter().map(|next| [&nest[..], &[*next]].concat());
+            longer.collect::<Vec<_>>()
         };
         nests.iter().flat_map(longer).collect()
     })
@@ -104,15 +108,8 @@ fn powers(limits: &[RangeInclusive<u32>]) -> Vec<Vec<Factor>> {
 
 /// All nests of `length` factors that begin with `first` and go on with any of `others`.
 fn words(first: Factor, others: &[Factor], length: usize) -> Vec<Vec<Factor>> {
-    (1..length).fold(vec![vec![first]], |nests, _| {
-        let longer = |nest: &Vec<Factor>| {
-            let nest = nest.clone();
-            others
-                .iter()
-                .map(move |other| [&nest[..], &[*other]].concat())
-        };
-        nests.iter().flat_map(longer).collect()
-    })
+    let others = std::iter::repeat_n(others.to_vec(), length - 1);
+    nests([vec![first]].into_iter().chain(others))
 }
 
 fn exponentials(length: usize) -> Vec<Vec<Factor>> {

@@ -61,10 +61,8 @@ fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) 
 /// index has.
 fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
-    let solvable;
     let surface = if method.replacement.is_some() {
-        solvable = KnownSurface::of_index(surface.n, surface.k, surface.matching_cos);
-        &solvable
+        &KnownSurface::of_index(surface.n, surface.k, surface.matching_cos)
     } else {
         surface
     };

@@ -35,11 +35,8 @@ impl Exact {
 
     /// The indices of the ends among points that run from 90 degrees to 0, the last first.
     pub(super) fn ends(self, points: usize) -> Vec<usize> {
-        let normal = self.normal.then(|| points - 1);
-        normal
-            .into_iter()
-            .chain(self.grazing.then_some(0))
-            .collect()
+        let normal = self.normal.then(|| points - 1).into_iter();
+        normal.chain(self.grazing.then_some(0)).collect()
     }
 }
 
@@ -54,10 +51,8 @@ pub(super) fn fit_meeting(points: Points, ends: &[usize]) -> Option<Vec<f64>> {
     let reduced = |row: &Vec<f64>| -> (Vec<f64>, f64) {
         let share = row[largest] / at[largest];
         let others = (0..row.len()).filter(|i| *i != largest);
-        (
-            others.map(|i| row[i] - share * at[i]).collect(),
-            share * value,
-        )
+        let others = others.map(|i| row[i] - share * at[i]);
+        (others.collect(), share * value)
     };
     let (mut rows, given): (Vec<_>, Vec<_>) = points.rows.iter().map(reduced).unzip();
     let left = points.wanted.iter().zip(&given);
@@ -68,11 +63,7 @@ pub(super) fn fit_meeting(points: Points, ends: &[usize]) -> Option<Vec<f64>> {
     weights.remove(*end);
     let limit = |limit: &Limit| {
         let (row, given) = reduced(&limit.row);
-        Limit {
-            row,
-            least: limit.least - given,
-            most: limit.most - given,
-        }
+        limit.without(row, given)
     };
     let limits: Vec<Limit> = points.limits.iter().map(limit).collect();
     let reduced = Points {
@@ -102,18 +93,16 @@ pub(super) fn rounded_coefficients(
         let mut moved = nearest.clone();
         moved[1] = stepped(moved[1], steps.0);
         moved[2] = stepped(moved[2], steps.1);
-        let missed: f64 = ends
+        let missed = ends
             .iter()
-            .map(|(row, value)| value - weighted_sum(row, &moved))
-            .sum();
+            .map(|(row, value)| value - weighted_sum(row, &moved));
+        let missed: f64 = missed.sum();
         moved[0] = Precision::F32.rounded(moved[0] + missed / ends.len() as f64);
         moved
     };
     let error_at_ends = |coefficients: &Vec<f64>| {
-        let errors = ends
-            .iter()
-            .map(|(row, value)| (value - weighted_sum(row, coefficients)).abs());
-        errors.fold(0.0, f64::max)
+        let error = |(row, value): &(&[f64], f64)| (value - weighted_sum(row, coefficients)).abs();
+        ends.iter().map(error).fold(0.0, f64::max)
     };
     let mut best = nearest.clone();
     for steps in (0..=STEPS).flat_map(ring) {

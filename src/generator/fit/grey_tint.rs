@@ -82,9 +82,7 @@ pub fn grey_tint(reference: &ReferenceCurve) -> GreyTint {
 impl Tinted<'_> {
     fn values(&self, tint: f64, cosines: &[f64]) -> Value<f64> {
         let values = [(Input::F0, self.f0), (Input::TINT, [tint; 3])];
-        let values: Values = values
-            .map(|(input, value)| (input.name.to_owned(), value))
-            .into();
+        let values: Values = values.map(|(input, v)| (input.name.to_owned(), v)).into();
         values_at(&self.function, self.method.inputs, &values, cosines)
     }
 

@@ -108,6 +108,15 @@ pub(super) fn weighted_sum(row: &[f64], coefficients: &[f64]) -> f64 {
 }
 
 impl Limit {
+    /// The same for the rest of a sum, of which a part has this value. `row` has the factors of the rest.
+    pub(super) fn without(&self, row: Vec<f64>, given: f64) -> Limit {
+        Limit {
+            row,
+            least: self.least - given,
+            most: self.most - given,
+        }
+    }
+
     /// How far the range lies above the sum; negative where the sum is too large.
     fn beyond(&self, coefficients: &[f64]) -> f64 {
         let sum = weighted_sum(&self.row, coefficients);
@@ -264,14 +273,17 @@ mod tests {
         })
     }
 
+    /// Powers of these points.
+    fn rows(at: &[f64], powers: &[i32]) -> Vec<Vec<f64>> {
+        let row = |x: &f64| powers.iter().map(|p| x.powi(*p)).collect();
+        at.iter().map(row).collect()
+    }
+
     fn fit(f: fn(f64) -> f64, powers: &[i32], count: usize) -> Minimax {
         let at = points(count);
-        let rows: Vec<Vec<f64>> = at
-            .iter()
-            .map(|x| powers.iter().map(|p| x.powi(*p)).collect())
-            .collect();
-        let wanted: Vec<f64> = at.into_iter().map(f).collect();
-        fit_free(&rows, &wanted, &vec![1.0; rows.len()]).expect("powers tell points apart")
+        let wanted: Vec<f64> = at.iter().map(|x| f(*x)).collect();
+        let weights = vec![1.0; at.len()];
+        fit_free(&rows(&at, powers), &wanted, &weights).expect("powers tell points apart")
     }
 
     /// x² on [0, 1] by a line: x - 1/8, within 1/8. x³ by a parabola: Chebyshev's 1/32.
@@ -295,7 +307,7 @@ mod tests {
     #[test]
     fn a_weight_counts() {
         let at = points(200);
-        let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![1.0, *x]).collect();
+        let rows = rows(&at, &[0, 1]);
         let wanted: Vec<f64> = at.iter().map(|x| x * x).collect();
         let weights: Vec<f64> = at.iter().map(|x| 1.0 + 9.0 * x).collect();
         let found = fit_free(&rows, &wanted, &weights).expect("lines tell points apart");
@@ -315,18 +327,17 @@ mod tests {
     #[test]
     fn a_range_is_kept_at_the_least_cost() {
         let at = points(10_000);
-        let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![1.0, *x]).collect();
+        let lines = rows(&at, &[0, 1]);
         let wanted: Vec<f64> = at.iter().map(|x| x * x).collect();
-        let found = fit_within(&rows, &wanted, (0.0, 1.0)).expect("a line");
+        let found = fit_within(&lines, &wanted, (0.0, 1.0)).expect("a line");
         let slope = 2.0 * (2.0_f64.sqrt() - 1.0);
         assert!(found.coefficients[0].abs() < 1e-12, "{found:?}");
         assert!((found.coefficients[1] - slope).abs() < 1e-8, "{found:?}");
         assert!((found.error - (1.0 - slope)).abs() < 1e-8, "{found:?}");
-        let wide = fit_within(&rows, &wanted, (-1.0, 2.0)).expect("a line");
+        let wide = fit_within(&lines, &wanted, (-1.0, 2.0)).expect("a line");
         assert!((wide.error - 0.125).abs() < 1e-8, "{wide:?}");
         // A multiple of x is always 0 at 0.
-        let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![*x]).collect();
-        assert_eq!(fit_within(&rows, &wanted, (0.5, 1.0)), None);
+        assert_eq!(fit_within(&rows(&at, &[1]), &wanted, (0.5, 1.0)), None);
     }
 
     #[test]

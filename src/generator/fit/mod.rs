@@ -17,7 +17,6 @@ mod perceived;
 mod problem;
 mod rounded;
 mod survey;
-mod thesis_measure;
 mod weight;
 
 pub use best_inputs::values_at;
@@ -33,15 +32,14 @@ pub use material_params::{
 };
 pub use method_errors::{InputChoice, MethodErrors};
 pub use model_error::{
-    ModelError, difference, error_from, error_of, model_error, rounded_up, single_error,
+    ModelError, arguments, difference, error_from, error_of, model_error, rounded_up, single_error,
+    table_of, texels,
 };
 pub use perceived::{Perceived, perceived};
 pub use problem::{
     Coefficients, FitCurve, FitObjective, FitProblem, basis, coefficients_and_error,
 };
-pub use rounded::{arguments, table_of, texels};
 pub use survey::{
     PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours, survey_page,
 };
-pub use thesis_measure::{thesis_error_in_floats, thesis_errors};
 pub use weight::Weight;

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::rounded::{arguments, table_of};
 use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
-use crate::language::ir::{Checked, Column, Value, evaluate};
-use crate::physics::num::each_channel;
+use crate::language::ir::{Checked, Column, Function, Texels, Ty, Value, evaluate};
+use crate::language::methods::{TEXELS, WARP, unwarped};
+use crate::physics::num::{Half, Num, each_channel};
 
 /// The error of a method for a material, independent of the code that computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +32,26 @@ pub fn rounded_up(error: f64) -> String {
 /// at the critical angle included.
 const REFINEMENTS: usize = 6;
 const STEPS: usize = 32;
+
+/// The table of a function that gives reflectance at a cosine.
+pub fn texels(seen: impl Fn(f64) -> [f64; 3]) -> Texels {
+    let centre = |i: usize| unwarped(WARP, i as f64 / (TEXELS - 1) as f64);
+    let half = |value: f64| Half::from_f64(value).to_f32();
+    let texels: Vec<_> = (0..TEXELS).map(|i| seen(centre(i)).map(half)).collect();
+    Texels::row(&texels)
+}
+
+/// The table that a specialised function reads, if it reads one.
+pub fn table_of(function: &Function, seen: impl Fn(f64) -> [f64; 3]) -> Option<Texels> {
+    let is_textured = function.params.iter().any(|param| param.ty == Ty::Texture);
+    is_textured.then(|| texels(seen))
+}
+
+/// The arguments of a specialised function.
+pub fn arguments<N: Num>(cosines: Vec<N>, table: Option<&Texels>) -> Vec<Value<N>> {
+    let table = table.map(|table| Value::Texture(Some(table.clone())));
+    [Value::each(cosines)].into_iter().chain(table).collect()
+}
 
 /// The model error of a function of `cos_theta` alone, or of `cos_theta` and the table that it reads.
 pub fn model_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {

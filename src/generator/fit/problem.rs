@@ -161,11 +161,10 @@ impl FitProblem<'_> {
             _ => channel(1)?,
         };
         let single = |i: usize, found: &[f64]| {
-            let met: Vec<(&[f64], f64)> = ends
+            let met = ends
                 .iter()
-                .map(|end| (&basis[*end][..], self.wanted[i][*end]))
-                .collect();
-            rounded_coefficients(found, &met, self.aim.precision)
+                .map(|end| (&basis[*end][..], self.wanted[i][*end]));
+            rounded_coefficients(found, &met.collect::<Vec<_>>(), self.aim.precision)
         };
         let rounded = [single(0, &red), single(1, &green), single(2, &blue)];
         let coefficients: Vec<[f64; 3]> = (0..red.len())
@@ -288,20 +287,23 @@ mod tests {
         FitCurve::new(|c| [1.331, 1.333, 1.337].map(|n| optics::conductor(n, 0.0, c).unpolarised()))
     }
 
+    fn basis_of(name: &str) -> Vec<Vec<f64>> {
+        let shape = find(name).and_then(|method| method.shape);
+        basis(&shape.expect("a fitted method"))
+    }
+
     /// The largest error in one measure of a fit for another.
-    fn error(curve: &FitCurve, name: &str, weight: Weight, coefficients_and_error: Weight) -> f64 {
-        let shape = find(name)
-            .and_then(|method| method.shape)
-            .expect("a fitted method");
-        let aim = |weight| FitObjective {
-            weight,
-            ..FitObjective::default()
-        };
-        let basis = basis(&shape);
-        let fit = FitProblem::new(curve, aim(coefficients_and_error))
-            .fit(&basis)
-            .expect("it is fitted");
-        FitProblem::new(curve, aim(weight)).error(&basis, &fit.coefficients)
+    fn error(curve: &FitCurve, name: &str, measured: Weight, fitted: Weight) -> f64 {
+        let basis = basis_of(name);
+        let [measured, fitted] = [measured, fitted].map(|weight| {
+            let aim = FitObjective {
+                weight,
+                ..FitObjective::default()
+            };
+            FitProblem::new(curve, aim)
+        });
+        let fit = fitted.fit(&basis).expect("it is fitted");
+        measured.error(&basis, &fit.coefficients)
     }
 
     #[test]
@@ -353,7 +355,7 @@ mod tests {
     #[track_caller]
     fn ends_are_met(name: &str, free: FitObjective) {
         let curve = gold();
-        let basis = basis(&find(name).and_then(|m| m.shape).expect("a fitted method"));
+        let basis = basis_of(name);
         let fit = |aim| {
             FitProblem::new(&curve, aim)
                 .fit(&basis)
@@ -373,11 +375,10 @@ mod tests {
                 "{name} {free:?}"
             );
             for end in exact.ends(basis.len()) {
-                let off = |i: usize| {
-                    let terms = basis[end].iter().zip(&found.coefficients);
-                    terms.map(|(b, c)| b * c[i]).sum::<f64>() - curve.seen[end][i]
-                };
-                let off = [0, 1, 2].map(|i| off(i).abs());
+                let off = [0, 1, 2].map(|i| {
+                    let own: Vec<f64> = found.coefficients.iter().map(|c| c[i]).collect();
+                    (weighted_sum(&basis[end], &own) - curve.seen[end][i]).abs()
+                });
                 assert!(
                     off.iter().all(|off| *off < 1e-7),
                     "{name} {free:?}: {off:?}"

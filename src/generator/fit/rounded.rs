@@ -1,5 +1,5 @@
 //! Fits with coefficients in half precision, rounded within the optimisation: when one is rounded, those not yet rounded
-//! compensate. Also the texels of a table in half precision, as the method `table` reads it by default.
+//! compensate.
 //!
 //! The last coefficient is rounded to one of its two neighbours in half precision, the others are fitted again to the rest, and
 //! so on to the first. All branches are tried except those that cannot become the best, since a form with free coefficients is
@@ -9,9 +9,7 @@
 //! <https://doi.org/10.2307/1910129>, with two branches per coefficient.
 
 use super::minimax::{Limit, Minimax, Points, minimax};
-use crate::language::ir::{Function, Texels, Ty, Value};
-use crate::language::methods::{TEXELS, WARP, unwarped};
-use crate::physics::num::{Half, Num, Precision};
+use crate::physics::num::Precision;
 
 /// The share by which a number grows to reach its neighbour in half precision: more than half a unit in the last place and less
 /// than one and a half, on both sides of a power of two.
@@ -20,13 +18,8 @@ const NEIGHBOUR: f64 = 0.6 / 1024.0;
 /// The same as [`minimax`], with coefficients in half precision. None also where no rounding that is tried keeps the ranges.
 pub fn rounded(points: Points) -> Option<Minimax> {
     let terms = points.rows.first()?.len();
-    let first = |terms: usize| {
-        points
-            .rows
-            .iter()
-            .map(|row| row[..terms].to_vec())
-            .collect()
-    };
+    let rows = points.rows.iter();
+    let first = |terms: usize| rows.clone().map(|row| row[..terms].to_vec()).collect();
     let search = RoundingSearch {
         shorter: (0..=terms).map(first).collect(),
         weights: points.weights,
@@ -55,10 +48,9 @@ impl RoundingSearch<'_> {
         for value in neighbours(*last) {
             let rows = self.shorter[terms].iter().zip(wanted);
             let left: Vec<f64> = rows.map(|(row, w)| w - row[terms - 1] * value).collect();
-            let limit = |limit: &Limit| Limit {
-                row: limit.row[..terms - 1].to_vec(),
-                least: limit.least - limit.row[terms - 1] * value,
-                most: limit.most - limit.row[terms - 1] * value,
+            let limit = |limit: &Limit| {
+                let (row, given) = (&limit.row[..terms - 1], limit.row[terms - 1] * value);
+                limit.without(row.to_vec(), given)
             };
             let moved: Vec<Limit> = limits.iter().map(limit).collect();
             let bound = best.as_ref().map_or(bound, |best| best.error);
@@ -84,10 +76,8 @@ impl RoundingSearch<'_> {
         if !limits.iter().all(is_kept) {
             return None;
         }
-        let errors = wanted
-            .iter()
-            .zip(self.weights)
-            .map(|(w, weight)| w.abs() * weight);
+        let pairs = wanted.iter().zip(self.weights);
+        let errors = pairs.map(|(wanted, weight)| wanted.abs() * weight);
         Some(Minimax {
             coefficients: Vec::new(),
             error: errors.fold(0.0, f64::max),
@@ -103,28 +93,9 @@ fn neighbours(x: f64) -> [f64; 2] {
     [nearest, Precision::F16.rounded(nearest + beyond)]
 }
 
-/// The table of a function that gives reflectance at a cosine.
-pub fn texels(seen: impl Fn(f64) -> [f64; 3]) -> Texels {
-    let centre = |i: usize| unwarped(WARP, i as f64 / (TEXELS - 1) as f64);
-    let half = |value: f64| Half::from_f64(value).to_f32();
-    let texels: Vec<_> = (0..TEXELS).map(|i| seen(centre(i)).map(half)).collect();
-    Texels::row(&texels)
-}
-
-/// The table that a specialised function reads, if it reads one.
-pub fn table_of(function: &Function, seen: impl Fn(f64) -> [f64; 3]) -> Option<Texels> {
-    let is_textured = function.params.iter().any(|param| param.ty == Ty::Texture);
-    is_textured.then(|| texels(seen))
-}
-
-/// The arguments of a specialised function.
-pub fn arguments<N: Num>(cosines: Vec<N>, table: Option<&Texels>) -> Vec<Value<N>> {
-    let table = table.map(|table| Value::Texture(Some(table.clone())));
-    [Value::each(cosines)].into_iter().chain(table).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::minimax::weighted_sum;
     use super::*;
 
     #[test]
@@ -152,36 +123,16 @@ mod tests {
         let free = minimax(points).unwrap();
         let found = rounded(points).unwrap();
         let error = |coefficients: &[f64]| {
-            let at = |row: &[f64]| {
-                row.iter()
-                    .zip(coefficients)
-                    .map(|(b, c)| b * c)
-                    .sum::<f64>()
-            };
-            let each = rows
-                .iter()
-                .zip(&wanted)
-                .map(|(row, wanted)| (at(row) - wanted).abs());
-            each.fold(0.0, f64::max)
+            let missed =
+                |(row, wanted): (&Vec<f64>, &f64)| weighted_sum(row, coefficients) - wanted;
+            let missed = rows.iter().zip(&wanted).map(missed);
+            missed.fold(0.0, |most: f64, missed| most.max(missed.abs()))
         };
-        let naive: Vec<f64> = free
-            .coefficients
-            .iter()
-            .map(|c| Precision::F16.rounded(*c))
-            .collect();
-        assert!(
-            found
-                .coefficients
-                .iter()
-                .all(|c| Precision::F16.rounded(*c) == *c)
-        );
+        let round = |c: &f64| Precision::F16.rounded(*c);
+        let naive: Vec<f64> = free.coefficients.iter().map(round).collect();
+        assert!(found.coefficients.iter().all(|c| round(c) == *c));
         assert!((error(&found.coefficients) - found.error).abs() < 1e-12);
-        let lost = |error: f64| error - free.error;
-        assert!(
-            lost(found.error) < 0.5 * lost(error(&naive)),
-            "{} {}",
-            lost(found.error),
-            lost(error(&naive))
-        );
+        let [found, naive] = [found.error, error(&naive)].map(|error| error - free.error);
+        assert!(found < 0.5 * naive, "{found} {naive}");
     }
 }

@@ -67,8 +67,8 @@ fn page_outcome(
     text: &str,
     viewing: &ViewingConditions,
 ) -> Result<PageOutcome, String> {
-    let page =
-        Page::parse(file, text).map_err(|fault| format!("line {}: {}", fault.line, fault.what))?;
+    let page = Page::parse(file, text);
+    let page = page.map_err(|fault| format!("line {}: {}", fault.line, fault.what))?;
     let material = page.material(None).map_err(|fault| fault.what)?;
     let about = page_facts(&page, &material)?;
     Ok(match Surface::new(&material, None, viewing) {
@@ -81,9 +81,7 @@ fn page_outcome(
 fn page_facts(page: &Page, material: &Material) -> Result<PageFacts, String> {
     let (from, to) = material.range_nm();
     material.index(0.5 * (from + to), Extrapolate::Refuse)?;
-    let nd = page
-        .nd
-        .and_then(|printed| Some((printed, ior_in(material, None)? - printed)));
+    let ours_minus = |printed| Some((printed, ior_in(material, None)? - printed));
     Ok(PageFacts {
         class: material.kind.name(),
         range_nm: (from, to),
@@ -91,7 +89,7 @@ fn page_facts(page: &Page, material: &Material) -> Result<PageFacts, String> {
             DispersionCurve::Formula(formula) => formula.number,
             DispersionCurve::Table(_) => 0,
         },
-        nd,
+        nd: page.nd.and_then(ours_minus),
     })
 }
 

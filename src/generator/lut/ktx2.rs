@@ -16,38 +16,13 @@ const IDENTIFIER: [u8; 12] = [
 /// How a file begins, and the mark of this program in its head.
 pub const KTX2_MARK: (&[u8], &[u8]) = (b"\xABKTX 20", b"KTXwriter\0fresnel-gen\0");
 
-/// The number type of a file's channels.
-struct Channel {
-    /// The number of Vulkan's format with four such channels.
-    format: u32,
-    /// The bytes of one channel.
-    bytes: usize,
-}
+/// The number type of a file's channels: the number of Vulkan's format with four such channels, and the bytes of one.
+type Channel = (u32, usize);
 
 /// VK_FORMAT_R16G16B16A16_SFLOAT.
-const HALF: Channel = Channel {
-    format: 97,
-    bytes: 2,
-};
+const HALF: Channel = (97, 2);
 /// VK_FORMAT_R32G32B32A32_SFLOAT.
-const FLOAT: Channel = Channel {
-    format: 109,
-    bytes: 4,
-};
-
-impl Channel {
-    fn of(depth: Depth) -> Channel {
-        match depth {
-            Depth::Float => FLOAT,
-            Depth::Half | Depth::Unorm8 | Depth::Unorm16 => HALF,
-        }
-    }
-
-    /// The bytes of a texel. The level's first byte lies at a multiple of them.
-    fn texel(&self) -> usize {
-        4 * self.bytes
-    }
-}
+const FLOAT: Channel = (109, 4);
 
 /// Where the header with its index and the one entry of the level index end: 12 + 9·4 + 4·4 + 2·8, and 3·8.
 const HEADER: u32 = 80 + 24;
@@ -56,20 +31,24 @@ const DESCRIPTOR: u32 = 4 * (1 + 6 + 4 * 4);
 
 /// The file. Its numbers are binary32 if the picture's are, otherwise binary16.
 pub fn ktx2(picture: &Picture) -> Vec<u8> {
-    let channel = Channel::of(picture.depth);
+    let channel = match picture.depth {
+        Depth::Float => FLOAT,
+        Depth::Half | Depth::Unorm8 | Depth::Unorm16 => HALF,
+    };
     let pairs = key_values();
     let before = HEADER as usize + DESCRIPTOR as usize + pairs.len();
-    let start = before.next_multiple_of(channel.texel());
+    // The level's first byte lies at a multiple of a texel's bytes.
+    let start = before.next_multiple_of(4 * channel.1);
     let data = level(picture);
     let mut bytes = IDENTIFIER.to_vec();
-    for word in head(picture, &channel, pairs.len() as u32) {
+    for word in head(picture, channel, pairs.len() as u32) {
         bytes.extend(word.to_le_bytes());
     }
     // Supercompression data: none. Then the level: offset, length, uncompressed length.
     for word in [0, 0, start, data.len(), data.len()] {
         bytes.extend((word as u64).to_le_bytes());
     }
-    for word in descriptor(picture.space, &channel) {
+    for word in descriptor(picture.space, channel) {
         bytes.extend(word.to_le_bytes());
     }
     bytes.extend(pairs);
@@ -79,26 +58,21 @@ pub fn ktx2(picture: &Picture) -> Vec<u8> {
 }
 
 fn level(picture: &Picture) -> Vec<u8> {
-    match picture.depth {
-        Depth::Float => picture
-            .floats()
-            .flatten()
-            .flat_map(f32::to_le_bytes)
-            .collect(),
-        Depth::Half | Depth::Unorm8 | Depth::Unorm16 => picture
-            .half_bits()
-            .flatten()
-            .flat_map(u16::to_le_bytes)
-            .collect(),
+    if picture.depth == Depth::Float {
+        let floats = picture.floats().flatten();
+        floats.flat_map(f32::to_le_bytes).collect()
+    } else {
+        let bits = picture.half_bits().flatten();
+        bits.flat_map(u16::to_le_bytes).collect()
     }
 }
 
 /// The words of the header and of the index up to the supercompression data.
-fn head(picture: &Picture, channel: &Channel, pairs: u32) -> [u32; 13] {
+fn head(picture: &Picture, (format, bytes): Channel, pairs: u32) -> [u32; 13] {
     let (depth, layers, faces, levels, supercompression) = (0, 0, 1, 1, 0);
     [
-        channel.format,
-        channel.bytes as u32,
+        format,
+        bytes as u32,
         picture.width as u32,
         picture.height() as u32,
         depth,
@@ -114,7 +88,7 @@ fn head(picture: &Picture, channel: &Channel, pairs: u32) -> [u32; 13] {
 }
 
 /// The data format descriptor: one basic block.
-fn descriptor(space: Option<Space>, channel: &Channel) -> Vec<u32> {
+fn descriptor(space: Option<Space>, (_, bytes): Channel) -> Vec<u32> {
     const VERSION: u32 = 2;
     const RGBSDA: u32 = 1;
     const LINEAR: u32 = 1;
@@ -125,10 +99,10 @@ fn descriptor(space: Option<Space>, channel: &Channel) -> Vec<u32> {
         VERSION | ((DESCRIPTOR - 4) << 16),
         RGBSDA | (primaries(space) << 8) | (LINEAR << 16),
         0,
-        channel.texel() as u32,
+        4 * bytes as u32,
         0,
     ];
-    let bits = 8 * channel.bytes as u32;
+    let bits = 8 * bytes as u32;
     for (i, name) in [0, 1, 2, 15].into_iter().enumerate() {
         words.push((bits * i as u32) | ((bits - 1) << 16) | ((name | SIGNED_FLOAT) << 24));
         words.extend([0, (-1f32).to_bits(), 1f32.to_bits()]);

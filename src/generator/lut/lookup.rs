@@ -57,6 +57,7 @@ mod tests {
     use super::*;
     use crate::generator::lut::{Depth, Stored};
     use crate::language::ir::{Texels, Ty, Value, Weights, evaluate};
+    use crate::language::methods::{TEXELS, WARP, find};
 
     /// A table whose texels all differ.
     fn stored(axis: TableAxis, texels: usize, scale: f32) -> Stored {
@@ -112,22 +113,16 @@ mod tests {
 
     #[test]
     fn the_usual_table_is_read_as_the_method_reads_it() {
-        let method = crate::language::methods::find("table").unwrap();
+        let method = find("table").unwrap();
         let values = [
-            (Input::TEXELS, crate::language::methods::TEXELS as f64),
-            (Input::WARP, crate::language::methods::WARP),
+            (Input::TEXELS, TEXELS as f64),
+            (Input::WARP, WARP),
             (Input::ROW, ONLY_ROW),
             (Input::TABLE_SCALE, 1.0),
         ];
         let values = values.map(|(input, value)| (input.name.to_owned(), [value; 3]));
         let specialised = method.specialise(&values.into_iter().collect()).unwrap();
-        let own = lookup(
-            TableAxis::Rational,
-            crate::language::methods::TEXELS,
-            Some(1.0),
-            1,
-        )
-        .unwrap();
+        let own = lookup(TableAxis::Rational, TEXELS, Some(1.0), 1).unwrap();
         assert_eq!(specialised.nodes, own.nodes);
     }
 }

@@ -35,9 +35,7 @@ pub use ktx2::KTX2_MARK;
 pub use limits::{Error, LEAST_TEXELS, check_side, check_size};
 pub use lookup::lookup;
 pub use picture::{Picture, TermChannels};
-pub use search::{
-    BetweenTexels, TableKind, ThesisMeasure, smallest, table_error, thesis_table_errors,
-};
+pub use search::{BetweenTexels, TableKind, smallest, table_error};
 pub use split_sum::{
     BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
     WHITE_MEAN_LOST, term_range,

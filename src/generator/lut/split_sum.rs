@@ -124,12 +124,11 @@ pub const MOST_TERM: f64 = 4.0;
 fn check_terms(basis: &Basis) -> Result<(), Error> {
     let terms = basis.terms();
     if terms > TERMS {
-        return Err(Error::Terms { terms });
-    }
-    if term_range(basis)[1] <= MOST_TERM {
-        Ok(())
-    } else {
+        Err(Error::Terms { terms })
+    } else if term_range(basis)[1] > MOST_TERM {
         Err(Error::Range)
+    } else {
+        Ok(())
     }
 }
 

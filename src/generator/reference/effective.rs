@@ -9,7 +9,7 @@ use super::reference_curve::{ReferenceCurve, reference_reflectance};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Index, MaterialKind};
 use crate::physics::num::each_channel;
-use crate::physics::optics::{self, COS_82, index_from_f0_f82};
+use crate::physics::optics::{self, COS_82, EffectiveIndex, index_from_f0_f82};
 
 /// The index per channel, and how it was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,21 +76,17 @@ pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
     let at = |c: f64| reference_reflectance(&reference.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
     let each = each_channel(|i| {
-        let found = index_from_f0_f82(f0[i], f82[i]);
-        if !transparent && found.exact && found.n >= LEAST_N {
-            let index = Index {
-                n: found.n,
-                k: found.k,
-            };
-            (index, IndexSource::F0AndF82)
-        } else {
-            let channel: Vec<(f64, f64)> = curve.iter().map(|(c, r)| (*c, r[i])).collect();
-            if transparent {
-                (nearest_transparent(&channel), IndexSource::Nearest)
-            } else {
-                (nearest(&channel), IndexSource::Nearest)
-            }
+        let EffectiveIndex { n, k, exact } = index_from_f0_f82(f0[i], f82[i]);
+        if !transparent && exact && n >= LEAST_N {
+            return (Index { n, k }, IndexSource::F0AndF82);
         }
+        let channel: Vec<(f64, f64)> = curve.iter().map(|(c, r)| (*c, r[i])).collect();
+        let index = if transparent {
+            nearest_transparent(&channel)
+        } else {
+            nearest(&channel)
+        };
+        (index, IndexSource::Nearest)
     });
     Effective {
         channels: Channels::of(each.map(|(index, _)| index)),
@@ -104,9 +100,8 @@ fn curve(reference: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
     let even = (0..angles).map(|i| i as f64 / angles as f64 * std::f64::consts::FRAC_PI_2);
     let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
     let cosines = even.map(libm::cos).chain(grazing);
-    cosines
-        .map(|c| (c, reference.at(c).map(|r| r.clamp(0.0, 1.0))))
-        .collect()
+    let clipped = |c| reference.at(c).map(|r| r.clamp(0.0, 1.0));
+    cosines.map(|c| (c, clipped(c))).collect()
 }
 
 /// The index whose curve is nearest, by largest absolute difference: for each k the best n, and of these the best. The valley is
@@ -187,15 +182,12 @@ mod tests {
     use crate::physics::materials::{self, Surface, ViewingConditions};
 
     fn reference(name: &str) -> (ReferenceCurve, MaterialKind) {
-        let material = materials::find(name)
-            .expect("it is there")
-            .expect("it is good");
-        let surface =
-            Surface::new(&material, None, &ViewingConditions::default()).expect("it is full");
-        (
-            ReferenceCurve::new(surface, Light::Unpolarised),
-            material.kind,
-        )
+        let material = materials::find(name).expect("it is there");
+        let material = material.expect("it is good");
+        let surface = Surface::new(&material, None, &ViewingConditions::default());
+        let surface = surface.expect("it is full");
+        let reference = ReferenceCurve::new(surface, Light::Unpolarised);
+        (reference, material.kind)
     }
 
     /// No index is nearer, neither of a dense grid around it nor of a coarse grid over all bounds.
@@ -210,29 +202,20 @@ mod tests {
             let (reference, kind) = reference(name);
             let found = effective(&reference, kind);
             assert_eq!(found.by[channel], IndexSource::Nearest, "{name}");
-            let curve: Vec<(f64, f64)> = curve(&reference, ANGLES)
-                .iter()
-                .map(|(c, r)| (*c, r[channel]))
-                .collect();
+            let curve = curve(&reference, ANGLES).into_iter();
+            let curve: Vec<(f64, f64)> = curve.map(|(c, r)| (c, r[channel])).collect();
+            let error = |n, k| distance(Index { n, k }, &curve, f64::INFINITY);
             let (n, k) = (found.channels.n[channel], found.channels.k[channel]);
-            let error = distance(Index { n, k }, &curve, f64::INFINITY);
+            let own = error(n, k);
             let glass = kind == MaterialKind::Dielectric;
             for i in -50..=50 {
                 for j in -50..=50 {
-                    let near = Index {
-                        n: n * (1.0 + f64::from(i) * 2e-4),
-                        k: k * (1.0 + f64::from(j) * 2e-4),
-                    };
-                    let far = Index {
-                        n: 0.002 * libm::pow(2e3, f64::from(i + 50) / 100.0),
-                        k: if glass { 0.0 } else { 0.6 * f64::from(j + 51) },
-                    };
-                    let least = distance(near, &curve, f64::INFINITY).min(distance(
-                        far,
-                        &curve,
-                        f64::INFINITY,
-                    ));
-                    assert!(least > error - 1e-5, "{name}: {least} is less than {error}");
+                    let moved = |value: f64, steps: i32| value * (1.0 + f64::from(steps) * 2e-4);
+                    let near = error(moved(n, i), moved(k, j));
+                    let far_k = if glass { 0.0 } else { 0.6 * f64::from(j + 51) };
+                    let far = error(0.002 * libm::pow(2e3, f64::from(i + 50) / 100.0), far_k);
+                    let least = near.min(far);
+                    assert!(least > own - 1e-5, "{name}: {least} is less than {own}");
                 }
             }
         }
@@ -247,11 +230,7 @@ mod tests {
             (4.0, 0.1, MaterialKind::Semiconductor),
         ] {
             let (mut reference, _) = reference("silver");
-            reference
-                .surface
-                .indices
-                .iter_mut()
-                .for_each(|index| *index = Index { n, k });
+            reference.surface.indices.fill(Index { n, k });
             let reference = ReferenceCurve::new(reference.surface, Light::Unpolarised);
             let found = effective(&reference, kind);
             for i in 0..3 {
@@ -267,7 +246,7 @@ mod tests {
         let (reference, _) = reference("silver");
         let of = |index: Index| {
             let mut surface = reference.surface.clone();
-            surface.indices.iter_mut().for_each(|own| *own = index);
+            surface.indices.fill(index);
             ReferenceCurve::new(surface, Light::Unpolarised).average()[1]
         };
         let mirror = of(Index { n: 1.0, k: 1e9 });

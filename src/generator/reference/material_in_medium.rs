@@ -179,9 +179,8 @@ impl MaterialClass {
     /// Its name in full.
     pub fn title(self) -> &'static str {
         match self {
-            MaterialClass::Metals => "metals",
-            MaterialClass::Semiconductors => "semiconductors",
             MaterialClass::Dielectrics => "dielectrics, n of 1.2 and more",
+            other => other.name(),
         }
     }
 

@@ -3,8 +3,8 @@
 use super::comparison::{self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure};
 use super::section::{Meter, ThesisSection};
 use super::specialised;
+use super::thesis_measure::{thesis_error_in_floats, thesis_errors};
 use super::three_wavelengths::{mean, weighted};
-use crate::generator::fit::{thesis_error_in_floats, thesis_errors};
 use crate::generator::reference::THESIS_MATCHING_COS;
 use crate::language::methods::lambda;
 use crate::physics::materials::Channels;

@@ -8,9 +8,8 @@ use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
 use super::rendered;
 use super::section::{Meter, ThesisSection};
 use super::specialised;
-use crate::generator::lut::{
-    Depth, LEAST_TEXELS, Stored, Table, TableAxis, ThesisMeasure, thesis_table_errors,
-};
+use super::thesis_measure::{ThesisMeasure, thesis_table_errors};
+use crate::generator::lut::{Depth, LEAST_TEXELS, Stored, Table, TableAxis};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::methods::Light;
 use crate::physics::materials::Surface;

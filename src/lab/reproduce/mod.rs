@@ -15,6 +15,7 @@ mod lookup_tables;
 mod rendered;
 mod section;
 mod specialised;
+mod thesis_measure;
 mod three_wavelengths;
 mod times;
 

@@ -1,12 +1,12 @@
 //! The claims about Schlick's approximation (sections 3.1.3, 3.2.2 and 5.3.1): its range of n, its two forms, its error for water.
 
-use crate::generator::fit::thesis_errors;
 use crate::lab::reproduce::comparison::{
     ComparisonRow, ComparisonVerdict, Figure, measured, statement,
 };
 use crate::lab::reproduce::figures::{cosine, exact, highest};
 use crate::lab::reproduce::section::Meter;
 use crate::lab::reproduce::specialised;
+use crate::lab::reproduce::thesis_measure::thesis_errors;
 use crate::physics::materials::Channels;
 
 /// Indices from hydrogen to germanium, dense in and around the claimed range, three at a time for three channels.
