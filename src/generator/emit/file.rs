@@ -13,6 +13,7 @@ use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{Checked, Ty};
 use crate::language::methods::{self, Method};
 use crate::language::targets::{Finish, Page, Target};
+use crate::physics::num::Precision;
 
 /// The library files of a method: one, or one per page for a target that writes modules.
 ///
@@ -101,25 +102,6 @@ fn pages(
     target.pages.iter().map(file).collect()
 }
 
-/// The place of a function in a text of several. Only the first holds directives such as `enable f16;`: no code may precede them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlaceInFile {
-    /// At its beginning.
-    First,
-    /// After another function.
-    Later,
-}
-
-impl PlaceInFile {
-    /// The place after these pages.
-    pub fn behind(pages: &[Vec<u8>]) -> PlaceInFile {
-        match pages {
-            [] => PlaceInFile::First,
-            _ => PlaceInFile::Later,
-        }
-    }
-}
-
 /// One function for pasting: no guard, no includes.
 ///
 /// # Errors
@@ -129,7 +111,6 @@ pub fn single(
     emitted: &EmittedFunction,
     subject: Option<&MaterialInMedium>,
     heading: Heading,
-    place: PlaceInFile,
 ) -> Result<Vec<u8>, Error> {
     check_names(std::slice::from_ref(emitted))?;
     let functions = [(Vec::new(), emitted)];
@@ -137,15 +118,17 @@ pub fn single(
         header: &comments(target, &heading.pasted(target, emitted, subject)),
         ..PageRequest::new(target, &functions, &emitted.name)
     };
-    let bytes = request.render()?;
-    let directive = target.directive_in(emitted.precision);
-    if place == PlaceInFile::First || directive.is_empty() {
-        return Ok(bytes);
+    request.render()
+}
+
+/// A function for pasting without the line of its directive. It was validated with it.
+pub fn without_directive(target: &Target, precision: Precision, page: Vec<u8>) -> Vec<u8> {
+    match target.directive_in(precision) {
+        "" => page,
+        directive => String::from_utf8_lossy(&page)
+            .replacen(&format!("\n{directive}\n"), "", 1)
+            .into_bytes(),
     }
-    // The page was validated with its directive.
-    let text = String::from_utf8_lossy(&bytes);
-    let text = text.replacen(&format!("\n{directive}\n"), "", 1);
-    Ok(text.into_bytes())
 }
 
 /// The file of a function that reads a baked table, with a head made of the table's own description.

@@ -38,7 +38,7 @@ pub use detail::{
 pub use effect_file::{EFFECTS, EffectRequest, effect_file, effect_function_text, effect_text};
 pub use error::Error;
 pub use figures::{half_promise, promises};
-pub use file::{PlaceInFile, library, lookup, material, single, written_for};
+pub use file::{library, lookup, material, single, without_directive, written_for};
 pub use function::{
     EffectPart, EmittedFunction, FunctionForm, Naming, companions, library_functions,
     specialised_function,

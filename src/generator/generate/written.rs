@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::{self, EmittedFunction, HeaderForm, Heading, Naming, PlaceInFile};
+use crate::generator::emit::{self, EmittedFunction, HeaderForm, Heading, Naming};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::{KeptMethods, Run};
 use crate::generator::output::manifest::{Entry, Manifest};
@@ -236,8 +236,13 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
             form,
             command: &command,
         };
-        let place = PlaceInFile::behind(&pages);
-        pages.push(emit::single(target, emitted, subject, heading, place)?);
+        let page = emit::single(target, emitted, subject, heading)?;
+        // Only the first function keeps directives such as `enable f16;`: no code may precede them.
+        pages.push(if pages.is_empty() {
+            page
+        } else {
+            emit::without_directive(target, emitted.precision, page)
+        });
         Ok::<(), Error>(())
     };
     for (subject, _) in &run.subjects {

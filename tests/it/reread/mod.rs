@@ -189,14 +189,8 @@ fn specialised_functions_in_half_precision_read_as_they_were_meant() {
             let emitted = emit::specialised_function(method, &subject, &request.naming(), &bounds)
                 .expect("it specialises");
             for target in text_targets() {
-                let text = emit::single(
-                    target,
-                    &emitted,
-                    Some(&subject),
-                    emit::Heading::default(),
-                    emit::PlaceInFile::First,
-                )
-                .expect("it prints");
+                let text = emit::single(target, &emitted, Some(&subject), emit::Heading::default())
+                    .expect("it prints");
                 let text = String::from_utf8(text).expect("text");
                 check_half(&text, &emitted.name, &emitted.function, &[]);
             }
