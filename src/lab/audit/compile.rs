@@ -47,11 +47,11 @@ impl Compilers {
             )],
             code: Err(Fault::Absent(words)),
         };
-        Ok(match self.ask(&request, language)? {
-            Ok(AuditResponse::Accepted(accepted)) => accepted,
-            Ok(_) => silent("the process answers another question".to_owned()),
-            Err(words) => silent(words),
-        })
+        let accepted = self.ask(&request, language, |response| match response {
+            AuditResponse::Accepted(accepted) => Some(accepted),
+            _ => None,
+        })?;
+        Ok(accepted.unwrap_or_else(silent))
     }
 
     /// The SPIR-V of a shader in a language.
@@ -65,22 +65,25 @@ impl Compilers {
         shader: String,
     ) -> Result<Result<Vec<u8>, Fault>, Error> {
         let request = AuditRequest::Module(language, precision, shader);
-        let silent = |words: String| Err(Fault::Absent(words));
-        Ok(match self.ask(&request, language)? {
-            Ok(AuditResponse::Module(made)) => made,
-            Ok(_) => silent("the process answers another question".to_owned()),
-            Err(words) => silent(words),
-        })
+        let made = self.ask(&request, language, |response| match response {
+            AuditResponse::Module(made) => Some(made),
+            _ => None,
+        })?;
+        Ok(made.unwrap_or_else(|words| Err(Fault::Absent(words))))
     }
 
     /// The response, or why there is none.
-    fn ask(
+    fn ask<T>(
         &self,
         request: &AuditRequest,
         language: Language,
-    ) -> Result<Result<AuditResponse, String>, Error> {
+        read: impl Fn(AuditResponse) -> Option<T>,
+    ) -> Result<Result<T, String>, Error> {
         let response = self.worker.borrow_mut().ask(request, self.limit)?;
-        Ok(response.map_err(|no_answer| reason(&no_answer, self.limit, language)))
+        Ok(match response.map(read) {
+            Ok(read) => read.ok_or_else(|| "the process answers another question".to_owned()),
+            Err(no_answer) => Err(reason(&no_answer, self.limit, language)),
+        })
     }
 }
 

@@ -5,8 +5,7 @@
 
 use super::quantity::{meanings, plain};
 use crate::lab::verify::function_head::{FunctionHead, NumberShape};
-use crate::lab::verify::shader_words::Token;
-use crate::lab::verify::shader_words::behind;
+use crate::lab::verify::shader_words::{Token, behind, text_at};
 
 /// The quantity of the angle of incidence that an argument takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -226,7 +225,7 @@ enum Use {
 
 fn used_as(name: &str, body: &[Token]) -> Option<Use> {
     let is_it = |at: usize| body.get(at).is_some_and(|token| token.text == name);
-    let text = |at: usize| body.get(at).map_or("", |token| token.text);
+    let text = |at: usize| text_at(body, at);
     let call = |words: &[&str]| {
         let is_call = |at: &usize| words.contains(&text(*at)) && text(at + 1) == "(";
         (0..body.len()).filter(is_call).collect::<Vec<usize>>()

@@ -65,22 +65,56 @@ fn shaders(
     dialect: Dialect,
     compilers: &Compilers,
 ) -> Result<Result<[FragmentShader; 4], String>, Error> {
-    let [short, long] = dialect.chains();
-    let chain = |evaluations| shader(program, dialect, evaluations);
-    let empty = |evaluations| empty(program, dialect, evaluations);
+    let AuditProgram {
+        language,
+        text,
+        params,
+        is_scalar,
+        precision,
+        ..
+    } = program;
+    let (with_precision, is_scalar) = (format!("{PRECISION}{text}"), *is_scalar);
+    let own = MeasuredFunction {
+        text: if language.is_glsl() {
+            &with_precision
+        } else {
+            text
+        },
+        params,
+        is_scalar,
+    };
+    let texts = [text.clone(), with_precision.clone()];
+    let own_probe = Probe::of_text(params.clone(), is_scalar, texts);
+    // The empty function has a result of as many channels.
+    let result = if is_scalar { Ty::Scalar } else { Ty::Vec3 };
+    let empty = MeasuredFunction {
+        text: match (is_scalar, language) {
+            (true, _) => foreign::EMPTY_SCALAR,
+            (_, Language::Hlsl | Language::Slang) => foreign::EMPTY_HLSL,
+            _ => foreign::EMPTY_GLSL,
+        },
+        params: &[Param {
+            name: "cos_theta".to_owned(),
+            ty: Ty::Scalar,
+        }],
+        is_scalar,
+    };
+    let empty_probe = Probe::empty(Ty::Scalar, result, Precision::F32);
     let mut shaders = Vec::new();
-    // A compiler that timed out once is not asked again.
-    for made in [chain(short), chain(long), empty(short), empty(long)] {
-        let made = match made {
-            Ok(MeasuredShader::Ready(shader)) => Ok(shader),
-            Ok(MeasuredShader::Foreign(language, text)) => {
-                module(compilers.module(language, program.precision, text)?)
+    for (probe, function) in [(own_probe, own), (empty_probe, empty)] {
+        for evaluations in dialect.chains() {
+            let made = match shader(*language, dialect, &probe, function, evaluations) {
+                Ok(MeasuredShader::Ready(shader)) => Ok(shader),
+                Ok(MeasuredShader::Foreign(text)) => {
+                    module(compilers.module(*language, *precision, text)?)
+                }
+                Err(why) => Err(why),
+            };
+            match made {
+                Ok(shader) => shaders.push(shader),
+                // A compiler that timed out once is not asked again.
+                Err(why) => return Ok(Err(why)),
             }
-            Err(why) => Err(why),
-        };
-        match made {
-            Ok(shader) => shaders.push(shader),
-            Err(why) => return Ok(Err(why)),
         }
     }
     Ok(Ok(shaders.try_into().expect("there are four")))
@@ -91,7 +125,7 @@ enum MeasuredShader {
     /// In the form that the worker takes.
     Ready(FragmentShader),
     /// A text from which a compiler makes a module.
-    Foreign(Language, String),
+    Foreign(String),
 }
 
 fn ready(shader: String) -> MeasuredShader {
@@ -110,86 +144,29 @@ fn module(made: Result<Vec<u8>, Fault>) -> Result<FragmentShader, String> {
 /// Precedes GLSL ES that may leave its precision to the program around it.
 const PRECISION: &str = "precision highp float;\n";
 
+/// A shader with a chain of so many evaluations of a function, which is given twice: as our shaders hold it, and as those in HLSL
+/// and GLSL do.
 fn shader(
-    program: &AuditProgram,
+    language: Language,
     dialect: Dialect,
+    probe: &Probe,
+    function: MeasuredFunction,
     evaluations: usize,
 ) -> Result<MeasuredShader, String> {
-    let AuditProgram {
-        language,
-        text: own,
-        params,
-        is_scalar,
-        ..
-    } = program;
-    let foreign_function = |text| MeasuredFunction {
-        text,
-        params,
-        is_scalar: *is_scalar,
-    };
     match (language, dialect) {
-        (Language::Wgsl, _) => {
-            let texts = [own.clone(), String::new()];
-            let probe = Probe::of_text(params.clone(), *is_scalar, texts);
-            wgsl(&probe, dialect, evaluations)
-        }
-        (Language::Gles | Language::Glsl, Dialect::Wgsl) => {
-            let own = format!("{PRECISION}{own}");
-            let shader = foreign::glsl(foreign_function(&own), evaluations);
-            Ok(MeasuredShader::Foreign(*language, shader))
-        }
-        (Language::Gles, _) => {
-            let texts = [String::new(), format!("{PRECISION}{own}")];
-            let probe = Probe::of_text(params.clone(), *is_scalar, texts);
-            Ok(ready(probe.text(evaluations, dialect)))
-        }
-        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
-            *language,
-            foreign::hlsl(foreign_function(own), evaluations),
+        (Language::Wgsl, _) => wgsl(probe, dialect, evaluations),
+        (Language::Gles | Language::Glsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            foreign::glsl(function, evaluations),
         )),
+        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            foreign::hlsl(function, evaluations),
+        )),
+        (Language::Gles, _) => Ok(ready(probe.text(evaluations, dialect))),
         (Language::Hlsl | Language::Slang | Language::Glsl, _) => {
             let language = language.name().to_uppercase();
             Err(format!(
                 "it takes GLSL ES, which nothing here makes of {language}"
             ))
-        }
-    }
-}
-
-/// The chain around the empty function with a result of as many channels, for the cost of the chain itself.
-fn empty(
-    program: &AuditProgram,
-    dialect: Dialect,
-    evaluations: usize,
-) -> Result<MeasuredShader, String> {
-    let (language, is_scalar) = (program.language, program.is_scalar);
-    let result = if is_scalar { Ty::Scalar } else { Ty::Vec3 };
-    let probe = Probe::empty(Ty::Scalar, result, Precision::F32);
-    let none = [Param {
-        name: "cos_theta".to_owned(),
-        ty: Ty::Scalar,
-    }];
-    let foreign_function = |rgb| MeasuredFunction {
-        text: if is_scalar {
-            foreign::EMPTY_SCALAR
-        } else {
-            rgb
-        },
-        params: &none,
-        is_scalar,
-    };
-    match (language, dialect) {
-        (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
-        (Language::Gles | Language::Glsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
-            language,
-            foreign::glsl(foreign_function(foreign::EMPTY_GLSL), evaluations),
-        )),
-        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
-            language,
-            foreign::hlsl(foreign_function(foreign::EMPTY_HLSL), evaluations),
-        )),
-        (Language::Gles | Language::Glsl | Language::Hlsl | Language::Slang, _) => {
-            Ok(ready(probe.text(evaluations, dialect)))
         }
     }
 }

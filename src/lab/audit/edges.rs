@@ -108,20 +108,11 @@ pub fn judged(results: &[[f32; 3]], largest: [f32; 3]) -> Edges {
     edges
 }
 
-/// The first result between the edges that is not a reflectance, and how many there are.
+/// The first result between the edges that is not a reflectance, in words, and how many there are.
 #[derive(Debug)]
 pub struct FaultBetweenEdges {
     largest: [f32; 3],
-    first: RefCell<Option<FirstFault>>,
-}
-
-/// The first fault, with the number of all.
-#[derive(Clone, Copy, Debug)]
-struct FirstFault {
-    cosine: f32,
-    rgb: [f32; 3],
-    fault: &'static str,
-    count: usize,
+    found: RefCell<Option<(String, usize)>>,
 }
 
 impl FaultBetweenEdges {
@@ -129,40 +120,27 @@ impl FaultBetweenEdges {
     pub fn new(largest: [f32; 3]) -> FaultBetweenEdges {
         FaultBetweenEdges {
             largest,
-            first: RefCell::new(None),
+            found: RefCell::new(None),
         }
     }
 
     /// Checks results. The ends are skipped, since they are edges.
     pub fn look(&self, cosines: &[f32], results: &[[f32; 3]]) {
-        let mut first = self.first.borrow_mut();
+        let mut found = self.found.borrow_mut();
         for (cosine, rgb) in cosines.iter().zip(results) {
             let is_end = *cosine == 0.0 || *cosine == 1.0;
-            let Some(fault) = fault(*rgb, self.largest).filter(|_| !is_end) else {
-                continue;
-            };
-            let seen = first.get_or_insert(FirstFault {
-                cosine: *cosine,
-                rgb: *rgb,
-                fault,
-                count: 0,
-            });
-            seen.count += 1;
+            if let Some(fault) = fault(*rgb, self.largest).filter(|_| !is_end) {
+                let first = || format!("at cos_theta = {cosine:?} it {fault}: {}", shown(*rgb));
+                let (_, count) = found.get_or_insert_with(|| (first(), 0));
+                *count += 1;
+            }
         }
     }
 
     /// The finding, in words.
-    pub fn finding(&self) -> Option<String> {
-        let FirstFault {
-            cosine,
-            rgb,
-            fault,
-            count,
-        } = (*self.first.borrow())?;
-        let rgb = shown(rgb);
-        Some(format!(
-            "at cos_theta = {cosine:?} it {fault}: {rgb}; so at {count} cosines between the ends"
-        ))
+    pub fn finding(self) -> Option<String> {
+        let (first, count) = self.found.into_inner()?;
+        Some(format!("{first}; so at {count} cosines between the ends"))
     }
 }
 

@@ -5,8 +5,7 @@ use super::language::Language;
 use super::type_names::TypeNames;
 use super::variables::{Variable, c_variables, wgsl_member, wgsl_variable};
 use crate::lab::verify::function_head::{FunctionHead, function_head};
-use crate::lab::verify::shader_words::Token;
-use crate::lab::verify::shader_words::{behind, parts_between_commas};
+use crate::lab::verify::shader_words::{Token, behind, holds, parts_between_commas, text_at};
 
 /// A part, by indices of words.
 #[derive(Clone, Debug)]
@@ -132,7 +131,7 @@ pub fn functions_of(
             };
             let member = |one: Part| {
                 let head = &inside[one.start..one.head_end];
-                let is_static = head.iter().any(|token| token.text == "static");
+                let is_static = holds(head, "static");
                 let PartKind::Function(mut found) = one.kind else {
                     return None;
                 };
@@ -222,7 +221,7 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
         }
     }
     let head_end = head_end.min(tokens.len());
-    let has_body = tokens.get(head_end).is_some_and(|token| token.text == "{");
+    let has_body = text_at(tokens, head_end) == "{";
     let mut end = if has_body {
         behind(tokens, head_end)
     } else {
@@ -251,7 +250,7 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
 /// The end of a part that has a body and is not a function: `struct S { … } s;`, `float a[2] = { … };`.
 fn tail(tokens: &[Token], start: usize, head_end: usize, end: usize, language: Language) -> usize {
     let head = &tokens[start..head_end];
-    let has = |word: &str| head.iter().any(|token| token.text == word);
+    let has = |word: &str| holds(head, word);
     let goes_on = has("=")
         || language != Language::Wgsl
             && (["struct", "class", "enum"].into_iter().any(has)
@@ -279,22 +278,22 @@ fn other_kind(
     language: Language,
 ) -> PartKind {
     let head = &tokens[start..head_end];
-    let first = head.first().map_or("", |token| token.text);
+    let first = text_at(head, 0);
     // DXC does not know such a line.
     let is_using =
-        language == Language::Slang && first == "using" && word_at(head, 1) == "namespace";
+        language == Language::Slang && first == "using" && text_at(head, 1) == "namespace";
     if is_using || ["precision", "enable", "requires", "diagnostic"].contains(&first) {
         return PartKind::Setting;
     }
-    let has_body = tokens.get(head_end).is_some_and(|token| token.text == "{");
-    let has_value = head.iter().any(|token| token.text == "=");
+    let has_body = text_at(tokens, head_end) == "{";
+    let has_value = holds(head, "=");
     if has_body && !has_value {
         return with_body(tokens, (start, head_end, end), language);
     }
     let all = &tokens[start..end.saturating_sub(1).max(start)];
     match first {
         "typedef" => PartKind::Type(last_word(all), Vec::new(), Vec::new()),
-        "alias" => PartKind::Type(word_at(all, 1), Vec::new(), Vec::new()),
+        "alias" => PartKind::Type(text_at(all, 1).to_owned(), Vec::new(), Vec::new()),
         "" | "import" | "using" | "const_assert" => PartKind::Other,
         _ if language == Language::Wgsl => match wgsl_variable(all, start) {
             Some(variable) => PartKind::Variables(vec![variable]),
@@ -321,12 +320,12 @@ fn with_body(
         .into_iter()
         .find_map(place)
     {
-        let name = word_at(head, at + 1);
+        let name = text_at(head, at + 1).to_owned();
         let constants = constants(tokens, (head_end, end), head, language);
         return PartKind::Type(name, inside(), constants);
     }
     if let Some(at) = ["cbuffer", "tbuffer"].into_iter().find_map(place) {
-        return PartKind::Block(word_at(head, at + 1), inside(), None);
+        return PartKind::Block(text_at(head, at + 1).to_owned(), inside(), None);
     }
     let is_block = ["uniform", "buffer", "in", "out"]
         .into_iter()
@@ -350,7 +349,7 @@ fn constants(
     head: &[Token],
     language: Language,
 ) -> Vec<String> {
-    let has = |word: &str| head.iter().any(|token| token.text == word);
+    let has = |word: &str| holds(head, word);
     let close = behind(tokens, head_end) - 1;
     let first_words = |from: usize, to: usize| -> Vec<String> {
         let named = parts_between_commas(&tokens[from.min(to)..to]);
@@ -361,9 +360,7 @@ fn constants(
         words.collect()
     };
     let behind_it = (close + 1).min(end)..end.saturating_sub(1).max(close + 1).min(end);
-    let has_value = tokens[behind_it.clone()]
-        .iter()
-        .any(|token| token.text == "=");
+    let has_value = holds(&tokens[behind_it.clone()], "=");
     if has("enum") && !has("class") && !has("struct") {
         first_words((head_end + 1).min(close), close)
     } else if has("const") && has_value && (language.is_glsl() || has("static")) {
@@ -376,12 +373,6 @@ fn constants(
 fn last_word(tokens: &[Token]) -> String {
     let last = tokens.iter().rfind(|token| token.is_word());
     last.map_or(String::new(), |token| token.text.to_owned())
-}
-
-fn word_at(tokens: &[Token], at: usize) -> String {
-    tokens
-        .get(at)
-        .map_or(String::new(), |token| token.text.to_owned())
 }
 
 /// The members between two places.

@@ -10,7 +10,7 @@ use super::condition::{Macro, Macros, condition_value, defined_macro, plain_macr
 use super::directives::{self, TextFault};
 use super::error::Error;
 use super::language::Language;
-use crate::lab::verify::shader_words::{Token, tokens};
+use crate::lab::verify::shader_words::{Token, text_at, tokens};
 use crate::physics::foreign::Foreign;
 
 /// A name that the user defines for the preprocessor.
@@ -233,7 +233,7 @@ impl Reader {
         }
         let tokens = tokens(line);
         let rest = tokens.get(1..).unwrap_or(&[]);
-        let word = rest.first().map_or("", |token| token.text);
+        let word = text_at(rest, 0);
         match word {
             "if" | "ifdef" | "ifndef" => self.begin(line, rest)?,
             "elif" | "else" => self.otherwise(line, rest)?,
@@ -245,7 +245,7 @@ impl Reader {
                 return Ok(Some(line.to_owned()));
             }
             "undef" => {
-                self.macros.remove(rest.get(1).map_or("", |name| name.text));
+                self.macros.remove(text_at(rest, 1));
                 return Ok(Some(line.to_owned()));
             }
             "error" => return Err(self.fault(&Foreign(line.trim()).to_string())),
@@ -296,7 +296,7 @@ impl Reader {
         let [word, rest @ ..] = condition else {
             return Ok(true);
         };
-        let name = rest.first().map_or("", |name| name.text);
+        let name = text_at(rest, 0);
         match word.text {
             "ifdef" | "ifndef" if name.is_empty() => Err(self.fault("it asks for no name")),
             "ifdef" => Ok(self.macros.contains_key(name)),

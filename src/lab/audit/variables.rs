@@ -2,8 +2,7 @@
 //! of our compilers reads them.
 
 use super::language::Language;
-use crate::lab::verify::shader_words::{Token, tokens};
-use crate::lab::verify::shader_words::{behind, parts_between_commas};
+use crate::lab::verify::shader_words::{Token, behind, parts_between_commas, tokens};
 
 /// A variable, or a member of a type.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Heads of functions in shader text, in all languages: names, arguments, and the shapes of their types.
 
-use super::shader_words::{Token, behind, parts_between_commas};
+use super::shader_words::{Token, behind, holds, parts_between_commas, text_at};
 
 /// A function as its head declares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -184,7 +184,7 @@ fn c_parameter(part: &[Token]) -> Parameter {
     let default = equals.map(|equals| spaced(&part[equals + 1..]));
     let part = &part[..end.unwrap_or(part.len())];
     let name = part.iter().rposition(Token::is_word).unwrap_or(0);
-    let has = |word: &str| part.iter().any(|token| token.text == word);
+    let has = |word: &str| holds(part, word);
     let is_array = name + 1 < part.len();
     let written = if is_array || has("inout") {
         joined(part)
@@ -196,7 +196,7 @@ fn c_parameter(part: &[Token]) -> Parameter {
         _ => written,
     };
     Parameter {
-        name: part.get(name).map_or("", |token| token.text).to_owned(),
+        name: text_at(part, name).to_owned(),
         shape: shape(&written),
         ty: written,
         default,

@@ -129,13 +129,23 @@ pub fn tokens(bare: &str) -> Vec<Token<'_>> {
     found
 }
 
+/// The text of the token with this index. Empty where there is none.
+pub fn text_at<'a>(tokens: &[Token<'a>], at: usize) -> &'a str {
+    tokens.get(at).map_or("", |token| token.text)
+}
+
+/// Whether one of the tokens is this word.
+pub fn holds(tokens: &[Token], word: &str) -> bool {
+    tokens.iter().any(|token| token.text == word)
+}
+
 /// The index after the bracket that closes the one here.
 pub fn behind(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate().skip(open) {
         match token.text {
             "(" | "[" | "{" => depth += 1,
-            ")" | "]" | "}" => depth -= 1,
+            ")" | "]" | "}" => depth = depth.saturating_sub(1),
             _ => {}
         }
         if depth == 0 {
