@@ -8,33 +8,23 @@
 //! | hlsl | by DXC to SPIR-V (HLSL 2018 and 2021), and that as above |
 //!
 //! MSL runs on Apple's systems only, and GLSL 4.50 is not a language of any of these stacks: they are not run here.
-//!
-//! Functions of effects are compared with what they mean. Functions in half precision run at every f16 from 0 to 1 and at every
-//! exponent beyond. They are compared with f64 and with f16 rounded after every operation.
 
 use std::cell::OnceCell;
 
-use super::compilers::{HlslVersion, Verdict, hlsl_to_spirv};
+use super::compilers::{HlslVersion, hlsl_to_spirv};
 use super::effect_trial::{EffectTrial, TEXELS};
-use super::file::FileTrial;
 use super::harness::{self, Call, ENTRY};
-use super::judge::{EffectRun, HalfRun, PathRun, RanFunction, RunResult};
 use super::naga_translation;
-use super::requested::VerifyPlan;
-use super::row::VerifyRow;
 use super::trial::Trial;
-use crate::generator::emit::{EffectPart, EmittedFunction, batch_entry, batch_program, places};
-use crate::generator::fit::{Measured, values_for_material_in};
+use crate::generator::emit::{EmittedFunction, batch_entry, batch_program, places};
 use crate::lab::fault::Fault;
 use crate::lab::gpu::{
     Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
     TextureShape, Uniform, Wanted, Wrap,
 };
-use crate::lab::verify::{HalfError, HalfTrial, halves, halves_beyond, result_range};
 use crate::language::ir::{Param, Ty};
-use crate::language::methods::{Contract, Method};
 use crate::language::targets::{Stack, Target, filled};
-use crate::physics::num::{Num, Precision};
+use crate::physics::num::Precision;
 
 /// The devices of a run, each opened when it is first needed.
 pub struct Devices {
@@ -351,124 +341,4 @@ impl Runnable {
             });
         self.kernel.run(cosines, &uniforms, texture.as_ref())
     }
-}
-
-/// The values of a method's inputs for the materials that library functions are run with.
-fn input_values(plan: &VerifyPlan, method: &Method) -> Vec<Vec<(String, [f64; 3])>> {
-    let subjects = plan.trial_subjects().iter();
-    let described = subjects.filter(|subject| subject.is_described_by(method));
-    described
-        .map(|subject| {
-            let values = values_for_material_in(Precision::F32, subject, method);
-            values.into_iter().collect()
-        })
-        .collect()
-}
-
-impl FileTrial<'_> {
-    /// The row of a function of an effect.
-    pub(super) fn effect_row(
-        &self,
-        plan: &VerifyPlan,
-        part: EffectPart,
-        accepts: &[(&'static str, Verdict)],
-    ) -> VerifyRow {
-        let trial = EffectTrial::new(self.emitted, part, &input_values(plan, self.emitted.method));
-        let paths = ExecutionPath::all_for_effect(self.file.target).iter();
-        let runs: Vec<(ExecutionPath, Result<PathRun, Fault>)> = paths
-            .map(|path| (*path, self.run_effect(&trial, *path)))
-            .collect();
-        RanFunction {
-            file: self.file,
-            emitted: self.emitted,
-            material: "",
-            accepts,
-            runs: &runs,
-        }
-        .verify_row()
-    }
-
-    fn run_effect(&self, trial: &EffectTrial, path: ExecutionPath) -> Result<PathRun, Fault> {
-        let shown = self.shown_safely(path)?;
-        let got = self.devices.run_effect(&shown, path, trial)?;
-        let (outcome, allowed) = match &self.emitted.code {
-            Measured::Yes(bound) => (trial.judge(&got), bound.value()),
-            Measured::No(_) => trial.judge_without_promise(&got),
-        };
-        let device = self.devices.device_for(shown.target, path)?;
-        Ok(PathRun {
-            points: outcome.points,
-            share: f64::NAN,
-            result: RunResult::Effect(EffectRun { outcome, allowed }),
-            model_error: None,
-            device: device.adapter.to_string(),
-        })
-    }
-}
-
-/// How much further off than the emulation, which is promised, a device may be: 2⁻¹¹, the last place below 1. A device may fuse,
-/// reorder, divide and take roots in two steps, and flush denormals to 0.
-const FREEDOM: f64 = 1.0 / 2048.0;
-
-/// Runs a function in half precision. One that promises nothing may be twice as far off as its emulation.
-pub(super) fn run_in_half(
-    runnable: &Runnable,
-    shown: &ShippedFunction,
-    trial: &Trial,
-) -> Result<PathRun, Fault> {
-    let emitted = shown.function;
-    let meaning = emitted.meaning();
-    let meaning = meaning.map_err(|fault| Fault::Failed(fault.to_string()))?;
-    let half = HalfTrial {
-        function: &emitted.function,
-        meaning: &meaning,
-        values: &trial.values,
-        table: trial.table.as_ref(),
-    };
-    let mut cosines = halves();
-    match emitted.method.contract {
-        Contract::Kept => cosines.extend(halves_beyond()),
-        // Nothing is promised at grazing angles, where most give NaN.
-        Contract::Exempt(_) => cosines.retain(|c| *c > 0.1),
-    }
-    let got = runnable.run(trial, &cosines)?;
-    let (want, emulated) = (half.want(&cosines), half.emulated(&cosines));
-    let mut result = HalfRun {
-        error: HalfError::NONE,
-        emulation: HalfError::NONE,
-        allowed: match trial.bound {
-            Measured::Yes(most) => most + FREEDOM,
-            Measured::No(_) => 2.0 * half.error(&halves_of(&cosines)).max_abs,
-        },
-    };
-    let [least, most] = result_range(&cosines, &want);
-    for (point, (cos_theta, got)) in cosines.iter().zip(&got).enumerate() {
-        for channel in 0..3 {
-            let got = f64::from(got[channel]);
-            if cos_theta.is_nan() {
-                // Any reflectance is right. NaN counts as an infinite error.
-                let nearest = got.clamp(least, most);
-                result.error.include(got, nearest, *cos_theta);
-                continue;
-            }
-            result
-                .error
-                .include(got, want.at(point)[channel], *cos_theta);
-            let rounded = emulated.at(point)[channel].to_f64();
-            result.emulation.include(got, rounded, *cos_theta);
-        }
-    }
-    Ok(PathRun {
-        points: cosines.len(),
-        share: 1.0,
-        result: RunResult::Half(result),
-        model_error: emitted.model_error,
-        device: runnable.device.clone(),
-    })
-}
-
-/// The cosines within [0, 1]. Beyond them the emulation has no error of its own, and for NaN none is defined.
-fn halves_of(cosines: &[f32]) -> Vec<f32> {
-    let inside = |c: &&f32| (0.0..=1.0).contains(*c);
-    cosines.iter().filter(inside).copied().collect()
 }
