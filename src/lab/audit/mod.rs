@@ -1,9 +1,9 @@
 //! Audit: a user's own function compared with the reference reflectance of a material, and with our methods.
 //!
 //! This room decides the conditions of the text (`preprocess`), cuts out the function and what it needs (`slice`), and names its
-//! inputs from outside (`hidden`). Compilers see only that part. A program of ours around the user's function (`program`) runs in
-//! a worker (`runner` asks, `worker` answers), so that a function that hangs or crashes a driver is only a line of the report. Compilers run in workers
-//! too (`compile`).
+//! inputs from outside (`hidden`). Compilers see only that part. A program of ours around the user's function (`program`) runs in a
+//! worker (`runner` asks, `worker` answers), so that a function that hangs or crashes a driver is only a line of the report.
+//! Compilers run in workers too (`compile`). Files import one way.
 
 mod admission;
 mod auditor;
