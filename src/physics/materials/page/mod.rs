@@ -357,10 +357,10 @@ PROPERTIES:
                 "the table `tabulated n` has no rows",
             ),
             ("type: tabulated n\n  data:", 9, "has no rows"),
-            ("type: tabulated n\n  data: |", 9, "has no rows"),
         ] {
             refused(&data(&format!("- {item}\n")), [3, column], says);
         }
+        refused(&table("n", ""), [3, 9], "has no rows");
         refused(&GOOD.replace("1.28", "1\0"), [9, 17], "NUL");
         refused(
             "DATA: []\nDATA: []\n",
