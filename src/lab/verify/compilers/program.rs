@@ -15,9 +15,9 @@ pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
         return Ok(vec![bytes.to_vec()]);
     }
     let text = std::str::from_utf8(bytes)?;
-    // Only WGSL has this word, and nested comments.
-    let nests = frame.ending.contains("fn ");
-    let ending = filled(frame.ending, &[("calls", &calls(text, nests))]);
+    // Only WGSL has this word.
+    let is_wgsl = frame.ending.contains("fn ");
+    let ending = filled(frame.ending, &[("calls", &calls(text, is_wgsl))]);
     let program = |beginning: &&str| format!("{beginning}{text}{ending}").into_bytes();
     Ok(frame.beginnings.iter().map(program).collect())
 }
@@ -37,9 +37,9 @@ pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<CompilerInput> {
     programs.into_iter().enumerate().map(file).collect()
 }
 
-/// The statements of a program that calls every function of a text. `nests`: whether comments nest.
-pub fn calls(text: &str, nests: bool) -> String {
-    let mut calls: Vec<String> = heads(text, nests).iter().map(call).collect();
+/// The statements of a program that calls every function of a text.
+pub fn calls(text: &str, is_wgsl: bool) -> String {
+    let mut calls: Vec<String> = heads(text, is_wgsl).iter().map(call).collect();
     // A file that is included twice has its heads twice.
     let mut seen = BTreeSet::new();
     calls.retain(|call| seen.insert(call.clone()));
@@ -121,7 +121,7 @@ mod tests {
 
     #[track_caller]
     fn check(text: &str, expected: &str) {
-        assert_eq!(calls(text, false), expected, "{text}");
+        assert_eq!(calls(text, text.starts_with("fn ")), expected, "{text}");
     }
 
     #[test]
