@@ -25,7 +25,7 @@ use crate::generator::lut::{
     Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
 };
 use crate::generator::output::lock::{Announce, Lock};
-use crate::generator::output::scope::Scope;
+use crate::generator::output::manifest::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::generator::request::Request;

@@ -12,7 +12,7 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::request::Request;
 use crate::pictures::gallery::gallery;
-use crate::pictures::gallery::page::gallery_page;
+use crate::pictures::gallery::gallery_page;
 
 /// The flags of `gallery`.
 #[derive(Args, Debug)]

@@ -330,8 +330,8 @@ fn only_leaves_are_unsafe_and_say_why() {
         "egl",
         "gles",
         "gles_compiler",
-        "passthrough",
         "quiet",
+        "spirv",
         "vulkan_compiler",
     ]
     .map(|leaf| format!("lab/gpu/{leaf}.rs"));

@@ -1,10 +1,8 @@
 //! Bakes the tables of materials: one picture for each, and one of all.
 
-use super::error::Error;
 use super::picture::{Baking, functions};
-use super::request::{ATLAS, BakeRequest, TableSize};
+use super::request::{ATLAS, BakeRequest, Error, TableMaterial, TableSize};
 use super::row::{BakeRow, Baked, table_rows};
-use super::subject::TableMaterial;
 use crate::generator::lut::{Format, TableAxis, TableKind, smallest};
 
 /// Bakes the tables. `progress` receives how many are done, of how many.

@@ -1,9 +1,7 @@
 //! One picture in all its formats: its tables in every depth, their errors, what the heads of its files say, and the shader
 //! functions that read it, one file per language.
 
-use super::error::Error;
-use super::request::{ATLAS, BakeRequest, with_functions};
-use super::subject::TableMaterial;
+use super::request::{ATLAS, BakeRequest, Error, TableMaterial, with_functions};
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, MARK, comment_lines};
 use crate::generator::fit::ModelError;

@@ -1,12 +1,14 @@
-//! The request for lookup tables, and the command that makes it again.
+//! The request for lookup tables: its materials in their medium, its defaults, the command that makes it again, and the errors of
+//! baking.
 
-use super::subject::{DEFAULT_AXIS, DEFAULT_FORMATS, TableMaterial, material_words, viewing_flags};
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::Naming;
-use crate::generator::lut::{Format, TableAxis};
-use crate::language::methods::TEXELS;
+use crate::generator::emit::{self, Naming};
+use crate::generator::lut::{self, Format, MOST_TERM, TERMS, TableAxis, term_range};
+use crate::generator::reference::{ReferenceCurve, Typed};
+use crate::language::methods::{self, Light, Method, TEXELS};
 use crate::language::targets::Target;
-use crate::physics::materials::ViewingConditions;
+use crate::physics::materials::{Material, Surface, SurfaceError, ViewingConditions};
+use crate::physics::spectra::{Gamut, Space};
 
 /// The name of the picture with all materials.
 pub const ATLAS: &str = "atlas";
@@ -104,4 +106,131 @@ pub fn usual_request(subjects: Vec<TableMaterial>, viewing: &ViewingConditions) 
         targets: Vec::new(),
         prefix: Naming::default().prefix,
     }
+}
+
+/// A material in its medium under viewing conditions.
+#[derive(Clone, Debug)]
+pub struct TableMaterial {
+    /// The material's name, followed by `_in_` and the medium's name if there is one.
+    pub name: String,
+    /// The argument that names it again on the command line.
+    pub argument: String,
+    /// The argument that names the medium again; none for air.
+    pub medium: Option<String>,
+    /// Its reference reflectance.
+    pub reference: ReferenceCurve,
+    /// The working space; none where a channel is one wavelength.
+    pub space: Option<Space>,
+}
+
+impl TableMaterial {
+    /// A material and a medium, each with the argument that names it again.
+    ///
+    /// # Errors
+    /// It is not known at the wavelengths needed.
+    pub fn new(
+        (argument, material): (&str, &Material),
+        medium: Option<&Typed>,
+        viewing: &ViewingConditions,
+    ) -> Result<TableMaterial, SurfaceError> {
+        let surface = Surface::new(material, medium.map(|(_, medium)| medium), viewing)?;
+        let name = &material.name;
+        let is_spectral = surface.channels().is_none();
+        Ok(TableMaterial {
+            name: medium.map_or(name.clone(), |(_, medium)| {
+                format!("{name}_in_{}", medium.name)
+            }),
+            argument: argument.to_owned(),
+            medium: medium.map(|(argument, _)| argument.clone()),
+            space: is_spectral.then_some(viewing.integration.space),
+            reference: ReferenceCurve::new(surface, Light::Unpolarised),
+        })
+    }
+
+    /// The viewing conditions, in words.
+    pub fn seen(&self) -> &str {
+        &self.reference.surface.seen
+    }
+}
+
+/// The default axis: the one with the smallest errors at equal size.
+pub const DEFAULT_AXIS: TableAxis = TableAxis::Rational;
+/// The default formats: one that most programs read, one for engines without float textures, and one that GPUs take.
+pub const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
+
+/// The viewing conditions of tables: colours outside the working space are kept, unless another policy was requested.
+pub fn as_tables_are_seen(viewing: &ViewingConditions, gamut_was_said: bool) -> ViewingConditions {
+    let mut viewing = viewing.clone();
+    // Where a channel is one wavelength, there is no colour space.
+    if !gamut_was_said && viewing.wavelengths_nm.is_none() {
+        viewing.gamut = Gamut::Keep;
+    }
+    viewing
+}
+
+/// The arguments that name the materials on the command line.
+pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
+    subjects.iter().map(|one| one.argument.clone()).collect()
+}
+
+/// The flags of the medium and the viewing conditions, each with a space before it.
+pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
+    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
+    // Tables keep colours outside the space by default; functions clip them.
+    let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
+    CommandLine::new("")
+        .list("medium", medium)
+        .seen_as(viewing)
+        .list("gamut", clips.then_some(Gamut::Clip.name()))
+        .into()
+}
+
+/// An error of baking.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A table cannot be made.
+    #[error(transparent)]
+    Table(#[from] lut::Error),
+    /// A language refuses the function that reads a table.
+    #[error(transparent)]
+    Function(#[from] emit::Error),
+    /// A split-sum table of a method that is not affine in numbers of the material.
+    #[error(
+        "--dfg takes a method that is affine in numbers of a material ({}), and `{method}` is none",
+        split_sum_methods().join(", ")
+    )]
+    NotAffine {
+        /// The method.
+        method: &'static str,
+    },
+    /// An engine's table with a method that the engine does not use.
+    #[error(
+        "--layout {layout} holds the terms of schlick, and not of `{method}`: leave --method out"
+    )]
+    EnginesMethod {
+        /// The layout.
+        layout: &'static str,
+        /// The method.
+        method: &'static str,
+    },
+    /// Terms below 0 or above 1 in an integer format.
+    #[error(
+        "the terms of `{method}` lie beyond 0 to 1, which {format} does not hold: take exr-half, exr-float, ktx2, c, rust or js"
+    )]
+    Integers {
+        /// The method.
+        method: &'static str,
+        /// The format.
+        format: &'static str,
+    },
+}
+
+/// The methods that have a split-sum table.
+pub fn split_sum_methods() -> Vec<&'static str> {
+    let has_table = |method: &&Method| {
+        let basis = method.basis();
+        basis.is_some_and(|basis| basis.terms() <= TERMS && term_range(&basis)[1] <= MOST_TERM)
+    };
+    let all = methods::ALL.iter().copied().filter(has_table);
+    all.map(|method| method.name).collect()
 }

@@ -3,8 +3,7 @@
 
 use serde::Serialize;
 
-use super::request::ATLAS;
-use super::subject::TableMaterial;
+use super::request::{ATLAS, TableMaterial};
 use crate::generator::fit::ModelError;
 use crate::generator::lut::{Format, Picture, TableAxis};
 

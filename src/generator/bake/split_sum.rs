@@ -4,9 +4,8 @@
 //! multiply colours by alpha (`createImageBitmap` of browsers by default, Core Graphics always), or divide by it, since OpenEXR
 //! treats colours as premultiplied. So in these formats it gets a file of its own.
 
-use super::error::Error;
+use super::request::{DEFAULT_FORMATS, Error};
 use super::row::{BakeRow, Baked, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
-use super::subject::DEFAULT_FORMATS;
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
 use crate::generator::lut::{

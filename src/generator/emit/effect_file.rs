@@ -1,10 +1,9 @@
 //! The files of effects: the functions of one effect, for any material, with another method, or for one material.
 
-use super::artifact::Artifact;
+use super::artifact::{Artifact, Detail, FunctionsDetail};
 use super::batch::batch_program;
 use super::code_bound::CodeBound;
 use super::comment;
-use super::detail::{Detail, FunctionsDetail};
 use super::error::Error;
 use super::function::{EffectPart, EmittedFunction, FunctionForm, Naming, check_names};
 use super::header::{MARK, licence_line};

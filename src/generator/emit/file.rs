@@ -1,9 +1,8 @@
 //! Files of functions: which stand together, under which name, with which details for the manifest.
 
-use super::artifact::Artifact;
+use super::artifact::{Artifact, Detail, FunctionsDetail};
 use super::code_bound::FILTERED;
 use super::comment;
-use super::detail::{Detail, FunctionsDetail};
 use super::error::Error;
 use super::function::{EmittedFunction, FunctionForm, Naming, check_names};
 use super::header::{Heading, licence_line};

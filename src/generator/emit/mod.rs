@@ -9,7 +9,6 @@ mod batch;
 mod catalogue;
 mod code_bound;
 mod comment;
-mod detail;
 mod effect_file;
 mod error;
 mod figures;
@@ -21,7 +20,10 @@ mod print;
 mod specialised;
 mod xml;
 
-pub use artifact::Artifact;
+pub use artifact::{
+    AdapterDetail, Artifact, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, TableDetail,
+    ViewingDetail,
+};
 pub use average::Average;
 pub use batch::{batch_entry, batch_program, places};
 pub use catalogue::{
@@ -31,10 +33,6 @@ pub use catalogue::{
 };
 pub use code_bound::{Bounds, CodeBound, PLAIN_ULP, fingerprint};
 pub use comment::lines as comment_lines;
-pub use detail::{
-    AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, TableDetail,
-    ViewingDetail,
-};
 pub use effect_file::{EFFECTS, EffectRequest, effect_file, effect_function_text, effect_text};
 pub use error::Error;
 pub use figures::{half_promise, promises};

@@ -7,8 +7,7 @@
 //! both, so its F only approximates that of Cycles: for dielectrics it is Schlick's. Roughness is .5 by default.
 
 use super::engine_material::{Body, EngineMaterial};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet, capped_tint};
 use crate::physics::spectra::Space;
@@ -79,7 +78,7 @@ fn metal(material: &EngineMaterial) -> Sheet {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let mut text = head::comments("#", &FORMAT, material, notes);
+    let mut text = format::comments("#", &FORMAT, material, notes);
     text += &format!(
         "import bpy\n\nmaterial = bpy.data.materials.new(\"{}\")\nmaterial.use_fake_user = True  # it is saved, though no object has it yet\nif not material.node_tree:\n    material.use_nodes = True\nnodes = material.node_tree.nodes\n",
         material.subject.name

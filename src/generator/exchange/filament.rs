@@ -6,8 +6,7 @@
 //! `reflectance`, F0 is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
 
 use super::engine_material::{Body, EngineMaterial, f0_of};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
 use crate::physics::spectra::Space;
@@ -72,5 +71,5 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     };
     let fields = sheet.nodes.iter().flat_map(|node| &node.fields);
     let lines: String = fields.map(line).collect();
-    head::comments("//", &FORMAT, material, notes) + &lines
+    format::comments("//", &FORMAT, material, notes) + &lines
 }

@@ -12,8 +12,7 @@
 use serde::Serialize;
 
 use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
 use crate::generator::envelope::{TOOL, json_text};
@@ -146,7 +145,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
             extras: Extras {
                 tool: TOOL,
                 command: &notes.command,
-                about: head::about(&FORMAT, material, notes),
+                about: format::about(&FORMAT, material, notes),
             },
         },
         extensions_used: used,

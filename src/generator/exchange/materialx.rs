@@ -8,8 +8,7 @@
 //! Roughness is .05 by default, .3 in OpenPBR.
 
 use super::engine_material::{Body, EngineMaterial, rounded};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::openpbr;
 use super::sheet::{Field, FieldValue, Node, Sheet};
@@ -78,9 +77,9 @@ fn of_conductor(material: &EngineMaterial) -> Option<String> {
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let mut document = XmlDocument::new(MARK);
-    document.comment(&comment_lines(head::about(&FORMAT, material, notes)));
+    document.comment(&comment_lines(format::about(&FORMAT, material, notes)));
     // A comment may not hold two hyphens in a row, but a command does.
-    let doc = head::regenerate(notes);
+    let doc = format::regenerate(notes);
     let mut attributes = vec![("version", "1.39")];
     attributes.extend(material.space.map(|own| ("colorspace", space(own))));
     attributes.push(("doc", &doc));

@@ -7,7 +7,6 @@
 
 mod engine_material;
 mod format;
-mod head;
 mod model;
 mod sheet;
 

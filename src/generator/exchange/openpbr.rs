@@ -8,8 +8,7 @@
 //! number with a scale, which is 0 by default. `specular_roughness` is .3 by default.
 
 use super::engine_material::{Body, EngineMaterial};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet, capped_tint};
 use crate::physics::spectra::Space;
@@ -81,5 +80,5 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    head::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
+    format::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
 }

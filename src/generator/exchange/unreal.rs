@@ -7,8 +7,7 @@
 //! multiplies F90 by the same minimum for the largest channel. Roughness is .5 by default.
 
 use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet};
 use crate::physics::spectra::Space;
@@ -96,5 +95,5 @@ fn lit(f0: [f64; 3]) -> Model {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    head::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
+    format::comments("#", &FORMAT, material, notes) + &sheet::toml(sheet)
 }

@@ -6,8 +6,7 @@
 //! is grey by default. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 by default.
 
 use super::engine_material::{Body, EngineMaterial};
-use super::format::{Format, Notes};
-use super::head;
+use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
 use crate::physics::spectra::Space;
@@ -65,7 +64,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let fields = sheet.nodes.iter().flat_map(|node| &node.fields);
     let lines: String = fields.map(line).collect();
     // The first line must be USD's own.
-    let head = head::comments("#", &FORMAT, material, notes);
+    let head = format::comments("#", &FORMAT, material, notes);
     format!(
         "#usda 1.0\n{head}(\n    defaultPrim = \"{name}\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Material \"{name}\"\n{{\n    \
          token outputs:surface.connect = </{name}/surface.outputs:surface>\n\n    def Shader \"surface\"\n    {{\n        \

@@ -4,9 +4,9 @@
 use serde::Serialize;
 
 use super::axis::TableAxis;
-use super::depth::Depth;
 use super::ktx2::ktx2;
 use super::picture::Picture;
+use super::texel::Depth;
 use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
 use crate::physics::spectra::Space;
 

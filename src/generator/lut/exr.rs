@@ -12,8 +12,8 @@ use exr::prelude::{
     LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
 };
 
-use super::depth::Depth;
 use super::picture::Picture;
+use super::texel::Depth;
 use crate::physics::spectra::Space;
 
 /// ZIP over sixteen lines: lossless, and supported by every reader.

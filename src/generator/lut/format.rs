@@ -1,8 +1,7 @@
 //! The file formats of tables.
 
-use super::depth::Depth;
-use super::limits::Error;
 use super::picture::Picture;
+use super::texel::{Depth, Error};
 use super::{exr, ktx2, png, text};
 
 /// The folder of lookup tables in an output folder. It holds the tables of a run without flags, and any that `bake` put beside

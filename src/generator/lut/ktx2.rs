@@ -6,8 +6,8 @@
 //! format of 16 bits that all can filter, so alpha is 1. The transfer function is linear and the orientation `rd`: the first row
 //! is the top one.
 
-use super::depth::Depth;
 use super::picture::Picture;
+use super::texel::Depth;
 use crate::physics::spectra::Space;
 
 const IDENTIFIER: [u8; 12] = [

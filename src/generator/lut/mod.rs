@@ -13,11 +13,9 @@
 
 mod axis;
 mod catalogue;
-mod depth;
 mod exr;
 mod format;
 mod ktx2;
-mod limits;
 mod lookup;
 mod picture;
 mod png;
@@ -25,14 +23,13 @@ mod search;
 mod split_sum;
 mod split_sum_design;
 mod table;
+mod texel;
 mod text;
 
 pub use axis::TableAxis;
 pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
-pub use depth::Depth;
 pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
-pub use limits::{Error, LEAST_TEXELS, check_side, check_size};
 pub use lookup::lookup;
 pub use picture::{Picture, TermChannels};
 pub use search::{BetweenTexels, TableKind, smallest, table_error};
@@ -42,3 +39,4 @@ pub use split_sum::{
 };
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{Stored, Table};
+pub use texel::{Depth, Error, LEAST_TEXELS, check_side, check_size};

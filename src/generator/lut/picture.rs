@@ -1,9 +1,9 @@
 //! A picture: tables of one size, axis and depth as the rows of a texture, with what its file says about them.
 
 use super::axis::TableAxis;
-use super::depth::Depth;
 use super::split_sum::{StoredSplitSum, TERMS};
 use super::table::Stored;
+use super::texel::Depth;
 use crate::physics::spectra::Space;
 
 /// Which terms of a split-sum table a file holds.

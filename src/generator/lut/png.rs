@@ -7,8 +7,8 @@
 
 use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
 
-use super::depth::Depth;
 use super::picture::Picture;
+use super::texel::Depth;
 use crate::physics::spectra::Space;
 
 /// The file, or the reason why it cannot be made.

@@ -2,9 +2,8 @@
 //! the reference, between texels as well as on them.
 
 use super::axis::TableAxis;
-use super::depth::Depth;
-use super::limits::{Error, LEAST_TEXELS, MOST_TEXELS};
 use super::table::{Stored, Table, centre};
+use super::texel::{Depth, Error, LEAST_TEXELS, MOST_TEXELS};
 use crate::generator::fit::{ModelError, error_of};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Column, Value, Weights};

@@ -44,9 +44,8 @@
 //! the surface twice: Hill, "A Multi-Faceted Exploration (Part 3)", 2018,
 //! <https://blog.selfshadow.com/2018/08/05/multi-faceted-part-3/>.
 
-use super::depth::Depth;
-use super::limits::{Error, check_side};
 use super::split_sum_design::SplitSumDesign;
+use super::texel::{Depth, Error, check_side};
 use crate::language::ir::Weights;
 use crate::language::methods::{Basis, MOST_TERMS};
 use crate::physics::num::in_parallel;

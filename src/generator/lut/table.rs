@@ -4,8 +4,7 @@
 //! unfused. The texels are then mixed by [`filtered`].
 
 use super::axis::TableAxis;
-use super::depth::Depth;
-use super::limits::{Error, check_size};
+use super::texel::{Depth, Error, check_size};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Weights, filtered};
 use crate::physics::num::Num;
@@ -117,8 +116,8 @@ impl Stored {
 
 #[cfg(test)]
 mod tests {
-    use super::super::limits::MOST_TEXELS;
     use super::*;
+    use crate::generator::lut::texel::MOST_TEXELS;
     use crate::language::methods::Light;
     use crate::physics::materials::{Channels, Surface};
 

@@ -8,11 +8,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::contents::{Planned, State};
 use crate::generator::emit::{Artifact, Detail, FunctionDetail};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::output::manifest::{Entry, Manifest, Provenance};
 use crate::generator::output::ownership::could_be_written;
-use crate::generator::output::planned::{Planned, State};
 use crate::physics::foreign::{Foreign, one_line};
 
 /// A line for each change of what the manifest lists, for the user.

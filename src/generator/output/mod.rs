@@ -10,8 +10,6 @@ pub mod folder;
 pub mod lock;
 pub mod manifest;
 pub mod ownership;
-pub mod planned;
-pub mod scope;
 mod stage;
 pub mod tree;
 pub mod write;

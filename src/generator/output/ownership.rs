@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+use super::manifest::Scope;
 use crate::generator::emit::{Artifact, CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
 use crate::generator::error::Error;
 use crate::generator::flavours;
@@ -20,9 +21,7 @@ use crate::generator::lut::{CatalogueTexture, Format, KTX2_MARK, TABLES};
 use crate::generator::output::contents::{is_module, listed_hash, without_carriage_returns};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::Entry;
-use crate::generator::output::scope::Scope;
-use crate::language::targets;
-use crate::language::{effects, methods};
+use crate::language::{effects, methods, targets};
 use crate::physics::num::Precision;
 
 /// The target of `catalogue.json`, which belongs to no language.

@@ -13,19 +13,18 @@ use std::path::{Path, PathBuf};
 use serde_json::Map;
 use similar::TextDiff;
 
+use super::contents::{Planned, State};
+use super::manifest::Scope;
 use crate::generator::emit::Artifact;
 use crate::generator::envelope::{TOOL, json_text};
 use crate::generator::error::Error;
 use crate::generator::output::contents::listed_hash;
-use crate::generator::output::earlier_runs;
-use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Entry, Input, Manifest, Provenance};
 use crate::generator::output::ownership::{
     KeptFile, bears_mark, could_be_written, is_as_written, is_listed, unknown_entries,
     unlisted_files,
 };
-use crate::generator::output::planned::{Planned, State};
-use crate::generator::output::scope::Scope;
+use crate::generator::output::{earlier_runs, folder};
 use crate::physics::digest::sha256;
 use crate::physics::foreign::{Foreign, line_of_file};
 

@@ -12,11 +12,11 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use super::contents::{Planned, State};
 use crate::generator::error::Error;
 use crate::generator::output::folder;
 use crate::generator::output::lock::Lock;
 use crate::generator::output::ownership::{bears_mark, remove, remove_leftover};
-use crate::generator::output::planned::{Planned, State};
 use crate::generator::output::stage::{ExpectedContent, Pending, StagedFiles, stage_fault};
 use crate::generator::output::tree::{Obstacle, TreePlan};
 

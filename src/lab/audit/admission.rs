@@ -1,8 +1,7 @@
 //! The check of a user's text: whatever could read another file, hide a name, or be read in two ways is refused before any
 //! compiler sees it.
 
-use super::definition::definition;
-use super::directives::{self, TextFault};
+use super::directives::{self, TextFault, definition};
 use super::error::Error;
 use super::language::{Language, bare};
 use super::loops::is_in_macro;

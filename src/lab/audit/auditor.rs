@@ -7,8 +7,7 @@ use std::collections::BTreeMap;
 use super::bind::{Bound, BoundArgument, bind};
 use super::choose::choose;
 use super::comparison::{self, ExactFit, recognised};
-use super::compile::Compilers;
-use super::compiler_message;
+use super::compile::{self, Compilers};
 use super::compilers::Accepted;
 use super::cosine::CosineForm;
 use super::cost::{self, AuditCost};
@@ -259,7 +258,7 @@ impl<'a> Auditor<'a> {
         };
         let verdict = match ran {
             Err(RunError::Refused(who, _)) if who.is_empty() => None,
-            Err(RunError::Refused(_, words)) if compiler_message::names_place(words) => {
+            Err(RunError::Refused(_, words)) if compile::names_place(words) => {
                 Some(Err(Fault::Failed(words.clone())))
             }
             // The driver or the machine may be at fault.
@@ -273,7 +272,7 @@ impl<'a> Auditor<'a> {
         let lines = self.audit.text.lines().count();
         for (_, verdict) in verdicts {
             if let Err(Fault::Failed(words)) = verdict {
-                *words = compiler_message::placed(&self.audit.file, lines, words);
+                *words = compile::placed(&self.audit.file, lines, words);
             }
         }
     }

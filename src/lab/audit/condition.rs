@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::definition::{Definition, definition};
+use super::directives::{Definition, definition};
 use crate::lab::verify::shader_words::{Token, tokens};
 
 /// A macro: its arguments and its body.

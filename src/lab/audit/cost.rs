@@ -5,8 +5,7 @@ use core::time::Duration;
 
 use serde::Serialize;
 
-use super::compile::Compilers;
-use super::compiler_message::placed;
+use super::compile::{Compilers, placed};
 use super::language::Language;
 use super::program::AuditProgram;
 use crate::lab::cost::{

@@ -9,7 +9,7 @@
 
 use std::collections::BTreeSet;
 
-use super::definition::definitions;
+use super::directives::definitions;
 use super::language::{Language, bare};
 use super::parts;
 use super::type_names::TypeNames;

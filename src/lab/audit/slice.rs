@@ -1,7 +1,7 @@
 //! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers.
 //! Inputs from outside become variables that our function sets.
 
-use super::definition::{definitions, macro_name};
+use super::directives::{definitions, macro_name};
 use super::hidden::{HiddenInput, UnreadFault};
 use super::inputs::{Initialised, Inputs, Piece};
 use super::language::{Language, bare};

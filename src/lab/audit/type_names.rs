@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::definition::definitions;
+use super::directives::definitions;
 use super::language::{Language, bare};
 use crate::lab::verify::function_head::{TypeShape, type_shape};
 use crate::lab::verify::shader_words::{Token, tokens};

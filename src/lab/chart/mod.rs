@@ -1,9 +1,8 @@
 //! Error against cost as data: every method is a point, as is a user's function if there is one, with the Pareto frontier. Pages
-//! and pictures of it are made in `pictures/frontier/`.
+//! and pictures of it are made in `pictures/frontier.rs`.
 
 mod audited;
 mod data;
-mod left_out;
 mod sets;
 mod view;
 

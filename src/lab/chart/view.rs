@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::left_out::{LeftOutErrors, left_out};
-use super::sets::MaterialSet;
+use super::sets::{LeftOutErrors, MaterialSet, left_out};
 use crate::generator::fit::MethodErrors;
 use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::language::methods::{Contract, Method};

@@ -6,7 +6,6 @@ mod family;
 mod figures;
 pub mod foreign;
 mod function;
-mod function_id;
 mod pareto;
 mod probe;
 mod record;
@@ -17,8 +16,9 @@ pub use chain::MeasuredFunction;
 pub use compilers::{FamilyAnswers, ask_compilers};
 pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts};
-pub use function::{CostedFunction, REFERENCE, functions, functions_of_effect, input_numbers};
-pub use function_id::FunctionId;
+pub use function::{
+    CostedFunction, FunctionId, REFERENCE, functions, functions_of_effect, input_numbers,
+};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX};
 pub use record::{

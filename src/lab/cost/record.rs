@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
-use super::function_id::FunctionId;
+use super::function::FunctionId;
 use super::probe::Probe;
 use crate::generator::emit::FunctionForm;
 use crate::language::ir::Checked;

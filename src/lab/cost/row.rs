@@ -6,8 +6,7 @@ use serde::{Serialize, Serializer};
 use super::compilers::FamilyAnswers;
 use super::family::{Dialect, Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
-use super::function::CostedFunction;
-use super::function_id::FunctionId;
+use super::function::{CostedFunction, FunctionId};
 use super::record::CostRecord;
 
 /// A function on a family.

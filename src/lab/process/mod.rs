@@ -4,12 +4,8 @@
 //! the response may take. `Worker` asks, `Inbox` answers, and `Pool` distributes jobs among workers. Each room has its own types
 //! of requests and responses.
 
-mod error;
-mod pool;
 mod surroundings;
 mod worker;
 
-pub use error::{Error, TEMPORARY};
-pub use pool::{Pool, Task};
-pub use surroundings::{Surroundings, beside};
-pub use worker::{Inbox, Launch, NoAnswer, Worker};
+pub use surroundings::{Error, Surroundings, TEMPORARY, beside};
+pub use worker::{Inbox, Launch, NoAnswer, Pool, Task, Worker};

@@ -1,4 +1,5 @@
-//! What the processes of a run share: a folder for their temporary files, and the user's folder of tools.
+//! What the processes of a run share: a folder for their temporary files, and the user's folder of tools. Also why its processes
+//! cannot be started.
 //!
 //! The run holds a lock in its folder, and removes the folder at its end, also when a signal ends it. A run that is killed leaves
 //! its folder behind. The next run removes every such folder whose lock is free.
@@ -13,8 +14,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use tempfile::TempDir;
-
-use super::error::Error;
+use thiserror::Error;
 
 /// The prefix of a run's folder. Only folders with this prefix and our lock are ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";
@@ -266,11 +266,50 @@ pub fn beside() -> Vec<PathBuf> {
     places.map(|place| place.join("tools")).collect()
 }
 
+/// The variable that says where temporary files go.
+pub const TEMPORARY: &str = if cfg!(windows) { "TMP" } else { "TMPDIR" };
+
+/// Why the processes of a run cannot be started.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// The system cannot start a process.
+    #[error("not checked: this program cannot start a process of its own to run shaders in: {0}")]
+    Start(io::Error),
+    /// Temporary files cannot be written.
+    #[error(
+        "not checked: temporary files cannot be written in {}: {why}; create this folder, make room in it, or set {TEMPORARY} to another",
+        crate::physics::foreign::path(place)
+    )]
+    Temporary {
+        /// The folder for temporary files.
+        place: PathBuf,
+        /// The system's reason.
+        why: String,
+    },
+    /// The user's folder of tools cannot be used.
+    #[error(
+        "--tools {}: {why}; name a folder that holds compilers",
+        crate::physics::foreign::path(folder)
+    )]
+    Tools {
+        /// The folder as it was named.
+        folder: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+}
+
+impl Error {
+    /// Whether the machine lacks something. Otherwise the user's flags are at fault.
+    pub fn is_lacking(&self) -> bool {
+        !matches!(self, Error::Tools { .. })
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use std::time::SystemTime;
-
     use super::*;
+    use std::time::SystemTime;
 
     #[test]
     fn only_folders_that_a_run_left_are_removed() {

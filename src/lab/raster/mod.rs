@@ -11,7 +11,6 @@
 //! The measure is the thesis's for Tables 4 and 5 (section 5.2). Source: Štetić-Kozić, "Poređenje metoda za računanje
 //! koeficijenata Frenelove refleksije u programima za senčenje", diploma thesis, University of Belgrade, 2014.
 
-mod body;
 mod camera;
 mod draw;
 mod ears;
@@ -20,11 +19,10 @@ mod mesh;
 mod obj;
 mod rendered_error;
 
-pub use body::{Body, CUBE, RELIEF, SPHERE};
 pub use camera::{Camera, Lens, Turntable, rotated};
 pub use draw::{Frame, SurfacePoint, draw, surface_points, surface_points_of};
 pub use histogram::{BINS, CosineHistogram, Shown, shown};
-pub use mesh::{Mesh, Vertex};
+pub use mesh::{Body, CUBE, Mesh, RELIEF, SPHERE, Vertex};
 pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
 pub use rendered_error::{
     ChannelErrors, MAGNIFIED, Painted, RelativeErrors, RenderedError, SceneErrorRow, mean_relative,

@@ -3,6 +3,8 @@
 //!
 //! Source: Štetić-Kozić, "Poređenje metoda za računanje koeficijenata Frenelove refleksije u programima za senčenje",
 //! diploma thesis, School of Electrical Engineering, University of Belgrade, 2014.
+//!
+//! Comparisons stand in sections, the parts of the report. A meter shows the progress of what is computed for them.
 
 use std::sync::LazyLock;
 
@@ -288,4 +290,37 @@ pub fn devices(table: &str) -> Vec<&'static str> {
 
 fn at(keys: &[&str]) -> &'static Value {
     keys.iter().fold(&RECORD, |value, key| &value[*key])
+}
+
+/// A part reproduced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThesisSection {
+    /// A title that says how it is measured.
+    pub title: String,
+    /// The comparisons.
+    pub rows: Vec<ComparisonRow>,
+}
+
+/// Counts evaluated angles and reports the progress.
+pub struct Meter<'a> {
+    done: usize,
+    whole: usize,
+    say: &'a mut dyn FnMut(u64, u64, &str),
+}
+
+impl<'a> Meter<'a> {
+    /// A meter of `whole` angles, none of which is done.
+    pub fn new(whole: usize, say: &'a mut dyn FnMut(u64, u64, &str)) -> Meter<'a> {
+        Meter {
+            done: 0,
+            whole,
+            say,
+        }
+    }
+
+    /// Counts so many more angles as done.
+    pub fn add(&mut self, angles: usize, what: &str) {
+        self.done += angles;
+        (self.say)(self.done as u64, self.whole as u64, what);
+    }
 }

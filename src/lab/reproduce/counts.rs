@@ -5,8 +5,9 @@
 
 use serde::Deserialize;
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES};
-use super::section::ThesisSection;
+use super::comparison::{
+    self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES, ThesisSection,
+};
 use crate::lab::cost::{self, GpuCompiler, find};
 use crate::lab::overdraw::{LibraryTime, library_times};
 use crate::language::methods;

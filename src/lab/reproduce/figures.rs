@@ -1,8 +1,7 @@
 //! The reflectance curves of figures 6 and 9 to 16: the exact law and its approximations, with the extrema of curves. Angles are in
 //! degrees, as in the thesis.
 
-use super::comparison::{ComparisonRow, Figure};
-use super::section::ThesisSection;
+use super::comparison::{ComparisonRow, Figure, ThesisSection};
 use super::specialised;
 use crate::generator::fit;
 use crate::generator::reference::{Derivation, THESIS_MATCHING_COS};

@@ -1,7 +1,8 @@
 //! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
 
-use super::comparison::{self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure};
-use super::section::{Meter, ThesisSection};
+use super::comparison::{
+    self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure, Meter, ThesisSection,
+};
 use super::specialised;
 use super::thesis_measure::{thesis_error_in_floats, thesis_errors};
 use super::three_wavelengths::{mean, weighted};

@@ -1,7 +1,6 @@
 //! Table 1: the indices of refraction, compared with those of our material files.
 
-use super::comparison::{self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure};
-use super::section::ThesisSection;
+use super::comparison::{self, CHANNELS, ComparisonRow, ComparisonVerdict, Figure, ThesisSection};
 use super::specialised;
 
 /// The materials in the order of the thesis.

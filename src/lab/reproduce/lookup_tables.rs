@@ -4,11 +4,9 @@
 //! The thesis measured its tables only in rendered pictures of a cube and of a sculpture. The smaller of the two figures stands
 //! beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::rendered;
-use super::section::{Meter, ThesisSection};
-use super::specialised;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure, Meter, ThesisSection};
 use super::thesis_measure::{ThesisMeasure, thesis_table_errors};
+use super::{rendered, specialised};
 use crate::generator::lut::{Depth, LEAST_TEXELS, Stored, Table, TableAxis};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::methods::Light;

@@ -13,17 +13,15 @@ mod function_errors;
 mod indices;
 mod lookup_tables;
 mod rendered;
-mod section;
 mod specialised;
 mod thesis_measure;
 mod three_wavelengths;
 mod times;
 
-use section::Meter;
+use comparison::Meter;
 
-pub use comparison::{ComparisonRow, ComparisonVerdict, Figure};
+pub use comparison::{ComparisonRow, ComparisonVerdict, Figure, ThesisSection};
 pub use figures::{DrawnCurve, POINTS as FIGURE_POINTS, ThesisFigure};
-pub use section::ThesisSection;
 
 /// A part of the thesis that can be reproduced.
 #[derive(Debug)]

@@ -6,8 +6,7 @@
 
 use std::sync::LazyLock;
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure};
-use super::section::Meter;
+use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure, Meter};
 use super::specialised;
 use super::three_wavelengths::{mean, weighted};
 use crate::generator::fit::arguments;

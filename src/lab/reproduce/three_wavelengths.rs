@@ -6,8 +6,7 @@
 //! Source of the weights: ITU-R BT.709-6, 2015, <https://www.itu.int/rec/R-REC-BT.709>, from the chromaticities of sRGB. The
 //! thesis's three wavelengths are not primaries, but its programs show them as if they were.
 
-use super::comparison::{self, ComparisonRow, Figure};
-use super::section::ThesisSection;
+use super::comparison::{self, ComparisonRow, Figure, ThesisSection};
 use super::specialised;
 use crate::generator::fit;
 use crate::physics::materials::{Material, Surface, THESIS_NM, ViewingConditions};

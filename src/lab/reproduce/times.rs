@@ -3,8 +3,9 @@
 //! Each of Table 7's seven columns, divided by the first, must be one of Table 6's. It is identified as the column whose largest
 //! deviation over the five devices is smallest.
 
-use super::comparison::{self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES};
-use super::section::ThesisSection;
+use super::comparison::{
+    self, ComparisonRow, ComparisonVerdict, Figure, RELATIVE_TIMES, ThesisSection,
+};
 
 const ABSOLUTE: &str = "table7_absolute_ms";
 

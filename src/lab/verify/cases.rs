@@ -1,11 +1,10 @@
 //! The trials of a function of a file: with the values of materials, and with the worst inputs that are known.
 
-use super::code_error::ABSOLUTE_FLOOR;
 use super::half::nearest_half;
 use super::points::{limits, worst_cases, worst_cosines};
 use super::requested::{PlannedFile, VerifyPlan};
 use super::row::WORST;
-use super::trial::Trial;
+use super::trial::{ABSOLUTE_FLOOR, Trial};
 use crate::generator::emit::{CodeBound, EmittedFunction, FunctionForm};
 use crate::generator::fit::{self, Measured, values_for_material_in};
 use crate::generator::reference::{MaterialInMedium, ReferenceCurve};

@@ -7,7 +7,6 @@
 //! processes make the same [`VerifyPlan`](requested::VerifyPlan) from the same flags, and a number names one of its files.
 
 mod cases;
-mod code_error;
 pub mod compilers;
 pub mod effect_trial;
 mod error;
@@ -19,7 +18,6 @@ mod judge;
 mod listed;
 pub mod machine;
 pub mod merge;
-mod module_outline;
 pub mod naga_translation;
 pub mod outline;
 mod points;
@@ -35,7 +33,6 @@ mod tampering;
 mod trial;
 
 pub use cases::material_trial;
-pub use code_error::{ABSOLUTE_FLOOR, CodeError};
 pub use error::Error;
 pub use half::{HalfError, HalfTrial, halves, halves_beyond, nearest_half};
 pub use machine::MachineStatement;
@@ -43,4 +40,4 @@ pub use points::{Random, WITHIN, beyond, cosines, cosines_around, limits, share,
 pub use row::{AllowedError, Answer, Status, VerifyRow, as_object};
 pub use supervise::{serve, supervise};
 pub use sweep::exhaustive_rows;
-pub use trial::{Expected, Miss, Outcome, Trial, result_range};
+pub use trial::{ABSOLUTE_FLOOR, CodeError, Expected, Miss, Outcome, Trial, result_range};

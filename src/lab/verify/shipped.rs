@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use super::outline::{declarations, entry_points, loops, names};
 use crate::generator::emit::HeaderForm;
 use crate::generator::error::Error;
 use crate::generator::generate::{GeneratedFile, KeptMethods, kept};
 use crate::generator::output::folder;
 use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::lab::verify::listed::{self, Listed};
-use crate::lab::verify::module_outline::{declarations, entry_points, loops, names};
 use crate::lab::verify::outline::{Item, Outline, outline};
 use crate::lab::verify::tampering;
 use crate::language::targets::{self, Target};

@@ -8,7 +8,6 @@
 use std::sync::Mutex;
 
 use super::cases::specialised;
-use super::code_error::CodeError;
 use super::error::Error;
 use super::harness;
 use super::judge::{PathRun, RanFunction, RunResult};
@@ -17,7 +16,7 @@ use super::points::{WITHIN, cosines};
 use super::requested::{PlannedFile, VerifyPlan};
 use super::run::{Devices, ShippedFunction};
 use super::shard::{PlannedRows, Shard, ShardOutcome};
-use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range};
+use super::trial::{CodeError, Outcome, TEXTBOOK_FROM, Trial, result_range};
 use crate::generator::emit::EmittedFunction;
 use crate::generator::fit::Measured;
 use crate::generator::reference::MaterialInMedium;
@@ -310,8 +309,8 @@ fn run(
 
 #[cfg(test)]
 mod tests {
-    use super::super::code_error::ABSOLUTE_FLOOR;
     use super::*;
+    use crate::lab::verify::trial::ABSOLUTE_FLOOR;
     use crate::language::methods;
 
     fn trial() -> Trial {

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::graph::{Function, Label, Node, NodeId, Param};
-use super::op::{Op, Payload, Signature};
-use super::ty::{Letters, Ty};
+use super::op::{Letters, Op, Payload, Signature, Ty};
 use crate::physics::num::Precision;
 
 /// Collects the nodes of one function.

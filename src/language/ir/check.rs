@@ -15,8 +15,7 @@ use std::collections::BTreeSet;
 use std::ops::Deref;
 
 use super::graph::{Function, Node, NodeId};
-use super::op::{Op, Payload, Signature};
-use super::ty::Ty;
+use super::op::{Op, Payload, Signature, Ty};
 use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 

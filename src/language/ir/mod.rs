@@ -24,16 +24,12 @@ mod evaluate;
 mod fold;
 mod graph;
 mod op;
-mod text;
 mod texture;
-mod ty;
 
 pub use build::{Builder, Expr};
 pub use check::{BrokenRule, Checked, RULES, check, check_in};
 pub use evaluate::{Column, Value, evaluate};
 pub use fold::{USED_TWICE, fold, fold_in, specialise, specialise_in};
-pub use graph::{COSINE, Function, Label, Node, NodeId, Param};
-pub use op::{OPS, Op, Payload, Signature};
-pub use text::print;
+pub use graph::{COSINE, Function, Label, Node, NodeId, Param, print};
+pub use op::{Letters, OPS, Op, Payload, Signature, Ty};
 pub use texture::{CubeTexels, Filter, Texels, Weights, filtered};
-pub use ty::{Letters, Ty};

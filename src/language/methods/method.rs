@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::affine::{Affine, Basis};
-use super::claims::Claims;
-use super::half::InHalf;
+use super::claims::{Claims, InHalf};
 use super::input::{Input, Inputs, Range};
 use super::media::{Class, MediaSet};
 use super::shape::Shape;

@@ -12,27 +12,23 @@ use crate::physics::names::{UnknownName, named};
 mod affine;
 mod claims;
 mod formulas;
-mod half;
 mod input;
 mod limits;
 mod media;
 mod method;
 mod renamed;
 mod shape;
-mod surface;
 
 pub use affine::{Basis, MOST_TERMS};
-pub use claims::{ByClass, ColourClaim, Spread};
+pub use claims::{ByClass, ColourClaim, HALF_AIM, InHalf, Spread};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
-pub use half::{HALF_AIM, InHalf};
-pub use input::{Input, InputSource, Inputs, Range};
+pub use input::{Input, InputSource, Inputs, KnownSurface, Range};
 pub use media::{Class, MediaSet};
 pub use method::{Contract, Forms, Light, Method, Origin, Values};
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
-pub use surface::KnownSurface;
 
 /// The method of this name, or of this old name.
 ///

@@ -9,18 +9,16 @@ use std::str::FromStr;
 
 use crate::physics::names::{UnknownName, named};
 
-mod holes;
 mod spelling;
 mod target;
 
 pub use gles::TARGET as GLES;
 pub use glsl::{DESKTOP, TARGET as GLSL};
 pub use hlsl::{DXC, TARGET as HLSL};
-pub use holes::filled;
 pub use spelling::{Form, Spelling, precedence};
 pub use target::{
     Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, PointHarness, Stack, Target,
-    Validator,
+    Validator, filled,
 };
 pub use wgsl::{STREAM, TARGET as WGSL};
 

@@ -10,9 +10,8 @@
 
 use std::sync::LazyLock;
 
-use super::spectrum::Spectrum;
+use super::spectrum::{FIRST_NM, LAST_NM, Spectrum, Step};
 use super::table::{SpectrumRow, rows};
-use super::wavelength::{FIRST_NM, LAST_NM, Step};
 use crate::physics::user_text::FileFault;
 
 /// A light.

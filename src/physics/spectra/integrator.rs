@@ -27,7 +27,7 @@ use glam::DVec3;
 use super::illuminant::Illuminant;
 use super::observer::Observer;
 use super::space::{Adaptation, Space};
-use super::wavelength::{FIRST_NM, LAST_NM, Step};
+use super::spectrum::{FIRST_NM, LAST_NM, Step};
 
 /// Wavelengths, and the weights of the reflectance at each in red, green and blue.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,13 +15,11 @@ mod observer;
 mod space;
 mod spectrum;
 mod table;
-mod wavelength;
 
 pub use difference::{Lab, ciede2000, colour_error, xyz_to_lab};
 pub use illuminant::Illuminant;
 pub use integrator::{Integration, Integrator, NoWhite, weighted_sum, xyz_weights};
 pub use observer::Observer;
 pub use space::{Adaptation, Gamut, Space, bradford, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
-pub use spectrum::Spectrum;
+pub use spectrum::{FIRST_NM, LAST_NM, OBSERVED_NM, Spectrum, Step};
 pub use table::is_separator;
-pub use wavelength::{FIRST_NM, LAST_NM, OBSERVED_NM, Step};

@@ -1,5 +1,5 @@
-//! The gallery as data: every row of the pictures with its texts in WGSL and GLSL ES, the numbers of materials, and the scenes.
-//! The page runs without this program; it stands in `page.rs`.
+//! The gallery as data: every row of the pictures with its texts in WGSL and GLSL ES, the numbers of materials, and the scenes. The
+//! page is one self-contained HTML file, and runs without this program.
 //!
 //! The page puts each program together from parts: the functions that users import, the calls of the chosen method, the row's
 //! passes. In GLSL ES the passes are naga's translation, and the functions are our own text.
@@ -8,18 +8,19 @@ mod lower;
 mod materials;
 mod orbit;
 mod packed;
-pub mod page;
 mod passes;
 mod row;
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use tera::Context;
 
 use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::chart::{ERRORS, chart_data};
 use crate::physics::spectra::Space;
+use crate::pictures::html;
 use crate::pictures::scene::{
     self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
 };
@@ -142,4 +143,21 @@ impl From<emit::Error> for LoweringFault {
     fn from(fault: emit::Error) -> LoweringFault {
         LoweringFault(fault.to_string())
     }
+}
+
+static TEMPLATE: &str = include_str!("../../../templates/gallery.html.tera");
+static SCRIPT: &str = include_str!("../../../templates/gallery.js");
+static PLAYER: &str = include_str!("../../../templates/gallery.player.js");
+
+/// The page, or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
+pub fn gallery_page(gallery: &Gallery, command: &str) -> Result<String, String> {
+    let mut context = Context::new();
+    context.insert("data", &html::script_json(gallery)?);
+    context.insert("player", PLAYER);
+    context.insert("script", SCRIPT);
+    context.insert("command", command);
+    html::fill(TEMPLATE, &context)
 }

@@ -1,13 +1,24 @@
-//! The HTML page of a plan: for each material the choice and its reason, the angles with errors over them, and pictures.
+//! The HTML page of a plan: for each material the choice and its reason, the angles with errors over them, and its pixels in the
+//! frame where the chosen function is worst.
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use glam::DVec3;
 use serde::Serialize;
 use tera::Context;
 
-use super::page_data::{AngleCurve, MaterialView, ViewPicture};
-use super::report::{PlanReport, cost_exact, named};
-use super::row::PlanRow;
+use super::candidate::Candidate;
+use super::curve::{Curve, PixelPlace, RoughRule};
+use super::frame::ScenePixel;
+use super::metric::Screen;
+use super::planned::{DEGREES, JudgedMaterial, degree_of};
+use super::report::{PlanReport, PlanRow, cost_exact, named};
+use super::request::PlanRequest;
+use crate::lab::raster::MAGNIFIED;
+use crate::physics::spectra::srgb_byte;
 use crate::pictures::html;
 use crate::pictures::plot::{ChartAxis, LineChart, Look, Series, Style, ticks};
+use crate::pictures::png::rgb_png;
 use crate::pictures::table::short_number;
 
 const TEMPLATE: &str = include_str!("../../../templates/plan.html.tera");
@@ -139,5 +150,187 @@ fn chart(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> LineChart {
         series,
         marks: Vec::new(),
         foot: String::new(),
+    }
+}
+
+/// How many candidates are shown beside the chosen one.
+const CHEAPER: usize = 3;
+/// The largest side of a picture, in pixels.
+const SIDE: u32 = 360;
+/// The colour of a picture's empty pixels.
+const EMPTY: [u8; 3] = [40, 42, 46];
+
+/// What is shown of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialView {
+    /// The share of each degree of angle in the material's coverage, over all frames.
+    pub angles: Vec<f64>,
+    /// The errors of the chosen function, and of the most accurate ones that cost less.
+    pub curves: Vec<AngleCurve>,
+    /// Pictures of the worst frame: first the exact law, then for each function its picture and the difference.
+    pub pictures: Vec<ViewPicture>,
+}
+
+/// The largest difference that a function makes in the pixels of each degree of angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleCurve {
+    /// The function.
+    pub name: String,
+    /// The middle of each degree and the difference; NaN where no pixel shows that degree.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A crop of a frame that shows one material and nothing else.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ViewPicture {
+    title: String,
+    /// Pixels across and down.
+    size: [u32; 2],
+    /// The bytes of its PNG in base64.
+    png: String,
+}
+
+/// What is shown of a material, with its pixels in the frame where its chosen function is worst, and the width of the frame.
+///
+/// # Errors
+/// A picture cannot be encoded; the text says why.
+pub fn material_view(
+    request: &PlanRequest,
+    judged: &JudgedMaterial,
+    pixels: &[ScenePixel],
+    width: u32,
+) -> Result<MaterialView, String> {
+    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
+    let (rule, screen) = (RoughRule::new(), request.screen());
+    let shown = |values: &[[f64; 3]]| -> Vec<DVec3> {
+        let curve = Curve::new(values, &places, &rule);
+        let each = pixels.iter().zip(&places);
+        each.map(|(pixel, place)| screen.shown(pixel, curve.at(place), 0.0))
+            .collect()
+    };
+    let whole: f64 = judged.angles.iter().sum();
+    let share = |covered: &f64| covered / whole.max(f64::MIN_POSITIVE);
+    let mut view = MaterialView {
+        angles: judged.angles.iter().map(share).collect(),
+        curves: Vec::new(),
+        pictures: Vec::new(),
+    };
+    let truth = shown(&judged.truth);
+    let mut pictures = vec![("exact law".to_owned(), truth.clone())];
+    for (i, one) in shown_candidates(judged).into_iter().enumerate() {
+        let (name, drawn) = (one.name(), shown(&one.values));
+        view.curves.push(AngleCurve {
+            name: name.clone(),
+            points: largest_differences(&screen, pixels, &drawn, &truth),
+        });
+        // The chosen function, and the first of those that would have cost less.
+        if i < 2 {
+            let apart = drawn.iter().zip(&truth);
+            let apart = apart.map(|(a, b)| MAGNIFIED * (a - b).abs()).collect();
+            let title = format!("{name}: its difference in linear light, {MAGNIFIED} times");
+            pictures.extend([(name, drawn), (title, apart)]);
+        }
+    }
+    if let Some(crop) = Crop::of(pixels, width) {
+        let pictures = pictures.into_iter();
+        let pictures = pictures.map(|(title, colours)| crop.picture(title, pixels, &colours));
+        view.pictures = pictures.collect::<Result<_, _>>()?;
+    }
+    Ok(view)
+}
+
+/// The chosen function, and the most accurate methods that cost less.
+fn shown_candidates(judged: &JudgedMaterial) -> Vec<&Candidate> {
+    let mut shown = vec![judged.chosen()];
+    for one in judged.cheaper() {
+        // Different forms of a method, and methods of one formula, have the same errors.
+        let is_new = |known: &&Candidate| known.error != one.error;
+        if shown.len() <= CHEAPER && shown.iter().all(is_new) {
+            shown.push(one);
+        }
+    }
+    shown
+}
+
+/// The middle of each degree of angle, and the largest difference of the pixels there.
+fn largest_differences(
+    screen: &Screen,
+    pixels: &[ScenePixel],
+    drawn: &[DVec3],
+    truth: &[DVec3],
+) -> Vec<(f64, f64)> {
+    let mut largest = [f64::NAN; DEGREES];
+    for ((pixel, got), truth) in pixels.iter().zip(drawn).zip(truth) {
+        let [got, truth] = [got, truth].map(|shown| screen.place(*shown));
+        let most = &mut largest[degree_of(pixel)];
+        *most = most.max(screen.difference(got, truth));
+    }
+    let points = largest.into_iter().enumerate();
+    points
+        .map(|(degree, most)| (degree as f64 + 0.5, most))
+        .collect()
+}
+
+/// The part of a frame that a material covers, thinned out to a picture's size.
+struct Crop {
+    /// The width of the frame.
+    width: u32,
+    from: [u32; 2],
+    every: u32,
+    size: [u32; 2],
+}
+
+impl Crop {
+    /// `None` where the frame does not show the material.
+    fn of(pixels: &[ScenePixel], width: u32) -> Option<Crop> {
+        let (mut least, mut most) = ([u32::MAX; 2], [0; 2]);
+        for pixel in pixels {
+            let at = [pixel.place % width, pixel.place / width];
+            for axis in 0..2 {
+                least[axis] = least[axis].min(at[axis]);
+                most[axis] = most[axis].max(at[axis]);
+            }
+        }
+        if pixels.is_empty() {
+            return None;
+        }
+        let sides = [0, 1].map(|axis| most[axis] - least[axis] + 1);
+        let every = sides[0].max(sides[1]).div_ceil(SIDE);
+        Some(Crop {
+            width,
+            from: least,
+            every,
+            size: sides.map(|side| side.div_ceil(every)),
+        })
+    }
+
+    /// The index of a pixel in the picture, if the pixel is kept.
+    fn place(&self, pixel: &ScenePixel) -> Option<usize> {
+        let at = [pixel.place % self.width, pixel.place / self.width];
+        let at = [0, 1].map(|axis| at[axis] - self.from[axis]);
+        let is_kept = at.iter().all(|side| side % self.every == 0);
+        let [x, y] = at.map(|side| side / self.every);
+        is_kept.then_some((y * self.size[0] + x) as usize)
+    }
+
+    /// The picture of pixels with these linear colours.
+    fn picture(
+        &self,
+        title: String,
+        pixels: &[ScenePixel],
+        colours: &[DVec3],
+    ) -> Result<ViewPicture, String> {
+        let mut texels = vec![EMPTY; (self.size[0] * self.size[1]) as usize];
+        for (pixel, colour) in pixels.iter().zip(colours) {
+            if let Some(at) = self.place(pixel) {
+                texels[at] = colour.to_array().map(srgb_byte);
+            }
+        }
+        let png = rgb_png(texels.as_flattened(), self.size, String::new())?;
+        Ok(ViewPicture {
+            title,
+            size: self.size,
+            png: BASE64_STANDARD.encode(png),
+        })
     }
 }

@@ -1,15 +1,23 @@
-//! The report of a plan: text for people, and JSON that `--plan` reads back.
+//! The report of a plan: text for people, and JSON that `--plan` reads back. A row has the function that a material gets, and why
+//! nothing cheaper will do.
 
-use serde::Serialize;
+use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
+use super::candidate::SHARED;
+use super::choice::{Choosable, total_cost};
 use super::gltf::Unplanned;
-use super::planned::JudgedMaterial;
+use super::planned::{JudgedMaterial, Judgement};
 use super::proof::Proof;
 use super::request::PlanRequest;
-use super::row::{PlanRow, PlanTotal};
+use crate::generator::emit::FunctionForm;
 use crate::generator::envelope::Origin;
+use crate::generator::fit::values_for_material_in;
+use crate::lab::cost::CostBasis;
 use crate::lab::verify::Status;
 use crate::physics::foreign::{self, Foreign, one_line};
+use crate::physics::num::Precision;
 use crate::pictures::table::{short_number, text_table};
 
 /// A plan as JSON.
@@ -223,4 +231,255 @@ fn cells(row: &PlanRow) -> Vec<String> {
         format!("{:.0}", row.pixels),
         judged.to_owned(),
     ]
+}
+
+/// The function that a material gets.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlanRow {
+    /// The material, as a user names it.
+    pub material: String,
+    /// The scene's names for it.
+    pub names: Vec<String>,
+    /// The method's name.
+    pub method: &'static str,
+    /// The form of its function.
+    pub form: FunctionForm,
+    /// How many channels it returns.
+    pub channels: usize,
+    /// The precision that it computes in.
+    pub precision: Precision,
+    /// The arguments of a library function after `cos_theta`: three channels each, or green alone for a scalar function. Empty
+    /// where the material's constants are folded in.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub values: BTreeMap<String, Vec<f64>>,
+    /// Its error in the frame where it is worst.
+    pub error: f64,
+    /// The largest error that is allowed.
+    pub budget: f64,
+    /// Whether the error is within the budget.
+    pub is_within: bool,
+    /// The cost of one evaluation.
+    pub cost: f64,
+    /// How the cost is known: `function` (it was compiled), `shape` (the same text with other constants was), `nothing` (it computes
+    /// nothing), `operations` (they were counted).
+    pub cost_by: CostBasis,
+    /// The cost of the exact law.
+    pub cost_exact: Option<f64>,
+    /// Pixels that show the material, averaged over all frames.
+    pub pixels: f64,
+    /// How many frames show it.
+    pub frames: usize,
+    /// The frame where the error is largest, from 0.
+    pub worst_frame: usize,
+    /// `percentile`, `largest`, or `every_angle` where too few pixels show it.
+    pub judged_by: &'static str,
+    /// The reason for the choice, in a sentence.
+    pub why: String,
+    /// The functions that cost less, with the errors by which they fail, the most accurate first.
+    pub cheaper: Vec<CheaperFunction>,
+}
+
+/// A function that costs less than the chosen one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CheaperFunction {
+    /// The method's name.
+    pub method: &'static str,
+    /// The form of its function.
+    pub form: FunctionForm,
+    /// How many channels it returns.
+    pub channels: usize,
+    /// The cost of one evaluation.
+    pub cost: f64,
+    /// Its error in the frame where it is worst.
+    pub error: f64,
+}
+
+/// The cost of all functions of a plan together, in units × pixels of a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlanTotal {
+    /// The cost of the plan.
+    pub cost: f64,
+    /// The cost if every material took its exact law.
+    pub cost_exact: Option<f64>,
+    /// The cost if all materials took one library function.
+    pub shared: Option<SharedFunction>,
+    /// The price of each further function, in units × pixels.
+    pub price: f64,
+}
+
+/// One library function for all materials.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SharedFunction {
+    /// The method's name.
+    pub method: &'static str,
+    /// Its total cost.
+    pub cost: f64,
+    /// Its largest error over all materials.
+    pub error: f64,
+}
+
+/// A plan file, read back: the functions that it consists of.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct PlanFile {
+    /// The program that made it.
+    pub tool: String,
+    /// The version of the file's schema.
+    pub schema: u32,
+    /// `plan` and its flags.
+    pub command: String,
+    /// The colour space of the functions.
+    pub space: String,
+    /// The functions.
+    pub rows: Vec<PlanFileRow>,
+}
+
+/// A function of a plan file.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct PlanFileRow {
+    /// The material, as a user names it.
+    pub material: String,
+    /// The method's name.
+    pub method: String,
+    /// The form of its function.
+    pub form: FunctionForm,
+    /// The precision that it computes in.
+    pub precision: Precision,
+}
+
+impl Judgement {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Judgement::Percentile => "percentile",
+            Judgement::Largest => "largest",
+            Judgement::EveryAngle => "every_angle",
+        }
+    }
+}
+
+impl JudgedMaterial {
+    /// The row of the report, given the number of frames in all.
+    pub fn row(&self, request: &PlanRequest, frames: usize) -> PlanRow {
+        let chosen = self.chosen();
+        let cheaper = self.cheaper().into_iter().map(|one| CheaperFunction {
+            method: one.method.name,
+            form: one.form,
+            channels: one.channels(),
+            cost: one.cost,
+            error: one.error,
+        });
+        PlanRow {
+            material: self.material.argument.clone(),
+            names: self.material.names.clone(),
+            method: chosen.method.name,
+            form: chosen.form,
+            channels: chosen.channels(),
+            precision: request.precision,
+            values: self.values(request.precision),
+            error: chosen.error,
+            budget: request.budget,
+            is_within: chosen.error <= request.budget,
+            cost: chosen.cost,
+            cost_by: chosen.basis,
+            cost_exact: self.cost_exact,
+            pixels: self.pixels as f64 / frames.max(1) as f64,
+            frames: self.frames,
+            worst_frame: chosen.worst_frame,
+            judged_by: self.judgement.name(),
+            why: self.why(request),
+            cheaper: cheaper.collect(),
+        }
+    }
+
+    /// The arguments of its library function.
+    fn values(&self, precision: Precision) -> BTreeMap<String, Vec<f64>> {
+        let candidate = self.chosen();
+        if candidate.is_specialised() {
+            return BTreeMap::new();
+        }
+        let values = values_for_material_in(precision, &self.material.subject, candidate.method);
+        let numbers = |value: [f64; 3]| match candidate.channels() {
+            1 => vec![value[1]],
+            _ => value.to_vec(),
+        };
+        values
+            .into_iter()
+            .map(|(name, value)| (name, numbers(value)))
+            .collect()
+    }
+
+    /// The reason for the chosen function, in a sentence.
+    fn why(&self, request: &PlanRequest) -> String {
+        let chosen = self.chosen();
+        let (budget, unit) = (request.budget, request.metric.unit());
+        let count = self.candidates.len();
+        let angles = match (self.judgement, self.pixels) {
+            (Judgement::EveryAngle, 0) => {
+                " at every angle under white light, since no frame shows the material"
+            }
+            (Judgement::EveryAngle, _) => " at every angle, since too few pixels show the material",
+            _ => "",
+        };
+        let name = chosen.name();
+        if chosen.error > budget {
+            return format!(
+                "nothing is within {budget} {unit}{angles}: of {count} functions {name} errs least"
+            );
+        }
+        let Some(next) = self.cheaper().first().copied() else {
+            return format!("{name} is within {budget} {unit}{angles}, and nothing costs less");
+        };
+        let next_name = next.name();
+        if next.error > budget {
+            format!(
+                "{name} is the cheapest of {count} functions within {budget} {unit}{angles}: of those that cost less {next_name} errs \
+                 least, {:.4}",
+                next.error
+            )
+        } else {
+            format!(
+                "{name} is within {budget} {unit}{angles}, and other materials take it too: {next_name} costs less, and would be \
+                 another function"
+            )
+        }
+    }
+}
+
+impl PlanTotal {
+    /// The total of all materials over this many frames.
+    pub fn of(judged: &[JudgedMaterial], price: f64, frames: usize) -> PlanTotal {
+        let pixels = |material: &JudgedMaterial| material.pixels as f64 / frames.max(1) as f64;
+        let exact =
+            |material: &JudgedMaterial| Some(material.cost_exact? * pixels(material) + price);
+        let chosen = judged.iter();
+        let chosen = chosen.map(|material| material.chosen().choosable(pixels(material)));
+        let chosen: Vec<Choosable> = chosen.collect();
+        PlanTotal {
+            cost: total_cost(chosen.iter(), price),
+            cost_exact: judged.iter().map(exact).sum(),
+            shared: SharedFunction::of(judged, price, &pixels),
+            price,
+        }
+    }
+}
+
+impl SharedFunction {
+    fn of(
+        judged: &[JudgedMaterial],
+        price: f64,
+        pixels: &dyn Fn(&JudgedMaterial) -> f64,
+    ) -> Option<SharedFunction> {
+        let mut shared = SharedFunction {
+            method: SHARED,
+            cost: price,
+            error: 0.0,
+        };
+        for material in judged {
+            let mut all = material.candidates.iter();
+            let one = all.find(|one| one.is_shared())?;
+            shared.cost += one.cost * pixels(material);
+            shared.error = shared.error.max(one.error);
+        }
+        Some(shared)
+    }
 }

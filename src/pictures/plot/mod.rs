@@ -9,12 +9,11 @@ mod layout;
 mod line_chart;
 mod palette;
 mod text;
-mod ticks;
 
-pub use axes::{Area, Axes, Scale, Tick, labelled};
+pub use axes::{Area, Axes, Scale, Tick, labelled, log_ticks, plain_label, power_label, ticks};
 pub use layout::{Layout, PanelFrame};
 pub use line_chart::{ChartAxis, LineChart, Series};
-pub use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade, shade_bytes};
-pub use palette::{Look, Style};
+pub use palette::{
+    BLUE, GREEN, INK, Look, SHADES, Style, VERMILION, hex_colour, shade, shade_bytes,
+};
 pub use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
-pub use ticks::{log_ticks, plain_label, power_label, ticks};

@@ -7,8 +7,7 @@ use tempfile::TempDir;
 
 use super::{artifact, big_tree, names, provenance, put, run, snapshot, whole, write};
 use fresnel_gen::generator::error::Error;
-use fresnel_gen::generator::output::manifest::FILE;
-use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::manifest::{FILE, Scope};
 use fresnel_gen::generator::output::tree::plan;
 
 #[test]

@@ -11,12 +11,10 @@ use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
-use fresnel_gen::generator::emit::Artifact;
-use fresnel_gen::generator::emit::{Detail, FunctionsDetail, ViewingDetail};
+use fresnel_gen::generator::emit::{Artifact, Detail, FunctionsDetail, ViewingDetail};
 use fresnel_gen::generator::error::Error;
 use fresnel_gen::generator::output::lock::Lock;
-use fresnel_gen::generator::output::manifest::{Input, Provenance};
-use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::manifest::{Input, Provenance, Scope};
 use fresnel_gen::generator::output::tree::{TreePlan, plan};
 use fresnel_gen::generator::output::write::{self, Written};
 

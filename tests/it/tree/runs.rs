@@ -8,10 +8,9 @@ use tempfile::TempDir;
 
 use super::{artifact, provenance, put, run, silver, snapshot, whole, write};
 use fresnel_gen::generator::error::Error;
+use fresnel_gen::generator::output::contents::State;
 use fresnel_gen::generator::output::lock::Lock;
-use fresnel_gen::generator::output::manifest::FILE;
-use fresnel_gen::generator::output::planned::State;
-use fresnel_gen::generator::output::scope::Scope;
+use fresnel_gen::generator::output::manifest::{FILE, Scope};
 use fresnel_gen::generator::output::tree::{TreePlan, plan, report};
 use fresnel_gen::generator::output::write as writer;
 use fresnel_gen::physics::digest::sha256;

@@ -10,9 +10,8 @@
 use serde::Serialize;
 
 use super::row::{CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
-use crate::generator::emit::artifact::Artifact;
+use crate::generator::emit::artifact::{Artifact, CatalogueDetail, Detail};
 use crate::generator::emit::comment;
-use crate::generator::emit::detail::{CatalogueDetail, Detail};
 use crate::generator::emit::error::Error;
 use crate::generator::emit::figures::at_most;
 use crate::generator::emit::function::Naming;

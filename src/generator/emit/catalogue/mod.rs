@@ -2,10 +2,10 @@
 
 mod array;
 mod json;
-mod record;
 mod row;
 
 pub use array::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_array, catalogue_buffer};
 pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
-pub use record::recorded_catalogue;
-pub use row::{CATALOGUE, COEFFICIENTS, CatalogueRow, catalogue_rows, first_dielectric};
+pub use row::{
+    CATALOGUE, COEFFICIENTS, CatalogueRow, catalogue_rows, first_dielectric, recorded_catalogue,
+};

@@ -4,8 +4,7 @@ use super::copy;
 use crate::language::ir::build::{Builder, Expr};
 use crate::language::ir::evaluate::Value;
 use crate::language::ir::graph::{Function, Node, NodeId};
-use crate::language::ir::op::{Op, Payload, Signature};
-use crate::language::ir::ty::Ty;
+use crate::language::ir::op::{Op, Payload, Signature, Ty};
 use crate::physics::num::each_channel;
 
 /// The identities that constants make trivial.

@@ -21,7 +21,7 @@ use super::check::wants_name;
 use super::evaluate::{Value, apply};
 use super::graph::{Function, Label, Node, NodeId};
 use super::op::{Op, Payload};
-use super::ty::Ty;
+use crate::language::ir::op::Ty;
 use crate::physics::num::Precision;
 use identity::{identity, merged, spread, value_of};
 use range::{decided, ranges};

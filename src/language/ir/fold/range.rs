@@ -3,8 +3,7 @@
 use crate::language::ir::build::Expr;
 use crate::language::ir::evaluate::{Column, Value, evaluate_nodes};
 use crate::language::ir::graph::{Function, Node};
-use crate::language::ir::op::Op;
-use crate::language::ir::ty::Ty;
+use crate::language::ir::op::{Op, Ty};
 use crate::physics::num::{Interval, Precision, each_channel};
 
 /// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either.

@@ -3,7 +3,6 @@
 
 use super::affine::Affine;
 use super::claims::{ByClass, Claim, Claims, ColourClaim};
-use super::half::InHalf;
 use super::input::{
     Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, Range, SHARES, SHARES_AND_BEYOND,
 };
@@ -14,8 +13,9 @@ use super::method::{
     CoefficientsFromInputs, Contract, FittedAverage, Forms, Light, Method, Origin, Values,
 };
 use super::shape::{Factor, Shape};
-use super::surface::{BELCOUR_COSINES, COS_60, KnownSurface, mean};
 use crate::language::ir::Expr;
+use crate::language::methods::claims::InHalf;
+use crate::language::methods::input::{BELCOUR_COSINES, COS_60, KnownSurface, mean};
 use crate::physics::cite::Citation;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics;

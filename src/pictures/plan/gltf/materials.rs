@@ -15,13 +15,13 @@ use gltf_json::validation::Checked;
 use gltf_json::{Index, Material as GltfMaterial, Root};
 use serde::Serialize;
 
-use super::super::drawn::SurfaceLook;
 use super::super::frame::MappedMaterial;
 use super::super::sky::SceneLight;
 use super::container::GltfFault;
 use crate::physics::foreign::{Foreign, one_line};
 use crate::physics::materials::{self, Material, MaterialKind};
 use crate::physics::names::UnknownName;
+use crate::pictures::plan::frame::SurfaceLook;
 
 /// The index of glTF's dielectrics.
 const USUAL_INDEX: f32 = 1.5;

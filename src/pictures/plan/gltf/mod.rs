@@ -1,6 +1,6 @@
 //! Scenes in glTF 2.0, as `.gltf` with its buffers or as one `.glb`.
 //!
-//! The crate `gltf-json` reads the JSON and checks that every index exists. The contents of buffers are read here ([`accessor`]),
+//! The crate `gltf-json` reads the JSON and checks that every index exists. The contents of buffers are read here ([`container`]),
 //! after lengths, strides and counts are checked, so that a file cannot announce more than it has.
 //!
 //! The catalogue material that stands for a glTF material is the one named in its `extras` (`{"fresnel_gen": "gold"}`). Without
@@ -12,7 +12,6 @@
 //! Source: Khronos, *glTF 2.0 Specification*, 2021, <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, sections 3.6 for
 //! buffers, 3.7 for meshes, 3.9 and appendix B for materials, 3.10 for cameras.
 
-mod accessor;
 mod container;
 mod materials;
 mod nodes;
@@ -22,14 +21,13 @@ use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 use gltf_json::{Accessor, Index, Root};
 
-use super::drawn::{DrawnScene, ReadFile};
 use super::frame::{FramePixels, MappedMaterial};
 use super::sky::SceneLight;
 use crate::lab::raster::Camera;
 use crate::physics::foreign::Foreign;
 use crate::physics::user_text::without_mark;
-use accessor::Buffers;
-use container::Container;
+use crate::pictures::plan::frame::{DrawnScene, ReadFile};
+use container::{Buffers, Container};
 use materials::Looks;
 use nodes::cameras;
 

@@ -6,10 +6,10 @@
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json::{Node, Root, camera};
 
-use super::super::drawn::MOST_FRAMES;
 use super::container::GltfFault;
 use crate::lab::raster::{Camera, Lens, Mesh, rotated};
 use crate::physics::foreign::Foreign;
+use crate::pictures::plan::frame::MOST_FRAMES;
 
 /// A node in its place in the world.
 pub struct PlacedNode<'a> {

@@ -6,12 +6,11 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-use super::super::drawn::{DrawnScene, Tints};
-use super::accessor::{Buffers, MOST_ELEMENTS};
-use super::container::GltfFault;
+use super::container::{Buffers, GltfFault, MOST_ELEMENTS};
 use super::materials::Looks;
 use super::nodes::PlacedNode;
 use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex};
+use crate::pictures::plan::frame::{DrawnScene, Tints};
 
 /// The largest coordinate along each axis, in metres.
 const FARTHEST: f64 = 1e6;

@@ -3,12 +3,12 @@
 use glam::DVec3;
 use toml::Spanned;
 
-use super::super::drawn::{DrawnScene, ReadFile};
 use super::super::sky::SceneLight;
 use super::check::FARTHEST;
 use super::{Light, Object, SceneFile, Shape};
 use crate::lab::raster::{MOST_TRIANGLES, Mesh, Vertex, mesh_of_obj};
 use crate::physics::user_text::{FileFault, mesh_text};
+use crate::pictures::plan::frame::{DrawnScene, ReadFile};
 use crate::pictures::scene::Environment;
 
 /// How far a plane reaches beyond everything else, so that it ends within 1e-7 of the horizon.

@@ -1,19 +1,23 @@
-//! Checks that the values of a scene file lie within their limits.
+//! The scene file as TOML states it, with the place of every value that can be wrong, and the check that its values lie within their
+//! limits.
 
 use std::collections::HashMap;
+use std::fmt;
+use std::marker::PhantomData;
 
 use glam::DVec3;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use toml::Spanned;
 
-use super::super::drawn::{MOST_FRAMES, SurfaceLook};
 use super::super::frame::MappedMaterial;
-use super::raw::{RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
 use super::{Light, Object, SceneFile, Shape};
 use crate::lab::raster::{Body, Camera, Lens, rotated};
 use crate::physics::materials;
 use crate::physics::names::UnknownName;
 use crate::physics::spectra::Space;
 use crate::physics::user_text::{FileFault, FileText};
+use crate::pictures::plan::frame::{MOST_FRAMES, SurfaceLook};
 use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
 
 /// The largest coordinate along each axis, and the largest size, in metres.
@@ -330,5 +334,101 @@ fn turned(camera: &Camera, at: DVec3, axis: DVec3, degrees: f64) -> Camera {
         eye: at + turn(camera.eye - at),
         axes: camera.axes.map(turn),
         ..*camera
+    }
+}
+
+/// Three numbers, each with its place.
+type RawVector = [Spanned<f64>; 3];
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawScene {
+    exposure: Option<Spanned<f64>>,
+    tone: Option<Spanned<String>>,
+    size: Option<[Spanned<i64>; 2]>,
+    camera: OneOrMany<RawCamera>,
+    light: Spanned<RawLight>,
+    object: OneOrMany<RawObject>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCamera {
+    orthographic: Option<Spanned<f64>>,
+    vertical_degrees: Option<Spanned<f64>>,
+    eye: RawVector,
+    at: Option<RawVector>,
+    turntable: Option<Spanned<RawTurntable>>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawTurntable {
+    frames: Spanned<i64>,
+    axis: Option<RawVector>,
+    step_degrees: Option<Spanned<f64>>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawLight {
+    uniform: Option<RawVector>,
+    environment: Option<Spanned<String>>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawObject {
+    name: Option<Spanned<String>>,
+    body: Option<Spanned<String>>,
+    mesh: Option<Spanned<String>>,
+    material: Spanned<String>,
+    roughness: Option<Spanned<f64>>,
+    other: Option<RawVector>,
+    extent: Option<Spanned<f64>>,
+    at: Option<RawVector>,
+    coverage: Option<Spanned<f64>>,
+}
+
+/// `[camera]` or several `[[camera]]`, each with its place. An untagged enum would lose the places and the messages.
+struct OneOrMany<T>(Vec<Spanned<T>>);
+
+enum TableOrArray<T> {
+    One(T),
+    Many(Vec<Spanned<T>>),
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<OneOrMany<T>, D::Error> {
+        let whole = Spanned::<TableOrArray<T>>::deserialize(deserializer)?;
+        let span = whole.span();
+        Ok(OneOrMany(match whole.into_inner() {
+            TableOrArray::One(one) => vec![Spanned::new(span, one)],
+            TableOrArray::Many(all) => all,
+        }))
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for TableOrArray<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<TableOrArray<T>, D::Error> {
+        deserializer.deserialize_any(Either(PhantomData))
+    }
+}
+
+struct Either<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Either<T> {
+    type Value = TableOrArray<T>;
+
+    fn expecting(&self, words: &mut fmt::Formatter) -> fmt::Result {
+        words.write_str("a table or an array of tables")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableOrArray<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(TableOrArray::One)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<TableOrArray<T>, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(TableOrArray::Many)
     }
 }

@@ -29,16 +29,15 @@
 
 mod assets;
 mod check;
-mod raw;
 
 use glam::DVec3;
 use toml::Spanned;
 
-use super::drawn::{DrawnScene, SurfaceLook};
 use super::frame::{FramePixels, MappedMaterial};
 use crate::lab::raster::{Body, Camera};
 use crate::physics::spectra::Space;
 use crate::physics::user_text::FileFault;
+use crate::pictures::plan::frame::{DrawnScene, SurfaceLook};
 use crate::pictures::scene::Display;
 
 /// A scene that this program draws itself.

@@ -1,8 +1,101 @@
-//! The design of the window: a rose of twelve parts with medallions, and a mosaic between them.
+//! A window of stained glass in a dark wall, seen from inside the room: panes between leads. A unit is a metre.
+//!
+//! Panes are flat outside and bumpy inside. The normal map holds the bumps, the rounded leads, and the tilt of each pane in its
+//! leads.
+//!
+//! The design is a rose of twelve parts with medallions, and a mosaic between them.
+//!
+//! The true light is in f64: slabs of glass with two surfaces, and light that is reflected between them.
+//!
+//! The thickness matters: a ray leaves beside the point where it entered, under another bump or behind a lead, and its tint grows
+//! with its path.
+
+use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::mesh::{Vertex, quad};
+use super::texels::Texels;
+use crate::physics::optics;
+use crate::pictures::scene::light::{Around, Traced, mirrored, refracted};
+use crate::pictures::scene::material::OpticalMaterial;
 use crate::pictures::scene::texels::{scattered, smooth_noise};
+
+/// Texels along a side of the tables.
+const SIDE: usize = 1600;
+/// Half the width that the tables cover. The wall is black beyond.
+const HALF: f64 = 1.9;
+/// The middle of the rose.
+const CENTRE: DVec2 = DVec2::new(0.0, 0.17);
+/// Half the width of the wall.
+const WALL: f64 = 4.0;
+
+/// The window with its tables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Window {
+    /// The transmittance of glass along its normal, with 1 in alpha; the reflectance of lead and stone, with 0.
+    pub paint: Texels,
+    /// The normal map: along the wall to the right, down, and into the room.
+    pub normals: Texels,
+}
+
+/// The window of the pictures.
+pub static WINDOW: LazyLock<Window> = LazyLock::new(|| {
+    let place = |column: usize, row: usize| {
+        let share = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) / SIDE as f64;
+        DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) * HALF - CENTRE
+    };
+    let normal = |column, row| {
+        let slope = slope(place(column, row));
+        let normal = DVec3::new(-slope.x, slope.y, 1.0).normalize();
+        normal.extend(1.0)
+    };
+    Window {
+        paint: Texels::baked([SIDE; 2], |column, row| paint(place(column, row))),
+        normals: Texels::baked([SIDE; 2], normal),
+    }
+});
+
+/// The picture shows a ball of this radius around the origin.
+pub const RADIUS: f64 = 1.02;
+
+/// The triangles of the wall.
+pub fn triangles() -> Vec<[Vertex; 3]> {
+    let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+    let corners = corners.map(|(x, y)| WALL * DVec2::new(x, y));
+    let places = corners.map(|at| at.x * right() + at.y * DVec3::Y);
+    // v grows downward, and cross(normal, tangent) points upward.
+    let tangent = right().extend(-1.0);
+    quad(places, corners.map(uv), -outward(), tangent).to_vec()
+}
+
+/// The direction out of the room: level, toward the sun.
+fn outward() -> DVec3 {
+    DVec3::new(-0.45, 0.0, 0.4).normalize()
+}
+
+/// The direction to the right, as seen from inside the room.
+fn right() -> DVec3 {
+    outward().cross(DVec3::Y)
+}
+
+/// Texture coordinates of a place of the wall, which is given to the right of its middle and up.
+fn uv(place: DVec2) -> DVec2 {
+    DVec2::new(0.5 + 0.5 * place.x / HALF, 0.5 - 0.5 * place.y / HALF)
+}
+
+impl Window {
+    /// Its colour at a place.
+    fn paint_at(&self, place: DVec2) -> DVec4 {
+        self.paint.at(uv(place))
+    }
+
+    /// Its normal at a place, in the world.
+    fn normal_at(&self, place: DVec2) -> DVec3 {
+        let mapped = self.normals.at(uv(place));
+        (mapped.x * right() - mapped.y * DVec3::Y - mapped.z * outward()).normalize()
+    }
+}
 
 const PARTS: f64 = 12.0;
 /// The radius of the rose, and of the middle medallion.
@@ -54,7 +147,7 @@ struct Piece {
 }
 
 /// The colour at a place. Alpha is 1 for glass, 0 for lead and stone.
-pub fn paint(place: DVec2) -> DVec4 {
+fn paint(place: DVec2) -> DVec4 {
     let radius = place.length();
     if radius > ROSE {
         return stone(place).extend(0.0);
@@ -75,7 +168,7 @@ pub fn paint(place: DVec2) -> DVec4 {
 }
 
 /// The slope at a place, to the right and up: rounded leads, bumps of glass.
-pub fn slope(place: DVec2) -> DVec2 {
+fn slope(place: DVec2) -> DVec2 {
     let radius = place.length();
     if radius > ROSE {
         let rim = ((radius - ROSE) / RIM).min(1.0);
@@ -229,4 +322,103 @@ fn mosaic(local: DVec2, part: i64) -> Piece {
         to_lead,
         half_lead: LEAD,
     }
+}
+
+/// The thickness of the glass.
+const THICKNESS: f64 = 0.006;
+/// How many times light is followed from the front to the back.
+const MOST_TURNS: usize = 8;
+const LEAST: f64 = 1e-5;
+
+impl Window {
+    /// What a ray from the eye shows: with all reflections between both surfaces, and by refraction alone in glass without
+    /// thickness.
+    pub fn seen(
+        &self,
+        glass: &OpticalMaterial,
+        around: Around,
+        eye: DVec3,
+        direction: DVec3,
+    ) -> Traced {
+        let distance = -eye.dot(outward()) / direction.dot(outward());
+        let place = eye + distance * direction;
+        let at = DVec2::new(place.dot(right()), place.y);
+        if distance <= 0.0 || at.abs().max_element() > WALL {
+            return Traced::beside(around.radiance(eye, direction));
+        }
+        let (paint, normal) = (self.paint_at(at), self.normal_at(at));
+        if paint.w < 0.5 {
+            return Traced::beside(paint.truncate() * room(normal));
+        }
+        let n = glass.n.y;
+        let r = optics::dielectric(n, (-direction.dot(normal)).clamp(0.0, 1.0)).unpolarised();
+        let reflection = r * room(mirrored(direction, normal));
+        let [all, once] = match refracted(direction, normal, n) {
+            Some(inside) => self.inside(at, inside, n, around),
+            None => [DVec3::ZERO; 2],
+        };
+        Traced {
+            colour: reflection + (1.0 - r) * all,
+            own: reflection + (1.0 - r) * once,
+            is_body: true,
+            is_total: false,
+        }
+    }
+
+    /// The radiance along a ray in the glass from its front: by all paths, and by what leaves at first as if the glass had no
+    /// thickness.
+    fn inside(&self, mut at: DVec2, mut direction: DVec3, n: f64, around: Around) -> [DVec3; 2] {
+        let (mut all, mut once, mut left) = (DVec3::ZERO, DVec3::ZERO, DVec3::ONE);
+        for turn in 0..MOST_TURNS {
+            let cosine = direction.dot(outward());
+            if cosine <= 1e-6 {
+                break;
+            }
+            left *= self.paint_at(at).truncate().powf(1.0 / cosine);
+            at += across(direction, cosine);
+            let r = optics::dielectric(1.0 / n, cosine.min(1.0)).unpolarised();
+            if let Some(out) = refracted(direction, -outward(), 1.0 / n) {
+                let light = left * (1.0 - r) * around.radiance(DVec3::ZERO, out);
+                if turn == 0 {
+                    once = light;
+                }
+                if self.is_glass(at) {
+                    all += light;
+                }
+            }
+            left *= r;
+            direction = mirrored(direction, outward());
+            if left.max_element() < LEAST || !self.is_glass(at) {
+                break;
+            }
+            left *= self.paint_at(at).truncate().powf(1.0 / cosine);
+            at += across(direction, cosine);
+            if !self.is_glass(at) {
+                break;
+            }
+            let normal = self.normal_at(at);
+            let cosine = direction.dot(normal).clamp(0.0, 1.0);
+            let r = optics::dielectric(1.0 / n, cosine).unpolarised();
+            if let Some(out) = refracted(direction, -normal, 1.0 / n) {
+                all += left * (1.0 - r) * room(out);
+            }
+            left *= r;
+            direction = mirrored(direction, normal);
+        }
+        [all, once]
+    }
+
+    fn is_glass(&self, at: DVec2) -> bool {
+        self.paint_at(at).w >= 0.5
+    }
+}
+
+/// How far a ray moves along the wall between the two surfaces.
+fn across(direction: DVec3, cosine: f64) -> DVec2 {
+    THICKNESS / cosine * DVec2::new(direction.dot(right()), direction.y)
+}
+
+/// The light in the room by direction: the windows light the floor.
+fn room(direction: DVec3) -> DVec3 {
+    DVec3::new(0.055, 0.048, 0.04) * (1.2 - 0.8 * direction.y)
 }
