@@ -2,9 +2,9 @@
 
 use super::cosine::{CosineForm, cosine, is_named};
 use super::error::{Error, FunctionPlace, MissingArgument, MissingCosine};
-use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::hidden::HiddenInput;
 use super::quantity::{Quantity, meanings, plain};
+use super::request::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::slice::Slice;
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::verify::function_head::{FunctionHead, NumberShape};

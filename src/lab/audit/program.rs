@@ -2,9 +2,9 @@
 
 use super::bind::{Bound, BoundArgument};
 use super::directives;
-use super::given::DefaultArgument;
 use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter};
+use super::request::DefaultArgument;
 use super::slice::Slice;
 use crate::lab::gpu::{Argument as Value, Uniform};
 use crate::lab::verify::function_head::NumberShape;
