@@ -9,7 +9,7 @@
 //! angle and roughness of what a rough surface reflects.
 //!
 //! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format that can
-//! say so does. Nothing here uses the disk or the terminal. EXR and PNG need the feature `cli`.
+//! say so does. Nothing here uses the disk or the terminal.
 
 mod axis;
 mod catalogue;

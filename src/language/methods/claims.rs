@@ -21,7 +21,8 @@ pub struct Claims {
     /// Model error: maximum absolute difference to the exact law, over stated sets of media and all angles.
     pub model: &'static [Claim],
     /// Code error: the largest difference in ulp between unfused f32 and f64 at the same inputs, over these media and all
-    /// angles. Differences within 2⁻²² do not count. 0 for a method that reads a texture, where the sampler decides.
+    /// angles. Differences within 2⁻²² do not count. 0: no larger difference was found, or
+    /// the method reads a texture, where the sampler decides.
     pub code_ulp: f64,
     /// The media that the code error is stated over.
     pub code_over: MediaSet,
