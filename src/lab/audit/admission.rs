@@ -45,7 +45,7 @@ pub fn check_needed(file: &str, slice: &str, language: Language) -> Result<(), E
         return Ok(());
     }
     if is_in_macro(slice) {
-        let what = "a macro holds a loop, or joins words with ##: write it out, so that its turns can be counted";
+        let what = "a macro holds a loop or one bracket of a pair, or joins words with ##: write it out, so that its turns can be counted";
         return Err(error(file, (first_definition(slice), 1, what.to_owned())));
     }
     directives::fault(slice).map_or(Ok(()), |fault| Err(error(file, fault)))

@@ -37,7 +37,8 @@ pub fn counted(text: &str, language: Language) -> Option<String> {
     Some(inserted(text, &marks))
 }
 
-/// Whether a macro holds a loop, or pastes words that might form one. Its iterations could not be counted.
+/// Whether a macro holds a loop, pastes words that might form one, or holds one bracket of a pair, so that a loop's condition ends
+/// elsewhere than it seems to. Its iterations could not be counted.
 pub fn is_in_macro(text: &str) -> bool {
     let count = |text: &str| {
         let words = ["for", "while", "do", "loop"];
@@ -46,7 +47,25 @@ pub fn is_in_macro(text: &str) -> bool {
         loops.count()
     };
     let (whole, code) = (bare(text, false), bare(text, true));
-    count(&whole) > count(&code) || whole.contains("##")
+    let (all, in_code) = (count(&whole), count(&code));
+    all > in_code
+        || whole.contains("##")
+        || in_code > 0 && definitions(&tokens(&whole)).any(|found| has_lone_bracket(found.body))
+}
+
+/// Whether a bracket is not closed by one of its own kind.
+fn has_lone_bracket(tokens: &[Token]) -> bool {
+    let mut open = Vec::new();
+    for token in tokens {
+        match token.text {
+            "(" => open.push(")"),
+            "[" => open.push("]"),
+            "{" => open.push("}"),
+            ")" | "]" | "}" if open.pop() != Some(token.text) => return true,
+            _ => {}
+        }
+    }
+    !open.is_empty()
 }
 
 /// The declarations of the counter and of the function that counts. They precede the text in languages that declare before use.
@@ -219,6 +238,17 @@ mod tests {
     fn loops_in_macros_are_seen() {
         assert!(is_in_macro("#define EVER for (;;)\nfloat f() { EVER; }"));
         assert!(is_in_macro("#define GO(a) wh##a\n"));
+        for bracket in ["[", ")", "([)]"] {
+            let define = format!("#define B {bracket}\n");
+            assert!(is_in_macro(&format!(
+                "{define}float f() {{ while (a) {{}} }}"
+            )));
+            assert!(!is_in_macro(&format!("{define}float f() {{ }}")));
+        }
+        assert!(!is_in_macro(
+            "#define PI (3.1 * a[0])
+float f() { for (;;) {} }"
+        ));
         assert!(!is_in_macro(
             "#define PI 3.1 // for all\nfloat f() { for (;;) {} }"
         ));

@@ -147,9 +147,17 @@ fn without_attributes<'t, 'a>(head: &'t [Token<'a>]) -> &'t [Token<'a>] {
 fn c_name(head: &[Token]) -> Option<usize> {
     let open = head.iter().position(|token| token.text == "(")?;
     // `t[] = f(`, `cbuffer B : register(`
-    let is_other = |token: &Token| ["=", ":"].contains(&token.text);
-    let is_head = open >= 2 && !head[..open].iter().any(is_other);
+    let is_head = open >= 2 && type_end(&head[..open]).is_none();
     is_head.then(|| open - 1)
+}
+
+/// The index of what ends a name and its type: a value or a semantic. `::` in a type ends nothing.
+fn type_end(part: &[Token]) -> Option<usize> {
+    let is_colon = |at: usize| text_at(part, at) == ":";
+    (0..part.len()).find(|&at| {
+        let is_alone = !is_colon(at + 1) && !(at > 0 && is_colon(at - 1));
+        part[at].text == "=" || is_colon(at) && is_alone
+    })
 }
 
 fn joined(tokens: &[Token]) -> String {
@@ -179,7 +187,7 @@ fn wgsl_result(after: &[Token]) -> NumberShape {
 
 /// `type name`, qualifiers before it, a semantic or a value after it.
 fn c_parameter(part: &[Token]) -> Parameter {
-    let end = part.iter().position(|t| [":", "="].contains(&t.text));
+    let end = type_end(part);
     let equals = part.iter().position(|token| token.text == "=");
     let default = equals.map(|equals| spaced(&part[equals + 1..]));
     let part = &part[..end.unwrap_or(part.len())];

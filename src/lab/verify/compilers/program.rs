@@ -139,6 +139,14 @@ mod tests {
             "    sum += f(at.x, at, a_texture, a_sampler);\n",
         );
         check(
+            "inline metal::float3 f(metal::float3 a, float b = 1.0) {}\n",
+            "    sum += f(at.x, at.x);\n",
+        );
+        check(
+            "cbuffer B : register(b0) {}\nfloat f(float c : TEXCOORD0) {}\n",
+            "    sum += f(at.x);\n",
+        );
+        check(
             "float f(Texture2D<float4> t, SamplerState t_sampler)\n{}\n",
             "    sum += f(a_texture, a_sampler);\n",
         );
