@@ -301,7 +301,7 @@ impl Binding<'_> {
                     Some(_) => MissingCosine::Known,
                     None => self.likely_cosine(&missing),
                 },
-                missing,
+                missing: missing.into(),
             }),
         }
     }

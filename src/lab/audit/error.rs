@@ -163,7 +163,7 @@ pub enum Error {
         /// The material.
         material: String,
         /// The arguments without a value.
-        missing: Vec<MissingArgument>,
+        missing: Box<[MissingArgument]>,
         /// Which argument is the cosine.
         cosine: MissingCosine,
     },

@@ -155,8 +155,8 @@ fn c_name(head: &[Token]) -> Option<usize> {
 fn type_end(part: &[Token]) -> Option<usize> {
     let is_colon = |at: usize| text_at(part, at) == ":";
     (0..part.len()).find(|&at| {
-        let is_alone = !is_colon(at + 1) && !(at > 0 && is_colon(at - 1));
-        part[at].text == "=" || is_colon(at) && is_alone
+        let is_half = is_colon(at + 1) || at > 0 && is_colon(at - 1);
+        part[at].text == "=" || is_colon(at) && !is_half
     })
 }
 

@@ -42,6 +42,9 @@ pub fn accepts(
 }
 
 /// The verdict of one validator.
+///
+/// # Errors
+/// It refuses the text, or is not here.
 pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
     let framed = match program::framed(&validator.frame, bytes) {
         Ok(framed) => framed,
