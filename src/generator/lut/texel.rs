@@ -69,7 +69,7 @@ const MOST_SIDE: usize = 1024;
 /// Refuses a number of texels that a texture cannot have.
 ///
 /// # Errors
-/// Fewer than [`LEAST_TEXELS`], or more than [`MOST_TEXELS`].
+/// Fewer than [`LEAST_TEXELS`], or more than `MOST_TEXELS`.
 pub fn check_size(texels: usize) -> Result<(), Error> {
     if (LEAST_TEXELS..=MOST_TEXELS).contains(&texels) {
         Ok(())

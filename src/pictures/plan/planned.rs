@@ -46,7 +46,7 @@ pub struct JudgedMaterial {
     pub angles: Vec<f64>,
     /// What its exact law costs.
     pub cost_exact: Option<f64>,
-    /// The reference that functions are compared with, at [`step_cosines`].
+    /// The reference that functions are compared with, at `step_cosines`.
     pub truth: Vec<[f64; 3]>,
 }
 
