@@ -10,13 +10,14 @@ use crate::generator::envelope::{SCHEMA, TOOL};
 use crate::generator::error::unknown;
 use crate::generator::request::source::{self, load};
 use crate::generator::request::{Materials, Methods, Request};
+use crate::lab::budget::is_choosable;
 use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
 use crate::physics::materials;
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 use crate::physics::user_text::FileFault;
-use crate::pictures::plan::{PLANNED_FORMS, PlanFile, PlanFileRow, is_plannable};
+use crate::pictures::plan::{PLANNED_FORMS, PlanFile, PlanFileRow};
 
 /// The first word of a plan's command.
 const COMMAND: &str = "plan";
@@ -93,7 +94,7 @@ fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<
 /// The method of a row, which must be one that plans choose, in a form that they choose.
 fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
     let method: &Method = row.method.parse()?;
-    if !is_plannable(method) || !PLANNED_FORMS.contains(&row.form) {
+    if !is_choosable(method) || !PLANNED_FORMS.contains(&row.form) {
         let what = format!(
             "no plan chooses `{}` as a function that is {}",
             method.name,

@@ -246,8 +246,7 @@ mod tests {
             assert!(!is_in_macro(&format!("{define}float f() {{ }}")));
         }
         assert!(!is_in_macro(
-            "#define PI (3.1 * a[0])
-float f() { for (;;) {} }"
+            "#define PI (3.1 * a[0])\nfloat f() { for (;;) {} }"
         ));
         assert!(!is_in_macro(
             "#define PI 3.1 // for all\nfloat f() { for (;;) {} }"

@@ -92,10 +92,14 @@ pub fn choose_within(
     Err(Error::NothingWithin { max_error, faults })
 }
 
-/// The methods among which a budget chooses: those for unpolarised light that keep the contract.
+/// Whether budgets and plans may choose a method: it must describe unpolarised light and keep the contract.
+pub fn is_choosable(method: &Method) -> bool {
+    method.light == Light::Unpolarised && method.contract == Contract::Kept
+}
+
+/// The methods among which a budget chooses.
 fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static Method>, Error> {
-    methods
-        .retain(|method| method.light == Light::Unpolarised && method.contract == Contract::Kept);
+    methods.retain(|method| is_choosable(method));
     if methods.is_empty() {
         Err(Error::NoMethod)
     } else {

@@ -7,9 +7,10 @@ use super::request::{PlanRequest, PlannedMaterial};
 use crate::generator::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::generator::fit::{arguments, table_of};
 use crate::generator::reference::MaterialInMedium;
+use crate::lab::budget::is_choosable;
 use crate::lab::cost::{CostBasis, CostRecord, KnownCost, known_cost, known_library_cost, records};
 use crate::language::ir::{Checked, evaluate};
-use crate::language::methods::{self, Contract, Light, Method};
+use crate::language::methods::{self, Method};
 use crate::physics::num::{Half, Num, Precision, each_channel, in_parallel};
 
 /// The library function that every plan is compared with: it suits every material.
@@ -79,11 +80,6 @@ pub const PLANNED_FORMS: [FunctionForm; 3] = [
     FunctionForm::Scalar,
 ];
 
-/// Whether plans may choose a method: it must describe unpolarised light and keep the contract.
-pub fn is_plannable(method: &Method) -> bool {
-    method.light == Light::Unpolarised && method.contract == Contract::Kept
-}
-
 /// The candidates for a material, in the order of methods.
 ///
 /// # Errors
@@ -91,7 +87,7 @@ pub fn is_plannable(method: &Method) -> bool {
 pub fn candidates(material: &PlannedMaterial, prices: &Prices) -> Result<Vec<Candidate>, Error> {
     let (subject, request) = (&material.subject, prices.request);
     let is_one = |method: &&&'static Method| {
-        is_plannable(method)
+        is_choosable(method)
             && subject.is_described_by(method)
             && (request.fetch.is_some() || !method.is_textured())
             && !(request.precision.is_half() && method.half.refusal().is_some())

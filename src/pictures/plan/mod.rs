@@ -27,7 +27,7 @@ mod request;
 mod scene_file;
 mod sky;
 
-pub use candidate::{PLANNED_FORMS, is_plannable};
+pub use candidate::PLANNED_FORMS;
 pub use frame::{FramePixels, MappedMaterial, ScenePixel};
 pub use gbuffer::{check_primaries, read_gbuffer};
 pub use gltf::{GltfFault, GltfScene, GltfView, Unplanned, constant_index};
