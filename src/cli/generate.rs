@@ -28,7 +28,6 @@ use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::manifest::Manifest;
 use crate::generator::output::tree::{self, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
-use crate::generator::request::source::Source;
 use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::budget::{Budget, BudgetRow, choose_within};
 use crate::lab::cost::{self, Family};
@@ -476,11 +475,9 @@ fn depfile(
     let mut inputs: Vec<String> = paths.map(str::to_owned).collect();
     if let Some(plan) = &flags.plan {
         inputs.push(plan.display().to_string());
-        let materials = request.materials.sources().into_iter();
-        inputs.extend(materials.filter_map(|source| match source {
-            Source::File { file, .. } => Some(file),
-            _ => None,
-        }));
+        for source in request.materials.sources() {
+            inputs.extend(source.files().into_iter().map(str::to_owned));
+        }
     }
     if let Some(own) = outputs.iter().find(|output| inputs.contains(output)) {
         let why = format!("--depfile-target {own} is a file that the run reads");

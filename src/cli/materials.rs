@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
-use crate::cli::flags::material::{MaterialName, MediumFlags};
+use crate::cli::flags::material::{FilmFlags, MaterialName, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
 use crate::cli::output::{Output, Progress, png, report, reported};
@@ -106,12 +106,22 @@ pub struct SeenFlags {
     /// A name, or the path of a material file, page or table
     #[arg(value_parser = MaterialName::parse)]
     pub name: MaterialName,
+    /// The films on it.
+    #[command(flatten)]
+    pub films: FilmFlags,
     /// The medium.
     #[command(flatten)]
     pub medium: MediumFlags,
     /// How it is looked at.
     #[command(flatten)]
     pub viewing: ViewingFlags,
+}
+
+impl SeenFlags {
+    /// The material under its films.
+    pub fn loaded(&self) -> Result<Loaded, Error> {
+        Ok(load(&self.films.on(self.name.source()?)?)?)
+    }
 }
 
 /// The flags of `materials params`.
@@ -315,7 +325,7 @@ pub(super) struct MaterialRecord<'a> {
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     check_places(flags, json)?;
-    let loaded = load(&flags.of.name.source()?)?;
+    let loaded = flags.of.loaded()?;
     let record = material_record(&loaded.material);
     let (mut output, own) = reported(text(&loaded.material), &record, json);
     let mut files: Vec<OutputFile> = own.into_iter().collect();
@@ -392,6 +402,7 @@ fn command(
 ) -> String {
     CommandLine::new("fresnel-gen materials show")
         .argument(&loaded.argument)
+        .each("film", loaded.material.film_arguments())
         .list("medium", medium.map(|medium| &medium.argument))
         .seen_as(viewing)
         .list(picture, [format!("{}.{picture}", loaded.material.name)])
@@ -416,7 +427,9 @@ fn text(m: &Material) -> String {
         (!value.is_empty()).then_some(line)
     };
     let mut lines = vec![format!("{}: {}", Foreign(&m.name), one_line(&m.summary))];
+    let films = m.films_in_words().unwrap_or_default();
     let fields = [
+        ("films", films.as_str()),
         ("class", m.kind.name()),
         ("substance", &m.substance),
         ("known in nm", &range(m)),

@@ -19,7 +19,7 @@ use crate::generator::fit::{
 use crate::generator::output::folder::is_device;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::reference::{Derivation, MaterialInMedium};
-use crate::generator::request::source::{Loaded, load};
+use crate::generator::request::source::Loaded;
 use crate::physics::foreign::one_line;
 use crate::physics::materials::{self, Material, ViewingConditions};
 use crate::physics::spectra::Gamut;
@@ -44,7 +44,7 @@ pub fn run(flags: &ParamsFlags, json: Option<&Path>) -> Result<Output, Error> {
 }
 
 fn reported(flags: &SeenFlags, json: Option<&Path>) -> Result<Output, Error> {
-    let material = load(&flags.name.source()?)?.material;
+    let material = flags.loaded()?.material;
     let medium = medium(&flags.medium)?;
     let medium = medium.as_ref().map(|medium| &medium.material);
     let viewing = ViewingConditions {
@@ -66,11 +66,12 @@ fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
     if let Some((file, false)) = file {
         try_places_of_ours(std::slice::from_ref(file), flags.overwrite)?;
     }
-    let loaded = load(&flags.of.name.source()?)?;
+    let loaded = flags.of.loaded()?;
     let medium = medium(&flags.of.medium)?;
     let viewing = flags.of.viewing.conditions()?;
     let command = CommandLine::new("fresnel-gen materials params")
         .argument(&loaded.argument)
+        .each("film", loaded.material.film_arguments())
         .list("medium", medium.as_ref().map(|medium| &medium.argument))
         .seen_as(&viewing)
         .list("as", [format.name]);

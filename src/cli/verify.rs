@@ -124,7 +124,7 @@ impl VerifyFlags {
             .list("target", &self.target)
             .list("effect", &self.effect)
             .list("method", &self.method)
-            .list("material", self.materials.choices())
+            .list("material", self.materials.choices()).each("film", &self.materials.film)
             .list("medium", &self.medium.medium)
             .list("prefix", Naming::flag_of_prefix(&self.prefix))
             .seen_as(viewing)

@@ -40,6 +40,13 @@ impl CommandLine {
         CommandLine(format!("{} --{name} {}", self.0, words.join(&separator)))
     }
 
+    /// Adds the flag once for each of these words.
+    #[must_use]
+    pub fn each<T: Display>(self, name: &str, words: impl IntoIterator<Item = T>) -> CommandLine {
+        let words = words.into_iter();
+        words.fold(self, |command, word| command.list(name, [word]))
+    }
+
     /// Adds a flag with a number, unquoted.
     #[must_use]
     pub fn number(self, name: &str, value: impl Display) -> CommandLine {
@@ -86,7 +93,7 @@ impl CommandLine {
     pub fn seen_on(self, viewing: &ViewingConditions, surface: Option<&Surface>) -> CommandLine {
         match surface {
             None => self,
-            Some(surface) if surface.channels().is_none() => self.seen_as(viewing),
+            Some(surface) if surface.is_spectral() => self.seen_as(viewing),
             Some(_) => self.seen_as(&ViewingConditions {
                 wavelengths_nm: viewing.wavelengths_nm,
                 beyond: viewing.beyond,
@@ -111,7 +118,7 @@ impl From<CommandLine> for String {
 /// A word quoted for a shell, in ASCII and on one line, since it stands in comments of shaders. `printf` writes other characters,
 /// since POSIX has no other escape.
 fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./:".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
     } else if word.chars().all(|c| c == ' ' || c.is_ascii_graphic()) {

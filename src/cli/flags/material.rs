@@ -10,7 +10,7 @@ use crate::cli::flags::choice::Choice;
 use crate::generator::command_line::path_again;
 use crate::generator::request::source::{comma_list, is_path, read};
 use crate::generator::request::{Materials, Source};
-use crate::physics::materials::{self, ConstantIndex, IndexFault};
+use crate::physics::materials::{self, ConstantIndex, FilmFault, IndexFault, film_of_word};
 use crate::physics::names::UnknownName;
 
 /// Why a word is no medium.
@@ -120,6 +120,80 @@ pub struct MaterialFlags {
     /// Names, paths of material files, all, or none [default: gold, platinum, water, diamond]
     #[arg(long, value_name = "NAME", value_parser = material_list)]
     pub material: Vec<MaterialList>,
+    /// A film on each of these materials: its material or index, and its thickness; once for each film, the outermost first
+    #[arg(long, value_name = "MATERIAL:THICKNESS", value_parser = FilmName::parse, requires = "material")]
+    pub film: Vec<FilmName>,
+}
+
+/// The films on one material.
+#[derive(Args, Clone, Debug, Default)]
+pub struct FilmFlags {
+    /// A film on the material: its material or index, and its thickness, such as titanium_dioxide:60nm; once for each film, the outermost first
+    #[arg(long, value_name = "MATERIAL:THICKNESS", value_parser = FilmName::parse)]
+    pub film: Vec<FilmName>,
+}
+
+impl FilmFlags {
+    /// A material under these films.
+    ///
+    /// # Errors
+    /// A file cannot be read.
+    pub fn on(&self, material: Source) -> Result<Source, Error> {
+        Ok(material.under_films(film_sources(&self.film)?))
+    }
+
+    /// The paths among them.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.film.iter().filter_map(|film| film.name.path())
+    }
+}
+
+fn film_sources(films: &[FilmName]) -> Result<Vec<(Source, f64)>, Error> {
+    let source = |film: &FilmName| Ok((film.name.source()?, film.thickness_nm));
+    films.iter().map(source).collect()
+}
+
+/// A film: a material or an index, and a thickness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmName {
+    name: MaterialName,
+    thickness_nm: f64,
+}
+
+/// Why a word is no film.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum NoFilm {
+    /// It is not of a material and a thickness.
+    #[error(transparent)]
+    Word(#[from] FilmFault),
+    /// There is no such material.
+    #[error("{0}; a film can be a refractive index from 1 to 10 too, such as 1.38:100nm")]
+    Unknown(UnknownName),
+    /// A number outside its limits.
+    #[error(transparent)]
+    Index(IndexFault),
+}
+
+impl FilmName {
+    /// Parses a film.
+    ///
+    /// # Errors
+    /// The word is no material and thickness.
+    pub fn parse(word: &str) -> Result<FilmName, NoFilm> {
+        let (name, thickness_nm) = film_of_word(word)?;
+        let name = MaterialName::parse_medium(name).map_err(|fault| match fault {
+            NoMedium::Unknown(unknown) => NoFilm::Unknown(unknown),
+            NoMedium::Index(fault) => NoFilm::Index(fault),
+        })?;
+        Ok(FilmName { name, thickness_nm })
+    }
+}
+
+/// The film as a user would type it again.
+impl fmt::Display for FilmName {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:{}nm", self.name, self.thickness_nm)
+    }
 }
 
 impl MaterialFlags {
@@ -159,13 +233,16 @@ impl MaterialFlags {
                 Choice::All | Choice::None => sources.extend(Source::catalogue()),
             }
         }
-        Ok(Materials::These(sources))
+        let films = film_sources(&self.film)?;
+        let under = |source: Source| source.under_films(films.clone());
+        Ok(Materials::These(sources.into_iter().map(under).collect()))
     }
 
     /// The paths among them.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
         let names = self.choices().filter_map(Choice::named);
-        names.filter_map(MaterialName::path)
+        let films = self.film.iter().map(|film| &film.name);
+        names.chain(films).filter_map(MaterialName::path)
     }
 }
 

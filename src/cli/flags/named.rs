@@ -47,6 +47,7 @@ impl<'a> NamedFiles<'a> {
         let material = flags.name.path().into_iter();
         self.read(
             material
+                .chain(flags.films.paths())
                 .chain(flags.medium.path())
                 .chain(flags.viewing.path()),
         );

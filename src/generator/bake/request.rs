@@ -115,6 +115,8 @@ pub struct TableMaterial {
     pub name: String,
     /// The argument that names it again on the command line.
     pub argument: String,
+    /// The words of `--film` that name its films again, outermost first.
+    pub films: Vec<String>,
     /// The argument that names the medium again; none for air.
     pub medium: Option<String>,
     /// Its reference reflectance.
@@ -135,12 +137,13 @@ impl TableMaterial {
     ) -> Result<TableMaterial, SurfaceError> {
         let surface = Surface::new(material, medium.map(|(_, medium)| medium), viewing)?;
         let name = &material.name;
-        let is_spectral = surface.channels().is_none();
+        let is_spectral = surface.is_spectral();
         Ok(TableMaterial {
             name: medium.map_or(name.clone(), |(_, medium)| {
                 format!("{name}_in_{}", medium.name)
             }),
             argument: argument.to_owned(),
+            films: material.film_arguments().into_iter().map(str::to_owned).collect(),
             medium: medium.map(|(argument, _)| argument.clone()),
             space: is_spectral.then_some(viewing.integration.space),
             reference: ReferenceCurve::new(surface, Light::Unpolarised),
@@ -175,10 +178,12 @@ pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
 
 /// The flags of the medium and the viewing conditions, each with a space before it.
 pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
-    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
+    let first = subjects.first();
+    let medium = first.and_then(|subject| subject.medium.as_ref());
     // Tables keep colours outside the space by default; functions clip them.
     let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
     CommandLine::new("")
+        .each("film", first.map_or(&[][..], |subject| &subject.films))
         .list("medium", medium)
         .seen_as(viewing)
         .list("gamut", clips.then_some(Gamut::Clip.name()))

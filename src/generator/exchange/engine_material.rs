@@ -65,7 +65,7 @@ impl EngineMaterial<'_> {
         subject: &'a MaterialInMedium,
         viewing: &ViewingConditions,
     ) -> Result<EngineMaterial<'a>, ExchangeFault> {
-        let is_spectral = subject.reference.surface.channels().is_none();
+        let is_spectral = subject.reference.surface.is_spectral();
         let space = is_spectral.then_some(viewing.integration.space);
         let known = known(subject);
         let unclipped = subject.reference.clone().before_gamut().at(1.0);
@@ -150,7 +150,7 @@ fn remarks(
             "F0 is ({red:?}, {green:?}, {blue:?}), and is clipped to [0, 1]; the error is told against the clipped spectrum"
         ));
     }
-    if surface.channels().is_some() {
+    if !surface.is_spectral() {
         remarks
             .push("each channel is one wavelength: the colours are in no colour space".to_owned());
     } else {

@@ -9,11 +9,11 @@ use super::grey_tint::{GreyTint, grey_tint};
 use crate::generator::reference::{Derivation, IndexSource, ReferenceCurve, effective};
 use crate::language::methods::{Input, KnownSurface, Light};
 use crate::physics::materials::{
-    Channels, Extrapolate, Index, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
+    Channels, Extrapolate, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
     surfaces_of,
 };
 use crate::physics::num::each_channel;
-use crate::physics::optics::{self, COS_82, UnderCoat, conductor, under_coat};
+use crate::physics::optics::{COS_82, UnderCoat, conductor, under_coat};
 use crate::physics::spectra::{Gamut, Illuminant, Integration, colour_error};
 
 /// The parameters of a material in a medium under viewing conditions.
@@ -159,9 +159,10 @@ pub fn material_params(
 
 /// The reference for the errors of methods: a spectrum is clipped.
 fn clipped(surface: Surface) -> ReferenceCurve {
-    let gamut = match surface.channels() {
-        Some(_) => Gamut::Keep,
-        None => Gamut::Clip,
+    let gamut = if surface.is_spectral() {
+        Gamut::Clip
+    } else {
+        Gamut::Keep
     };
     ReferenceCurve::new(Surface { gamut, ..surface }, Light::Unpolarised)
 }
@@ -246,11 +247,10 @@ pub fn colour_errors(
     surface: &Surface,
     integration: &Integration,
 ) -> Option<Vec<(Illuminant, [f64; 3])>> {
-    if surface.channels().is_some() {
+    if !surface.is_spectral() {
         return None;
     }
-    let normal = |index: &Index| optics::normal_incidence(index.n, index.k);
-    let reflectance: Vec<f64> = surface.indices.iter().map(normal).collect();
+    let reflectance = surface.unpolarised_spectrum(1.0);
     let rgb = surface.unpolarised(1.0);
     let error = |light: &Illuminant| {
         BOUNCES.map(|bounces| colour_error(&reflectance, rgb, light, bounces, integration))

@@ -150,7 +150,11 @@ impl Run<'_> {
     /// Whether `all` included this material.
     fn is_brought_along(&self, subject: &MaterialInMedium) -> bool {
         let all = self.request.materials.sources();
-        all.contains(&Source::BroughtAlong(subject.argument.clone()))
+        let names_it = Source::BroughtAlong(subject.argument.clone());
+        all.iter().any(|source| match source {
+            Source::UnderFilms { base, .. } => **base == names_it,
+            source => *source == names_it,
+        })
     }
 
     /// The command that writes the files of some materials again.
@@ -177,6 +181,7 @@ impl Run<'_> {
         CommandLine::new("fresnel-gen")
             .list("flavour", [flavour.name])
             .list("material", names)
+            .each("film", first.map_or(Vec::new(), |one| one.material.film_arguments()))
             .list("medium", medium.map(|(argument, _)| argument))
             .seen_on(
                 &self.request.viewing,

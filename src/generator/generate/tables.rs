@@ -11,7 +11,7 @@ use crate::generator::generate::Generated;
 use crate::generator::lut::TABLES;
 use crate::generator::reference::Typed;
 use crate::generator::request::source::{Loaded, load, same_name};
-use crate::generator::request::{Request, Source, check_transparent};
+use crate::generator::request::{Request, check_transparent};
 
 /// The materials of a request, sorted by name, each once, and why some that `all` includes are left out.
 ///
@@ -32,10 +32,10 @@ pub fn table_materials(request: &Request) -> Result<(Vec<TableMaterial>, Vec<Str
             text,
         } = load(&source)?;
         let found = TableMaterial::new((&argument, &material), medium.as_ref(), &request.viewing);
-        match (found, source) {
-            (Err(fault), Source::BroughtAlong(_)) => left_out.push(fault.why),
-            (Err(fault), _) => return Err(fault.into()),
-            (Ok(found), _) => match ready.get(&found.name) {
+        match found {
+            Err(fault) if source.is_brought_along() => left_out.push(fault.why),
+            Err(fault) => return Err(fault.into()),
+            Ok(found) => match ready.get(&found.name) {
                 Some((other, its)) if *its != text => {
                     let words = [&other.argument, &found.argument].map(String::as_str);
                     return Err(same_name(&found.name, words));

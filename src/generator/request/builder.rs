@@ -5,12 +5,12 @@ use std::path::Path;
 use super::source::read;
 use super::{Materials, Methods, Request, Source};
 use crate::generator::emit::HeaderForm;
-use crate::generator::error::Error;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::flavours::Flavour;
 use crate::language::effects::Effect;
 use crate::language::methods::Method;
 use crate::language::targets::Target;
-use crate::physics::materials::ViewingConditions;
+use crate::physics::materials::{ViewingConditions, film_of_word};
 use crate::physics::num::Precision;
 use crate::physics::spectra::Space;
 
@@ -65,6 +65,20 @@ impl Request {
         let file = path.as_ref().to_string_lossy().into_owned();
         let text = read(&file)?;
         Ok(self.material_from(Source::File { file, text }))
+    }
+
+    /// Adds a material of the catalogue under films, outermost first: `material_under_films("titanium", &["titanium_dioxide:60nm"])`.
+    /// A film is a material of the catalogue or an index, and its thickness in nm or um.
+    ///
+    /// # Errors
+    /// A word is no film.
+    pub fn material_under_films(self, name: &str, films: &[&str]) -> Result<Request, Error> {
+        let film = |word: &&str| match film_of_word(word) {
+            Ok((name, thickness_nm)) => Ok((Source::Named(name.to_owned()), thickness_nm)),
+            Err(fault) => Err(RequestFault::refused(fault.to_string())),
+        };
+        let films = films.iter().map(film).collect::<Result<_, _>>()?;
+        Ok(self.material_from(Source::Named(name.to_owned()).under_films(films)))
     }
 
     fn material_from(mut self, source: Source) -> Request {
@@ -124,11 +138,7 @@ impl Request {
             _ => &[],
         };
         let files = materials.iter().chain(&self.medium);
-        let paths = files.filter_map(|source| match source {
-            Source::File { file, .. } => Some(file.as_str()),
-            Source::Named(_) | Source::BroughtAlong(_) => None,
-        });
-        paths.collect()
+        files.flat_map(Source::files).collect()
     }
 }
 

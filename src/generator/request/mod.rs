@@ -9,7 +9,7 @@ use crate::generator::emit::{HeaderForm, Naming};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::flavours::Flavour;
 use crate::generator::reference::{Derivation, MaterialInMedium};
-use crate::generator::request::source::{Loaded, Subjects, load};
+use crate::generator::request::source::{Loaded, Subjects, check_is_bare, load};
 use crate::language::effects::Effect;
 use crate::language::methods::{self, Method};
 use crate::language::targets::{self, Target};
@@ -111,7 +111,7 @@ pub(in crate::generator) fn each_once<T>(
 }
 
 /// The choice of materials.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Materials {
     /// Gold, platinum, water and diamond.
     Default,
@@ -164,12 +164,12 @@ impl Request {
             let loaded = load(source)?;
             let around = medium.as_ref().map_or("", |medium| &medium.text);
             let text = format!("{}{around}{}", loaded.text, self.light());
-            match (self.subject(loaded, medium.as_ref()), source) {
-                (Ok(subject), _) => subjects.ready.push((subject, text)),
-                (Err(Error::Unseen(fault)), Source::BroughtAlong(_)) => {
+            match self.subject(loaded, medium.as_ref()) {
+                Ok(subject) => subjects.ready.push((subject, text)),
+                Err(Error::Unseen(fault)) if source.is_brought_along() => {
                     subjects.left_out.push(fault);
                 }
-                (Err(error), _) => return Err(error),
+                Err(error) => return Err(error),
             }
         }
         subjects.sorted()
@@ -269,6 +269,7 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
 /// # Errors
 /// The medium is a metal or a semiconductor.
 pub fn check_transparent(medium: &Material) -> Result<(), Error> {
+    check_is_bare(medium, "medium")?;
     if medium.kind == MaterialKind::Dielectric {
         return Ok(());
     }

@@ -10,7 +10,7 @@ use crate::generator::error::{Error, RequestFault, unknown};
 use crate::generator::output::folder::{self, is_below};
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::foreign::{self, one_line};
-use crate::physics::materials::{self, ConstantIndex, Material, SurfaceError};
+use crate::physics::materials::{self, ConstantIndex, Film, Material, SurfaceError};
 use crate::physics::user_text::{FileFault, TextFault, mesh_text, user_text};
 
 /// The largest material file in bytes: 10⁶ rows fit.
@@ -186,7 +186,7 @@ fn is_page(name: &str) -> bool {
 }
 
 /// The source of a material.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// A material of the catalogue. A medium can also be a refractive index from 1 to 10, such as `1.5`, without absorption and
     /// dispersion.
@@ -200,9 +200,46 @@ pub enum Source {
         /// Its text.
         text: String,
     },
+    /// A material under films.
+    UnderFilms {
+        /// What lies below.
+        base: Box<Source>,
+        /// Each film and its thickness in nanometres, outermost first. A film can be an index, as a medium can.
+        films: Vec<(Source, f64)>,
+    },
 }
 
 impl Source {
+    /// This material under films, outermost first; itself where there are none.
+    pub fn under_films(self, films: Vec<(Source, f64)>) -> Source {
+        if films.is_empty() {
+            return self;
+        }
+        let base = Box::new(self);
+        Source::UnderFilms { base, films }
+    }
+
+    /// Whether `all` includes it.
+    pub fn is_brought_along(&self) -> bool {
+        match self {
+            Source::BroughtAlong(_) => true,
+            Source::UnderFilms { base, .. } => base.is_brought_along(),
+            Source::Named(_) | Source::File { .. } => false,
+        }
+    }
+
+    /// The files that it was read from.
+    pub fn files(&self) -> Vec<&str> {
+        match self {
+            Source::File { file, .. } => vec![file],
+            Source::UnderFilms { base, films } => {
+                let below = films.iter().flat_map(|(film, _)| film.files());
+                base.files().into_iter().chain(below).collect()
+            }
+            Source::Named(_) | Source::BroughtAlong(_) => Vec::new(),
+        }
+    }
+
     /// The argument that names it again on the command line.
     ///
     /// # Errors
@@ -308,7 +345,37 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
                 text: text.clone(),
             })
         }
+        Source::UnderFilms { base, films } => {
+            let mut loaded = load(base)?;
+            let mut on_it = Vec::new();
+            for (source, thickness_nm) in films {
+                let film = load(source)?;
+                check_is_bare(&film.material, "film")?;
+                let argument = format!("{}:{thickness_nm}nm", film.argument);
+                loaded.text = format!("{}\n{argument}\n{}", loaded.text, film.text);
+                on_it.push(Film {
+                    material: film.material,
+                    thickness_nm: *thickness_nm,
+                    argument,
+                });
+            }
+            let under = loaded.material.under_films(on_it);
+            loaded.material = under.map_err(RequestFault::refused)?;
+            Ok(loaded)
+        }
     }
+}
+
+/// Refuses a film or a medium that is itself a material under films.
+pub(super) fn check_is_bare(material: &Material, wanted: &'static str) -> Result<(), Error> {
+    if material.films.is_empty() {
+        return Ok(());
+    }
+    Err(RequestFault::refused(format!(
+        "`{}` has films, so it is no {wanted}; name the material of one layer",
+        material.name
+    ))
+    .into())
 }
 
 /// A medium that is a number.

@@ -1,6 +1,7 @@
 //! The catalogue, and users' files.
 //!
-//! The catalogue's files are those of `data/materials/`, embedded in the program and parsed on demand. A user's file may be of
+//! The catalogue's files are those of `data/materials/`, embedded in the program and parsed on demand, as are those of
+//! `data/films/`, materials under films. A user's file may be of
 //! our own format, a page of refractiveindex.info, or a table.
 
 use include_dir::{Dir, include_dir};
@@ -10,6 +11,7 @@ use super::material::Material;
 use crate::physics::user_text::FileFault;
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
+static STACKS: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/films");
 
 /// The names of all materials in the catalogue, sorted.
 ///
@@ -17,7 +19,16 @@ static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 /// assert!(fresnel_gen::physics::materials::names().contains(&"gold"));
 /// ```
 pub fn names() -> Vec<&'static str> {
-    let mut names: Vec<&str> = FILES
+    names_in(&FILES)
+}
+
+/// The names of materials under films that have a file, sorted. They are no part of the catalogue.
+pub fn stacks() -> Vec<&'static str> {
+    names_in(&STACKS)
+}
+
+fn names_in(folder: &'static Dir) -> Vec<&'static str> {
+    let mut names: Vec<&str> = folder
         .files()
         .filter_map(|file| file.path().file_stem()?.to_str())
         .collect();
@@ -25,12 +36,14 @@ pub fn names() -> Vec<&'static str> {
     names
 }
 
-/// The text of a material's file.
+/// The text of the file of a material, or of a stack.
 pub fn source(name: &str) -> Option<&'static str> {
-    FILES.get_file(format!("{name}.toml"))?.contents_utf8()
+    let file = format!("{name}.toml");
+    let found = FILES.get_file(&file).or_else(|| STACKS.get_file(&file));
+    found?.contents_utf8()
 }
 
-/// The material of this name, if the catalogue has it.
+/// The material of this name, if the catalogue has it or it is a stack.
 ///
 /// ```
 /// use fresnel_gen::physics::materials::{Extrapolate, find};
@@ -40,9 +53,18 @@ pub fn source(name: &str) -> Option<&'static str> {
 /// ```
 pub fn find(name: &str) -> Option<Result<Material, FileFault>> {
     Some(Material::parse(
-        &format!("data/materials/{name}.toml"),
+        &format!("{}/{name}.toml", folder(name)),
         source(name)?,
     ))
+}
+
+/// The folder of a file.
+fn folder(name: &str) -> &'static str {
+    if stacks().contains(&name) {
+        "data/films"
+    } else {
+        "data/materials"
+    }
 }
 
 /// All materials of the catalogue, by name.

@@ -100,7 +100,10 @@ impl Material {
     /// The text is not TOML, a field is missing or unknown, or a value lies outside its limits.
     pub fn parse(file: &str, text: &str) -> Result<Material, FileFault> {
         let place = FileText { file, text };
-        let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error))?;
+        if names_base(text) {
+            return Material::parse_stack(file, text);
+        }
+        let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error, &FIELDS))?;
         check_name("name", &raw.name, &place)?;
         if let Some(substance) = &raw.substance {
             check_name("substance", substance, &place)?;
@@ -143,6 +146,7 @@ impl Material {
             rgb_nm,
             n,
             k,
+            films: Vec::new(),
         })
     }
 }
@@ -159,6 +163,12 @@ impl Material {
         };
         curve(&self.n, N).or_else(|| curve(self.k.as_ref()?, K))
     }
+}
+
+/// Whether a file names a base, as that of a stack does.
+fn names_base(text: &str) -> bool {
+    let table = text.contains("base").then(|| text.parse::<toml::Table>());
+    table.is_some_and(|table| table.is_ok_and(|table| table.contains_key("base")))
 }
 
 fn point_fault((nm, value): (f64, f64), (name, low, high): Column) -> Option<String> {
@@ -208,7 +218,7 @@ fn formula_fault(formula: &Formula) -> Option<String> {
     }
 }
 
-fn check_name(field: &str, name: &Spanned<String>, place: &FileText) -> Result<(), FileFault> {
+pub(super) fn check_name(field: &str, name: &Spanned<String>, place: &FileText) -> Result<(), FileFault> {
     name_fault(name.get_ref()).map_or(Ok(()), |why| {
         let what = format!("field `{field}`: `{}` is no name: {why}", name.get_ref());
         Err(place.fault(name.span().start, what))
@@ -319,7 +329,7 @@ impl FileText<'_> {
     }
 
     /// Checks that a field has no line breaks, and nothing that a terminal obeys.
-    fn one_line(&self, name: &str, field: &Spanned<String>) -> Result<(), FileFault> {
+    pub(super) fn one_line(&self, name: &str, field: &Spanned<String>) -> Result<(), FileFault> {
         let Some(hidden) = field.get_ref().chars().find(|c| is_hidden(*c)) else {
             return Ok(());
         };
@@ -351,13 +361,13 @@ impl FileText<'_> {
         Err(self.fault(rgb.span().start, what))
     }
 
-    fn syntax(&self, error: &toml::de::Error) -> FileFault {
+    pub(super) fn syntax(&self, error: &toml::de::Error, fields: &[&str]) -> FileFault {
         let mut what = error.message().trim().replace('\n', "; ");
         if let Some(unknown) = what
             .strip_prefix("unknown field `")
             .and_then(|rest| rest.split('`').next())
         {
-            let near = FIELDS.iter().max_by(|a, b| {
+            let near = fields.iter().max_by(|a, b| {
                 strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b))
             });
             what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));

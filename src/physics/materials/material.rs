@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::decimal::short;
+use super::film::Film;
 use super::formula::{DispersionCurve, Extrapolate, Formula};
 
 /// The least n. Below it the exact forms lose their last digits in f32.
@@ -47,6 +48,8 @@ pub struct Material {
     pub n: DispersionCurve,
     /// Extinction coefficient by wavelength; 0 where there is none.
     pub k: Option<DispersionCurve>,
+    /// The films on it, outermost first; `n` and `k` are those of what lies below.
+    pub films: Vec<Film>,
 }
 
 /// The class of a material.
@@ -227,6 +230,7 @@ impl ConstantIndex {
                 to_nm,
             }),
             k: None,
+            films: Vec::new(),
         }
     }
 }

@@ -10,9 +10,10 @@
 use glam::DVec3;
 
 use super::formula::Extrapolate;
+use super::film::Film;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
-use crate::physics::optics::{self, Reflectance};
+use crate::physics::optics::{Layer, Reflectance, under_films};
 use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
 
 /// The conditions under which reflectance becomes three channels.
@@ -55,6 +56,8 @@ impl ViewingConditions {
 pub struct Surface {
     /// The relative index at each of the integrator's wavelengths.
     pub indices: Vec<Index>,
+    /// The films on it at each of these, outermost first; empty if there are none.
+    pub films: Vec<Vec<Layer>>,
     /// From a spectrum to three channels.
     pub integrator: Integrator,
     /// How colours outside the working space are treated.
@@ -87,8 +90,7 @@ impl Surface {
     ) -> Result<Surface, SurfaceError> {
         let three = viewing
             .wavelengths_nm
-            .or(material.rgb_nm)
-            .or(medium.and_then(|medium| medium.rgb_nm));
+            .or_else(|| parts(material, medium).find_map(|part| part.rgb_nm));
         let integrator = match three {
             Some(rgb) => Integrator::three_wavelengths(rgb),
             None => Integrator::new(&viewing.integration).map_err(|fault| SurfaceError {
@@ -96,26 +98,27 @@ impl Surface {
                 advice: String::new(),
             })?,
         };
-        let index = |nm: &f64| {
-            let own = material.index(*nm, viewing.beyond)?;
-            Ok(match medium {
-                Some(medium) => own.relative_to(medium.index(*nm, viewing.beyond)?),
-                None => own,
-            })
-        };
+        let at = |nm: &f64| AtWavelength::new(material, medium, *nm, viewing.beyond);
         let wavelengths = integrator.wavelengths.iter();
-        let indices = wavelengths.map(index).collect::<Result<_, String>>();
+        let all = wavelengths.map(at).collect::<Result<Vec<_>, String>>();
         let extrapolated_nm = extrapolated_beyond(material, medium, &integrator.wavelengths);
         let gamut = if three.is_some() {
             Gamut::Keep
         } else {
             viewing.gamut
         };
+        let all = all.map_err(|why| SurfaceError {
+            why,
+            advice: advice(extrapolated_nm, three.is_some()),
+        })?;
+        let (indices, mut films): (_, Vec<_>) =
+            all.into_iter().map(|at| (at.index, at.films)).unzip();
+        if material.films.is_empty() {
+            films.clear();
+        }
         Ok(Surface {
-            indices: indices.map_err(|why| SurfaceError {
-                why,
-                advice: advice(extrapolated_nm, three.is_some()),
-            })?,
+            indices,
+            films,
             extrapolated_nm,
             integrator,
             gamut,
@@ -134,6 +137,7 @@ impl Surface {
         };
         Surface {
             indices: each_channel(index).to_vec(),
+            films: Vec::new(),
             integrator: Integrator::three_wavelengths(super::THESIS_NM),
             gamut: Gamut::Keep,
             seen: "one index a channel".to_owned(),
@@ -141,16 +145,34 @@ impl Surface {
         }
     }
 
-    /// The channels, if each is one wavelength.
+    /// The channels, if each is one index: one wavelength, without films.
     pub fn channels(&self) -> Option<Channels> {
+        if !self.films.is_empty() {
+            return None;
+        }
         let indices: [Index; 3] = self.indices.as_slice().try_into().ok()?;
         Some(Channels::of(indices))
     }
 
+    /// Whether it is integrated over the spectrum. Otherwise each channel is one wavelength.
+    pub fn is_spectral(&self) -> bool {
+        self.integrator.wavelengths.len() != 3
+    }
+
+    /// The reflectance at each wavelength.
+    fn spectrum(&self, cos_theta: f64) -> impl Iterator<Item = Reflectance<f64>> {
+        let indices = self.indices.iter().enumerate();
+        indices.map(move |(i, index)| under_films(self.films_at(i), index.n, index.k, cos_theta))
+    }
+
+    /// The films at one of the integrator's wavelengths.
+    pub fn films_at(&self, place: usize) -> &[Layer] {
+        self.films.get(place).map_or(&[], Vec::as_slice)
+    }
+
     /// The reflectance of each channel in both polarisations, without gamut mapping.
     pub fn reflectance(&self, cos_theta: f64) -> Reflectance<DVec3> {
-        let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta);
-        let both: Vec<Reflectance<f64>> = self.indices.iter().map(law).collect();
+        let both: Vec<Reflectance<f64>> = self.spectrum(cos_theta).collect();
         let colour = |part: fn(&Reflectance<f64>) -> f64| {
             let spectrum: Vec<f64> = both.iter().map(part).collect();
             self.integrator.colour(&spectrum)
@@ -163,9 +185,13 @@ impl Surface {
 
     /// The reflectance of each channel for unpolarised light, without gamut mapping.
     pub fn unpolarised(&self, cos_theta: f64) -> DVec3 {
-        let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
-        let spectrum: Vec<f64> = self.indices.iter().map(law).collect();
-        self.integrator.colour(&spectrum)
+        self.integrator.colour(&self.unpolarised_spectrum(cos_theta))
+    }
+
+    /// The reflectance at each wavelength for unpolarised light.
+    pub fn unpolarised_spectrum(&self, cos_theta: f64) -> Vec<f64> {
+        let both = self.spectrum(cos_theta);
+        both.map(Reflectance::unpolarised).collect()
     }
 
     /// The wavelengths at which the index is extrapolated, in words; none if there are none.
@@ -213,13 +239,63 @@ fn advice(extrapolated: (Option<f64>, Option<f64>), three: bool) -> String {
     }
 }
 
+/// A material, its films and its medium.
+fn parts<'a>(
+    material: &'a Material,
+    medium: Option<&'a Material>,
+) -> impl Iterator<Item = &'a Material> {
+    let films = material.films.iter().map(|film| &film.material);
+    [material].into_iter().chain(films).chain(medium)
+}
+
+/// A material in its medium at one wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtWavelength {
+    /// The relative index of what lies below the films.
+    pub index: Index,
+    /// The films, outermost first.
+    pub films: Vec<Layer>,
+}
+
+impl AtWavelength {
+    /// A material in air or in a medium.
+    ///
+    /// # Errors
+    /// The material, a film or the medium is not known at the wavelength.
+    pub fn new(
+        material: &Material,
+        medium: Option<&Material>,
+        nm: f64,
+        beyond: Extrapolate,
+    ) -> Result<AtWavelength, String> {
+        let own = material.index(nm, beyond)?;
+        let outside = medium.map(|medium| medium.index(nm, beyond)).transpose()?;
+        let relative = |index: Index| outside.map_or(index, |outside| index.relative_to(outside));
+        let layer = |film: &Film| {
+            let Index { n, k } = relative(film.material.index(nm, beyond)?);
+            let waves = film.thickness_nm * outside.map_or(1.0, |outside| outside.n) / nm;
+            Ok(Layer { n, k, waves })
+        };
+        let films = material.films.iter().map(layer);
+        Ok(AtWavelength {
+            index: relative(own),
+            films: films.collect::<Result<_, String>>()?,
+        })
+    }
+
+    /// Its reflectance.
+    pub fn reflectance(&self, cos_theta: f64) -> Reflectance<f64> {
+        under_films(&self.films, self.index.n, self.index.k, cos_theta)
+    }
+}
+
 /// The ends of the measured range beyond which an index is extrapolated.
 fn extrapolated_beyond(
     material: &Material,
     medium: Option<&Material>,
     wavelengths: &[f64],
 ) -> (Option<f64>, Option<f64>) {
-    let all = || [Some(material), medium].into_iter().flatten();
+    let all = || parts(material, medium);
     let inside = |nm: f64| all().all(|material| material.covers(nm, nm));
     let (from, to) = all()
         .map(Material::range_nm)

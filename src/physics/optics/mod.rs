@@ -7,12 +7,14 @@
 //! that an index-matched surface (n = 1, k = 0) reflects 0 at every angle, 90 degrees included.
 
 mod coat;
+mod film;
 mod ggx;
 mod interface;
 
 use crate::physics::num::Num;
 
 pub use coat::{UnderCoat, under_coat};
+pub use film::{Layer, under_films};
 pub use ggx::Ggx;
 pub use interface::{
     EffectiveIndex, LARGEST_F0, conductor, dielectric, index_from_f0_f82, normal_incidence,

@@ -167,6 +167,7 @@ mod tests {
             rgb_nm: None,
             n: table(nm.iter().map(n)),
             k: Some(table(nm.iter().map(k))),
+            films: Vec::new(),
         }
     }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::physics::materials::{Extrapolate, Index, Material};
-use crate::physics::optics::{self, cosine};
+use crate::physics::materials::{AtWavelength, Extrapolate, Material};
+use crate::physics::optics::cosine;
 use crate::pictures::material_sheet::{DrawnMaterial, axis};
 use crate::pictures::plot::{
     BLUE, ChartAxis, GREEN, INK, LineChart, Look, Series, Style, VERMILION,
@@ -52,19 +52,23 @@ pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
     }
 }
 
-/// The relative index by wavelength.
-type Indices = Vec<(f64, Index)>;
+/// The surface by wavelength.
+type Indices = Vec<(f64, AtWavelength)>;
 
-/// The relative indices at three wavelengths, where the surface is known only at these.
+/// The surface at three wavelengths, where it is known only at these.
 fn points(drawn: &DrawnMaterial) -> Indices {
     let surface = &drawn.surface;
     let wavelengths = surface.integrator.wavelengths.iter().copied();
-    let mut points: Indices = wavelengths.zip(surface.indices.iter().copied()).collect();
+    let at = |(i, nm)| {
+        let (index, films) = (surface.indices[i], surface.films_at(i).to_vec());
+        (nm, AtWavelength { index, films })
+    };
+    let mut points: Indices = wavelengths.enumerate().map(at).collect();
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     points
 }
 
-/// The visible range in which everything was measured, and the relative index in it.
+/// The visible range in which everything was measured, and the surface in it.
 fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
     let medium = drawn.medium.map(Material::range_nm);
     let (from, to) = drawn.material.range_nm();
@@ -72,18 +76,15 @@ fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
     let range = axis::shown((from.max(low), to.min(high)));
     let samples = range.map_or(Vec::new(), axis::samples);
     let index = |nm: f64| {
-        let mut index = drawn.material.index(nm, Extrapolate::Refuse).ok()?;
-        if let Some(medium) = drawn.medium {
-            index = index.relative_to(medium.index(nm, Extrapolate::Refuse).ok()?);
-        }
-        Some((nm, index))
+        let at = AtWavelength::new(drawn.material, drawn.medium, nm, Extrapolate::Refuse);
+        Some((nm, at.ok()?))
     };
     (range, samples.into_iter().filter_map(index).collect())
 }
 
 fn reflectance(indices: &Indices, cos_theta: f64) -> Vec<(f64, f64)> {
-    let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
-    let points = indices.iter().map(|(nm, index)| (*nm, law(index)));
+    let law = |at: &AtWavelength| at.reflectance(cos_theta).unpolarised();
+    let points = indices.iter().map(|(nm, at)| (*nm, law(at)));
     points.collect()
 }
 

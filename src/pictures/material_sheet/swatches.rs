@@ -45,9 +45,10 @@ pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: PanelFrame) -> (Layout,
 
 /// The space of the channels. Three wavelengths are shown as if they were sRGB's primaries.
 fn space(drawn: &DrawnMaterial) -> Space {
-    match drawn.surface.channels() {
-        Some(_) => Space::Srgb,
-        None => drawn.viewing.integration.space,
+    if drawn.surface.is_spectral() {
+        drawn.viewing.integration.space
+    } else {
+        Space::Srgb
     }
 }
 
@@ -63,13 +64,13 @@ fn to_screen(space: Space) -> impl Fn(DVec3) -> DVec3 {
 }
 
 fn subtitle(drawn: &DrawnMaterial, swatches: &[Swatch]) -> String {
-    let numbers = match (drawn.surface.channels(), space(drawn)) {
-        (Some(_), _) => {
+    let numbers = match (drawn.surface.is_spectral(), space(drawn)) {
+        (false, _) => {
             "Numbers: reflectance at the wavelengths of red, green and blue, shown as linear sRGB."
                 .to_owned()
         }
-        (None, Space::Srgb) => "Numbers: linear sRGB, before anything is clipped.".to_owned(),
-        (None, space) => format!(
+        (true, Space::Srgb) => "Numbers: linear sRGB, before anything is clipped.".to_owned(),
+        (true, space) => format!(
             "Numbers: {}, before anything is clipped; the swatches are sRGB.",
             space.title()
         ),

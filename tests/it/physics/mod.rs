@@ -4,6 +4,7 @@
 
 mod catalogue;
 mod dips;
+pub mod films;
 mod law;
 mod random;
 

@@ -45,6 +45,7 @@ impl Page {
             rgb_nm: None,
             n,
             k: self.k.clone(),
+            films: Vec::new(),
         };
         let mut remarks = self.remarks.clone();
         let (from, to) = material.range_nm();
