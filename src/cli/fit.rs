@@ -244,7 +244,7 @@ fn of_subject(
         let error = error(method, &fitted);
         Some(FitRow {
             material: Some(subject.argument.clone()),
-            class: Some(subject.material.kind.name()),
+            class: Some(subject.class()),
             max_abs_without_gamut: (aim.gamut != Gamut::Keep).then_some(without_gamut),
             misses_its_class: missed.flatten(),
             ..FitRow::new(method, &fitted, &error, form.cost, aim.space.name())

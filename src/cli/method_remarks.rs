@@ -122,7 +122,7 @@ fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<St
         0 => String::new(),
         count => format!("; {count} more of these materials are of such a class"),
     };
-    let (name, class) = (Foreign(&subject.name), subject.material.kind.name());
+    let (name, class) = (Foreign(&subject.name), subject.class());
     Some(format!(
         "for {name}, a {class}, {} errs by {}, and {} by {}{more}",
         method.name,

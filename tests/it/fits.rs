@@ -38,7 +38,7 @@ fn error(subject: &MaterialInMedium, method: &'static Method) -> ModelError {
 fn rows(subjects: &[MaterialInMedium]) -> Vec<Row<'_>> {
     let is_shown = |method: &&&Method| method.is_fitted() || method.name == "schlick";
     let of = |subject| {
-        let transparent = MaterialInMedium::exact_method(subject) == "dielectric_exact";
+        let transparent = MaterialInMedium::main_method(subject) == "dielectric_exact";
         let fits = move |method: &&&Method| transparent || method.class == methods::Class::Any;
         let methods = methods::ALL.iter().filter(is_shown).filter(fits);
         methods.map(move |method| Row {

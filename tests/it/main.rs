@@ -59,6 +59,7 @@ mod stability;
 mod stated;
 mod tables;
 mod tidy;
+mod tmpdump;
 mod tree;
 mod verify;
 mod working_spaces;

@@ -31,7 +31,7 @@ impl EffectRequest<'_> {
     /// The default method: for a material, its exact law.
     fn usual_method(&self) -> &'static str {
         self.subject
-            .map_or(USUAL_METHOD, MaterialInMedium::exact_method)
+            .map_or(USUAL_METHOD, MaterialInMedium::main_method)
     }
 
     /// The method's name, unless it is the default.

@@ -40,7 +40,7 @@ impl Naming {
 
     /// The name of a method's function for a material. The exact law's function has the material's name alone.
     pub fn specialised(&self, method: &Method, subject: &MaterialInMedium) -> String {
-        if method.name == subject.exact_method() {
+        if method.name == subject.main_method() {
             self.name(&subject.name, "")
         } else {
             self.name(&subject.name, &format!("_{}", method.name))

@@ -39,7 +39,7 @@ pub fn specialised_graph(
         let serves = if method.is_fitted() {
             subject.fitted_method().unwrap_or("fitted_five")
         } else {
-            subject.exact_method()
+            subject.main_method()
         };
         let what = format!("it describes {}; {serves} serves it", method.class.media());
         return Err(Error::specialise(method, subject, what));
@@ -123,13 +123,14 @@ fn plural(class: &str) -> &'static str {
     match class {
         "metal" => "metals",
         "semiconductor" => "semiconductors",
+        "film" => "materials under films",
         _ => "dielectrics of n 1.2 or more",
     }
 }
 
 /// Whether a fit with this error misses its class. Gases have no class: no fitted method is meant for them.
 pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64) -> Option<Missed> {
-    let class = subject.material.kind.name();
+    let class = subject.class();
     let n = subject.effective.channels.n;
     let is_gas = class == "dielectric" && n.iter().any(|n| *n < LEAST_FITTED_N);
     let promise = method.claims.for_class(class).filter(|_| !is_gas)?;
@@ -137,7 +138,7 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
     if max_abs <= limit {
         return None;
     }
-    let exact = methods::find(subject.exact_method());
+    let exact = methods::find(subject.main_method());
     let fitted = ALL.iter().copied().filter(|other| other.is_fitted());
     let described = fitted.filter(|other| subject.is_described_by(other));
     let errors: Vec<(&str, f64)> = described

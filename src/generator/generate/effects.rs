@@ -79,7 +79,7 @@ impl Run<'_> {
         effect: &'static Effect,
         subject: Option<&'s MaterialInMedium>,
     ) -> Result<(EffectRequest<'s>, Vec<EmittedFunction>), Error> {
-        let usual = subject.map_or(USUAL_METHOD, MaterialInMedium::exact_method);
+        let usual = subject.map_or(USUAL_METHOD, MaterialInMedium::main_method);
         let usual = methods::find(usual).expect("the usual methods are registered");
         let request = EffectRequest {
             effect,

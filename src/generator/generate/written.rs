@@ -247,7 +247,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         Ok::<(), Error>(())
     };
     for (subject, _) in &run.subjects {
-        let methods = named_or(&run, &subject.name, &[registered(subject.exact_method())]);
+        let methods = named_or(&run, &subject.name, &[registered(subject.main_method())]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
             add(&emitted, emitted.method, Some(subject))?;

@@ -2,7 +2,7 @@
 
 use super::effective::{Effective, effective};
 use super::reference_curve::ReferenceCurve;
-use crate::language::methods::{Light, Method};
+use crate::language::methods::{Class, Light, Method};
 use crate::physics::materials::{
     Channels, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
 };
@@ -77,22 +77,43 @@ impl MaterialInMedium {
         }
     }
 
-    /// Whether the exact law for dielectrics describes it.
-    fn is_glass(&self) -> bool {
-        self.material.kind == MaterialKind::Dielectric && self.effective.channels.is_transparent()
+    /// Whether films lie on it.
+    pub fn has_films(&self) -> bool {
+        !self.material.films.is_empty()
     }
 
-    /// Whether a method describes it. The exact laws for dielectrics take no k, and that for metals no small one. Fitted
+    /// The name of its class: film, metal, semiconductor or dielectric.
+    pub fn class(&self) -> &'static str {
+        if self.has_films() {
+            "film"
+        } else {
+            self.material.kind.name()
+        }
+    }
+
+    /// Whether the exact law for dielectrics describes it.
+    fn is_glass(&self) -> bool {
+        !self.has_films()
+            && self.material.kind == MaterialKind::Dielectric && self.effective.channels.is_transparent()
+    }
+
+    /// Whether a method describes it. Films ask for a method that takes any reflectance. The exact laws for dielectrics take no k, and that for metals no small one. Fitted
     /// coefficients also describe a dielectric that absorbs.
     pub fn is_described_by(&self, method: &Method) -> bool {
+        if self.has_films() {
+            return matches!(method.class, Class::Any | Class::Film);
+        }
         let is_followed = method.is_fitted() && self.material.kind == MaterialKind::Dielectric;
         let Channels { n, k } = &self.effective.channels;
         is_followed || (0..3).all(|i| method.class.describes(n[i], k[i]))
     }
 
-    /// The exact method of its class.
-    pub fn exact_method(&self) -> &'static str {
-        if self.is_glass() {
+    /// The method whose function has the material's name alone: the exact one of its class, and under films, where there is none,
+    /// the fitted one.
+    pub fn main_method(&self) -> &'static str {
+        if self.has_films() {
+            "fitted_film"
+        } else if self.is_glass() {
             "dielectric_exact"
         } else {
             "conductor_exact"
@@ -114,15 +135,19 @@ impl MaterialInMedium {
     /// large.
     pub fn fitted_method(&self) -> Option<&'static str> {
         match self.material.kind {
+            _ if self.has_films() => Some("fitted_film"),
             MaterialKind::Semiconductor => Some("fitted_five"),
             _ => self.fitted_with_four(),
         }
     }
 
-    /// The default methods of its file, the exact one first.
+    /// The default methods of its file, the main one first.
     pub fn default_methods(&self) -> Vec<&'static str> {
+        if self.has_films() {
+            return vec![self.main_method(), "fitted", "schlick_rescaled", "table"];
+        }
         let rest = ["schlick_rescaled", "schlick_corrected", "table"];
-        let exact = [self.exact_method()].into_iter();
+        let exact = [self.main_method()].into_iter();
         exact.chain(self.fitted_method()).chain(rest).collect()
     }
 }
@@ -157,14 +182,17 @@ pub enum MaterialClass {
     Semiconductors,
     /// Transparent liquids and solids.
     Dielectrics,
+    /// Any of these under films.
+    Films,
 }
 
 impl MaterialClass {
     /// All of them.
-    pub const ALL: [MaterialClass; 3] = [
+    pub const ALL: [MaterialClass; 4] = [
         MaterialClass::Metals,
         MaterialClass::Semiconductors,
         MaterialClass::Dielectrics,
+        MaterialClass::Films,
     ];
 
     /// Its name on the command line and in reports.
@@ -173,6 +201,7 @@ impl MaterialClass {
             MaterialClass::Metals => "metals",
             MaterialClass::Semiconductors => "semiconductors",
             MaterialClass::Dielectrics => "dielectrics",
+            MaterialClass::Films => "films",
         }
     }
 
@@ -180,6 +209,7 @@ impl MaterialClass {
     pub fn title(self) -> &'static str {
         match self {
             MaterialClass::Dielectrics => "dielectrics, n of 1.2 and more",
+            MaterialClass::Films => "materials under films",
             other => other.name(),
         }
     }
@@ -189,6 +219,9 @@ impl MaterialClass {
         let channels = &subject.effective.channels;
         if subject.material.rgb_nm.is_some() {
             return None;
+        }
+        if subject.has_films() {
+            return Some(MaterialClass::Films);
         }
         let is_solid = channels.n.iter().all(|n| *n >= LEAST_FITTED_N);
         match subject.material.kind {

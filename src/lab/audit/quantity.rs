@@ -260,7 +260,7 @@ fn input_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
         let is_usual = !method.is_fitted() || subject.default_methods().contains(&method.name);
         is_usual && is_given && !method.is_textured() && subject.is_described_by(method)
     };
-    let exact = methods::find(subject.exact_method()).into_iter();
+    let exact = methods::find(subject.main_method()).into_iter();
     let exact: Vec<&'static Method> = exact.collect();
     let exact = exact.iter().filter(takes);
     let method = exact

@@ -18,7 +18,7 @@ pub struct SearchedClass {
 }
 
 /// All classes. Metals and semiconductors share their forms.
-pub static SEARCHED: [SearchedClass; 2] = [
+pub static SEARCHED: [SearchedClass; 3] = [
     SearchedClass {
         name: "metals",
         title: "metals and semiconductors",
@@ -28,6 +28,11 @@ pub static SEARCHED: [SearchedClass; 2] = [
         name: "dielectrics",
         title: "dielectrics, n of 1.2 and more",
         classes: &[MaterialClass::Dielectrics],
+    },
+    SearchedClass {
+        name: "films",
+        title: "materials under films",
+        classes: &[MaterialClass::Films],
     },
 ];
 

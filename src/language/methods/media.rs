@@ -9,15 +9,18 @@ pub enum Class {
     Metal,
     /// Any k.
     Any,
+    /// Any material under films: no law of one index follows it.
+    Film,
 }
 
 impl Class {
-    /// Whether a method of this class describes a medium with this index.
+    /// Whether a method of this class describes a bare medium with this index.
     pub fn describes(self, n: f64, k: f64) -> bool {
         match self {
             Class::Dielectric => k == 0.0,
             Class::Metal => k >= LEAST_METALLIC * n,
             Class::Any => true,
+            Class::Film => false,
         }
     }
 
@@ -27,6 +30,7 @@ impl Class {
             Class::Dielectric => "dielectrics (k = 0)",
             Class::Metal => "metals (k of n / 4 and more)",
             Class::Any => "all media",
+            Class::Film => "materials under films",
         }
     }
 
@@ -36,6 +40,7 @@ impl Class {
             Class::Dielectric => "dielectrics only, and this absorbs (k > 0)",
             Class::Metal => "metals only, with k of at least n / 4, and this has less",
             Class::Any => "all media",
+            Class::Film => "materials under films only, and this has none",
         }
     }
 }

@@ -27,6 +27,8 @@ pub enum Factor {
     Square(f64),
     /// `c + p`: used by the next ones.
     Shifted(f64),
+    /// `c (c + p)`.
+    Rising(f64),
     /// `1 / (c + p)`.
     Reciprocal(f64),
     /// `1 / √(c + p)`.
@@ -90,6 +92,7 @@ impl Factor {
             Factor::Cosine => c,
             Factor::Square(e) => c * c + e,
             Factor::Shifted(p) => c + p,
+            Factor::Rising(p) => c * (c + p),
             Factor::Reciprocal(p) => 1.0 / (c + p),
             Factor::Root(p) => 1.0 / (c + p).sqrt(),
             Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
@@ -108,6 +111,7 @@ impl fmt::Display for Factor {
             Factor::Cosine => write!(out, "c"),
             Factor::Square(e) => write!(out, "(c^2 + {e})"),
             Factor::Shifted(p) => write!(out, "(c + {p})"),
+            Factor::Rising(p) => write!(out, "c (c + {p})"),
             Factor::Reciprocal(p) => write!(out, "1/(c + {p})"),
             Factor::Root(p) => write!(out, "1/sqrt(c + {p})"),
             Factor::Peak(e, p) => write!(out, "(1/(c^2 + {e}) - 1/sqrt(c + {p}))"),
@@ -146,10 +150,18 @@ impl<'b> Made<'b> {
         made
     }
 
+    fn has(&self, is_meant: fn(&Factor) -> bool) -> bool {
+        self.known.iter().any(|(factor, _)| is_meant(factor))
+    }
+
     fn make(&mut self, factor: Factor) -> Expr<'b> {
         let c = self.c;
         match factor {
-            Factor::Grazing(1) => (1.0 - c).named("b", "0 at normal incidence, 1 at grazing"),
+            Factor::Grazing(1) => {
+                let is_taken = self.has(|other| matches!(other, Factor::Exponential(_)));
+                let name = if is_taken { "g" } else { "b" };
+                (1.0 - c).named(name, "0 at normal incidence, 1 at grazing")
+            }
             Factor::Grazing(p) if self.is_half => power_in_half(c, p),
             Factor::Grazing(p) => power(self.factor(Factor::Grazing(1)), p),
             Factor::Exponential(a) => {
@@ -159,8 +171,13 @@ impl<'b> Made<'b> {
             Factor::Cosine => c,
             Factor::Square(e) => (c * c + e).named("q", ""),
             Factor::Shifted(p) => (c + p).named("l", ""),
+            Factor::Rising(p) => (c * (c + p)).named("y", "0 at grazing"),
             Factor::Reciprocal(p) => (1.0 / self.factor(Factor::Shifted(p))).named("r", ""),
             Factor::Root(p) => {
+                // A second one has a name of its own, and no name for its sum.
+                if self.has(|other| matches!(other, Factor::Root(_))) {
+                    return (c + p).inverse_sqrt().named("t", "");
+                }
                 let root = self.factor(Factor::Shifted(p)).inverse_sqrt();
                 root.named("q", "")
             }
@@ -223,7 +240,15 @@ impl Input {
     pub const C2: Input = coefficient("c2", "coefficient of the second term");
     pub const C3: Input = coefficient("c3", "coefficient of the third term");
     pub const C4: Input = coefficient("c4", "coefficient of the fourth term");
-    pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
+    pub const C5: Input = coefficient("c5", "coefficient of the fifth term");
+    pub const COEFFICIENTS: [Input; 6] = [
+        Input::C0,
+        Input::C1,
+        Input::C2,
+        Input::C3,
+        Input::C4,
+        Input::C5,
+    ];
 }
 
 const fn coefficient(name: &'static str, meaning: &'static str) -> Input {

@@ -178,7 +178,7 @@ impl<'a> Prices<'a> {
     /// # Errors
     /// It cannot be specialised to the material.
     pub fn cost_exact(&self, subject: &MaterialInMedium) -> Result<Option<f64>, Error> {
-        let method = methods::find(subject.exact_method()).expect("a test names it");
+        let method = methods::find(subject.main_method()).expect("a test names it");
         let function = self.specialised(method, subject)?;
         let known = |form| self.cost(method, form, &function).map(|known| known.cost);
         Ok(known(FunctionForm::Specialised).or_else(|| known(FunctionForm::Library)))

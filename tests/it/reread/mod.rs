@@ -218,7 +218,7 @@ fn every_specialised_function_reads_as_it_was_meant() {
             let (naming, bounds) = (emit::Naming::default(), emit::Bounds::recorded());
             let emitted = emit::specialised_function(method, &subject, &naming, &bounds);
             let function = emitted.expect("it specialises").function;
-            let suffix = if name == subject.exact_method() {
+            let suffix = if name == subject.main_method() {
                 String::new()
             } else {
                 format!("_{name}")

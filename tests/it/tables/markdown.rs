@@ -241,6 +241,7 @@ fn error_cell(method: &'static Method, subject: &MaterialInMedium) -> String {
     let Ok(emitted) = specialised_function(method, subject, &naming, &bounds) else {
         return match method.class {
             Class::Metal => "metals only".to_owned(),
+            Class::Film => "films only".to_owned(),
             _ => "dielectrics only".to_owned(),
         };
     };

@@ -27,7 +27,7 @@ pub static METHOD: Method = Method {
         "F = c0 + b (c1 + q (c2 + b (c3 + c c4))), limited to [0, 1]",
         "b = 2^(-11 c), q = c^2 + 0.094",
     ],
-    inputs: &Input::COEFFICIENTS,
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3, Input::C4],
     claims: Claims {
         model: &[
             Claim::dielectrics(0.0016, 74.4),
