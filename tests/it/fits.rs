@@ -4,6 +4,7 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
+use super::physics::films::filmed;
 use super::samples::{self, Misses};
 use super::stated::{check_stated, short, stated};
 use fresnel_gen::generator::emit::{Bounds, Naming, missed, specialised_function};
@@ -12,7 +13,7 @@ use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::cost;
 use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods::{self, ByClass, Method};
+use fresnel_gen::language::methods::{self, ByClass, Class, Method};
 use fresnel_gen::physics::materials::{Material, MaterialKind, ViewingConditions};
 use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::num::{Legendre, Precision};
@@ -39,7 +40,9 @@ fn rows(subjects: &[MaterialInMedium]) -> Vec<Row<'_>> {
     let is_shown = |method: &&&Method| method.is_fitted() || method.name == "schlick";
     let of = |subject| {
         let transparent = MaterialInMedium::main_method(subject) == "dielectric_exact";
-        let fits = move |method: &&&Method| transparent || method.class == methods::Class::Any;
+        let fits = move |method: &&&Method| {
+            method.class == Class::Any || transparent && method.class == Class::Dielectric
+        };
         let methods = methods::ALL.iter().filter(is_shown).filter(fits);
         methods.map(move |method| Row {
             subject,
@@ -81,6 +84,19 @@ fn outside() -> Option<Vec<(&'static str, MaterialInMedium)>> {
     seen.collect()
 }
 
+/// The films of a set of `data/records/films.csv`.
+pub fn films(set: &str) -> Vec<MaterialInMedium> {
+    let rows: Vec<(String, String, String, f64)> =
+        records::rows(include_str!("../../data/records/films.csv"));
+    let own = rows.into_iter().filter(|row| row.0 == set);
+    own.map(|(_, film, base, nm)| {
+        let material = filmed(&format!("{film}:{nm}nm"), &base);
+        let viewing = ViewingConditions::default();
+        MaterialInMedium::new((base, material), None, &viewing, Derivation::default()).unwrap()
+    })
+    .collect()
+}
+
 /// Every promise for a class with its method.
 pub fn promises_by_class() -> impl Iterator<Item = (&'static Method, &'static ByClass)> {
     let own = |method: &&'static Method| {
@@ -98,15 +114,18 @@ pub fn promises_by_class() -> impl Iterator<Item = (&'static Method, &'static By
 #[test]
 fn classes_are_followed_as_promised() {
     let Some(outside) = outside() else { return };
+    let films = ["sample", "outside"].map(films);
     let inside = catalogue()
         .iter()
         .filter(|subject| samples::is_of_classes(subject));
     let inside: Vec<(&str, &MaterialInMedium)> = inside
-        .map(|subject| (subject.material.kind.name(), subject))
+        .chain(&films[0])
+        .map(|subject| (subject.class(), subject))
         .collect();
     let outside: Vec<(&str, &MaterialInMedium)> = outside
         .iter()
         .map(|(class, subject)| (*class, subject))
+        .chain(films[1].iter().map(|subject| (subject.class(), subject)))
         .collect();
     let mut faults = String::new();
     for (method, promise) in promises_by_class() {
@@ -289,7 +308,7 @@ fn means_over_the_hemisphere_are_the_functions_own() {
             if transparent {
                 n >= LEAST_N
             } else {
-                method.class == methods::Class::Any
+                method.class == Class::Any
             }
         };
         for subject in catalogue().iter().filter(fits) {

@@ -59,7 +59,6 @@ mod stability;
 mod stated;
 mod tables;
 mod tidy;
-mod tmpdump;
 mod tree;
 mod verify;
 mod working_spaces;

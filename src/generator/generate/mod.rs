@@ -13,7 +13,7 @@ use crate::generator::bake::as_tables_are_seen;
 use crate::generator::emit::{
     self, Artifact, Bounds, EmittedFunction, Heading, NAGA_VERSION, Naming,
 };
-use crate::generator::error::Error;
+use crate::generator::error::{Error, RequestFault};
 use crate::generator::flavours::Flavour;
 use crate::generator::generate::tables::add_tables;
 use crate::generator::output::lock::Lock;
@@ -26,6 +26,7 @@ use crate::generator::request::{Materials, Request, each_once};
 use crate::language::methods::Method;
 use crate::language::targets::Target;
 use crate::physics::digest::sha256;
+use crate::physics::foreign;
 use crate::physics::materials::SurfaceError;
 use effects::WantedEffects;
 use written::Owners;
@@ -86,10 +87,17 @@ impl Generated {
     /// folders, since each removes the files of the other.
     ///
     /// # Errors
-    /// A file of others lies where one is to be written, or the disk refuses: then all stays as it was.
+    /// A file of others lies where one is to be written, another run writes there for two minutes, or the disk refuses: then all stays as
+    /// it was. If the disk refuses to remove a file of an earlier request, the new files are there, and the next run removes it.
     pub fn write_to(&self, out_dir: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
         let out_dir = out_dir.as_ref();
         let mut lock = Lock::take(out_dir, &|_| ());
+        // Nobody reads what a build script says, so it fails in place of going on beside another run.
+        if lock.is_busy {
+            let folder = foreign::path(&out_dir);
+            let why = format!("another run has written into {folder} for two minutes");
+            return Err(RequestFault::refused(why).into());
+        }
         let scope = Scope {
             alone: true,
             ..self.scope.clone()

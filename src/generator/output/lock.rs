@@ -43,6 +43,8 @@ pub struct Lock {
     leftovers: Vec<String>,
     /// Folders that were made for the lock, outermost first.
     created: Vec<PathBuf>,
+    /// Whether somebody else held it during the longest wait.
+    pub is_busy: bool,
 }
 
 impl Lock {
@@ -57,6 +59,7 @@ impl Lock {
             path: out_dir.join(FILE),
             leftovers: Vec::new(),
             created: Vec::new(),
+            is_busy: false,
         };
         // The write that follows will be refused.
         if planted(out_dir).is_some() {
@@ -93,6 +96,7 @@ impl Lock {
                 Ok(false) => {
                     let why = format!("is held for more than {MOST_WAIT_S} s");
                     announce(&without(&lock.path, &why));
+                    lock.is_busy = true;
                     return lock;
                 }
                 // The previous run removed the file while this one waited for it, or somebody replaced it.

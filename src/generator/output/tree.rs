@@ -86,7 +86,9 @@ pub fn plan(
         .collect();
     let files = planned(out_dir, artifacts)?;
     if let Some(old) = &old {
-        earlier_runs::refuse_namesakes(artifacts, &files, old, provenance)?;
+        if !scope.alone {
+            earlier_runs::refuse_namesakes(artifacts, &files, old, provenance)?;
+        }
     }
     let manifest = Planned {
         path: manifest::FILE.to_string(),

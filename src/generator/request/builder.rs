@@ -124,7 +124,8 @@ impl Request {
         self
     }
 
-    /// Adds lookup tables of the materials, as EXR and with a function that reads them: what `fresnel-gen bake` writes by default.
+    /// Adds lookup tables of the materials and their atlas, in `lut/`: the files that `fresnel-gen bake` writes by default. The method
+    /// `table` of a material is the function that reads them.
     #[must_use]
     pub fn tables(mut self) -> Request {
         self.tables = true;

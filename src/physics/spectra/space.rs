@@ -25,7 +25,11 @@
 //! cone responses. All lights near white have them; a single violet or red line may not. For gold under D65 both adaptations
 //! differ by less than 2e-4, and far from D65 by more.
 
+use std::str::FromStr;
+
 use glam::{DMat3, DVec3};
+
+use crate::physics::names::UnknownName;
 
 /// A linear space of red, green and blue.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,6 +53,15 @@ const WHITE_D65: [f64; 2] = [0.3127, 0.3290];
 
 /// The white of ACES: Academy TB-2018-001, *Derivation of the ACES White Point CIE Chromaticity Coordinates*.
 const WHITE_ACES: [f64; 2] = [0.32168, 0.33767];
+
+impl FromStr for Space {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Space, UnknownName> {
+        let found = Space::ALL.into_iter().find(|space| space.name() == name);
+        found.ok_or_else(|| UnknownName::new("space", name, &Space::ALL.map(Space::name)))
+    }
+}
 
 impl Space {
     /// All of them.

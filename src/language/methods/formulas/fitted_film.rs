@@ -1,5 +1,5 @@
-//! `F = c0 + t (c1 + y (c2 + q (c3 + g² (c4 + b c5))))`, `t = 1/√(c + .084)`, `y = c (c + .106)`, `q = 1/√(c + .033)`, `g = 1 - c`,
-//! `b = 2^(-12.5 c)`, c = cos θ: six coefficients a channel, for a material under films.
+//! `F = c0 + t (c1 + y (c2 + q (c3 + g² (c4 + b c5))))`, `t = 1/√(c + .084)`, `y = c (c + .102)`, `q = 1/√(c + .031)`, `g = 1 - c`,
+//! `b = 2^(-12.7 c)`, c = cos θ: six coefficients a channel, for a material under films.
 //!
 //! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. A film of
 //! fixed thickness is one more F of the cosine, and few terms follow it: fringes of one wavelength are sharp, those of a third of the
@@ -16,10 +16,10 @@ use super::*;
 const SHAPE: Shape = Shape {
     factors: &[
         Factor::Root(0.084),
-        Factor::Rising(0.106),
-        Factor::Root(0.033),
+        Factor::Rising(0.102),
+        Factor::Root(0.031),
         Factor::Grazing(2),
-        Factor::Exponential(12.5),
+        Factor::Exponential(12.7),
     ],
 };
 
@@ -29,18 +29,18 @@ pub static METHOD: Method = Method {
     summary: "six coefficients fitted to a material under films",
     formula: &[
         "F = c0 + t (c1 + y (c2 + q (c3 + g^2 (c4 + b c5)))), limited to [0, 1]",
-        "t = 1/sqrt(c + 0.084), y = c (c + 0.106), q = 1/sqrt(c + 0.033), g = 1 - c, b = 2^(-12.5 c)",
+        "t = 1/sqrt(c + 0.084), y = c (c + 0.102), q = 1/sqrt(c + 0.031), g = 1 - c, b = 2^(-12.7 c)",
     ],
     inputs: &Input::COEFFICIENTS,
     class: Class::Film,
     claims: Claims {
         model: &[
-            Claim::dielectrics(0.001, 74.4),
-            Claim::metals(0.001, 23.8),
+            Claim::dielectrics(0.001, 30.3),
+            Claim::metals(0.0041, 33.1),
         ],
-        code_ulp: 8.0,
+        code_ulp: 22.0,
         code_over: MediaSet::Metals,
-        by_class: &[ByClass::of_class("film", [0.0015, 0.015], [0.003, 0.03], 0.02)],
+        by_class: &[ByClass::of_class("film", [0.0015, 0.015], [0.0014, 0.0124], 0.0146)],
         ..Claims::NONE
     },
     half: InHalf::within_over(0.0028, MediaSet::Metals, FLOOR).materials_within(0.0026),
@@ -56,8 +56,8 @@ mod tests {
     #[test]
     fn it_is_the_sum_of_its_terms() {
         // At normal incidence g and what follows it vanish, at grazing y.
-        let (t, q) = (1.0 / 1.084_f64.sqrt(), 1.0 / 1.033_f64.sqrt());
-        let sum = 0.3 + t * (0.2 + 1.106 * (0.1 + q * 0.05));
+        let (t, q) = (1.0 / 1.084_f64.sqrt(), 1.0 / 1.031_f64.sqrt());
+        let sum = 0.3 + t * (0.2 + 1.102 * (0.1 + q * 0.05));
         check(&METHOD, 1.0, &[0.3, 0.2, 0.1, 0.05, 9.0, 9.0], sum);
         check(&METHOD, 0.0, &[0.3, 0.1, 9.0, 9.0, 9.0, 9.0], 0.3 + 0.1 / 0.084_f64.sqrt());
     }
