@@ -104,7 +104,8 @@ impl AuditFlags {
         let command = defined.fold(command, |command, one| command.list("define", [one]));
         arguments
             .fold(command, |command, one| command.list("arg", [one]))
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list("medium", &self.medium.medium)
             .seen_as(viewing)
             .list("gpu", &self.gpu)

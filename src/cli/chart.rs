@@ -61,7 +61,8 @@ impl ChartFlags {
     pub fn command_line(&self) -> CommandLine {
         let unless = |usual: &'static str, name: &'static str| (name != usual).then_some(name);
         CommandLine::new("chart")
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list("show", &self.show)
             .list("of", unless("median", self.of))
             .list("gpu", unless("rdna2", self.gpu))

@@ -47,6 +47,11 @@ fn with_names(command: Command, above: &str) -> Command {
     command.mut_subcommands(|below| with_names(below, &here))
 }
 
+/// Materials of the catalogue, and those under films.
+fn known() -> impl Iterator<Item = &'static str> {
+    materials::names().into_iter().chain(materials::stacks())
+}
+
 /// The names that a flag or a list accepts.
 fn names(list: &str) -> Option<Vec<&'static str>> {
     let all = ["all"].into_iter();
@@ -57,8 +62,9 @@ fn names(list: &str) -> Option<Vec<&'static str>> {
         "targets" => targets::ALL.iter().map(|one| one.name).collect(),
         "effect" => all.chain(effects::ALL.iter().map(|one| one.name)).collect(),
         "effects" => effects::ALL.iter().map(|one| one.name).collect(),
-        "material" => all.chain(materials::names()).collect(),
-        "materials" | "medium" => materials::names(),
+        "material" => all.chain(known()).collect(),
+        "materials" => known().collect(),
+        "medium" => materials::names(),
         "gpu" => FAMILIES.iter().map(|one| one.name).collect(),
         "space" => Space::ALL.map(Space::name).to_vec(),
         "illuminant" => Illuminant::NAMED.iter().map(Illuminant::name).collect(),

@@ -83,7 +83,8 @@ impl CostFlags {
             .list("gpu", &self.gpu)
             .list("method", &self.method)
             .list("effect", &self.effect)
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list(
                 "precision",
                 self.precision.iter().map(|precision| precision.name()),

@@ -84,7 +84,8 @@ impl FitFlags {
         let weight = (self.weight != Weight::default()).then_some(self.weight.name());
         CommandLine::new("fit")
             .switch("search", self.search)
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list("terms", self.terms)
             .list("weight", weight)
             .list("exact", &self.exact)

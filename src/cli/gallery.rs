@@ -35,7 +35,9 @@ pub struct GalleryFlags {
 impl GalleryFlags {
     /// The command that makes the page again, without paths.
     pub fn command_line(&self) -> CommandLine {
-        CommandLine::new("gallery").list("material", self.materials.choices()).each("film", &self.materials.film)
+        CommandLine::new("gallery")
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
     }
 }
 

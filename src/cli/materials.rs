@@ -208,10 +208,17 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
 }
 
 fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
-    let all = materials::list()?;
+    let mut all = materials::list()?;
     check_substance(filter, &all)?;
-    let wanted =
-        |m: &&Material| filter.class.is_none_or(|kind| m.kind == kind) && admits(filter, m);
+    for stack in materials::stacks().into_iter().filter_map(materials::find) {
+        all.push(stack?);
+    }
+    // A stack is of no class: what lies below says little of it.
+    let is_of = |m: &Material| {
+        let of_class = |kind| m.kind == kind && m.films.is_empty();
+        filter.class.is_none_or(of_class)
+    };
+    let wanted = |m: &&Material| is_of(m) && admits(filter, m);
     let chosen: Vec<&Material> = all.iter().filter(wanted).collect();
     let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
     let text = table::text_table(&["name", "class", "known in nm", "summary"], &rows);
@@ -262,7 +269,7 @@ fn range(m: &Material) -> String {
 fn row(m: &Material) -> Vec<String> {
     vec![
         m.name.clone(),
-        m.kind.name().to_owned(),
+        m.class_name().to_owned(),
         range(m),
         m.summary.clone(),
     ]
@@ -279,6 +286,9 @@ struct MaterialRow<'a> {
     summary: &'a str,
     source: String,
     class: &'static str,
+    /// The films on it, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    films: Option<String>,
     substance: &'a str,
     recommended: bool,
     licence: &'a str,
@@ -296,7 +306,8 @@ impl MaterialRow<'_> {
             name: &m.name,
             summary: &m.summary,
             source: origin(m),
-            class: m.kind.name(),
+            class: m.class_name(),
+            films: m.films_in_words(),
             substance: &m.substance,
             recommended: m.is_recommended(),
             licence: &m.licence,
@@ -430,7 +441,7 @@ fn text(m: &Material) -> String {
     let films = m.films_in_words().unwrap_or_default();
     let fields = [
         ("films", films.as_str()),
-        ("class", m.kind.name()),
+        ("class", m.class_name()),
         ("substance", &m.substance),
         ("known in nm", &range(m)),
         ("reference", &m.reference),

@@ -106,7 +106,8 @@ impl SceneErrorFlags {
             .list("size", size)
             .list("fov", fov)
             .list("method", &self.method)
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list("medium", &self.medium.medium)
             .seen_as(viewing)
     }

@@ -51,7 +51,8 @@ impl StabilityFlags {
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("stability")
             .list("method", &self.method)
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list("precision", self.precision.map(Precision::name))
     }
 }

@@ -91,7 +91,8 @@ impl TimeFlags {
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("time")
             .list("method", &self.method)
-            .list("material", self.materials.choices()).each("film", &self.materials.film)
+            .list("material", self.materials.choices())
+            .each("film", &self.materials.film)
             .list(
                 "precision",
                 self.precision.iter().map(|precision| precision.name()),

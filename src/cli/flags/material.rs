@@ -39,7 +39,8 @@ impl MaterialName {
     pub fn parse(word: &str) -> Result<MaterialName, UnknownName> {
         let is_known = materials::source(word).is_some();
         if !is_known && !is_path(word) {
-            return Err(UnknownName::new("material", word, &materials::names()));
+            let known = [materials::names(), materials::stacks()].concat();
+            return Err(UnknownName::new("material", word, &known));
         }
         Ok(MaterialName {
             word: word.to_owned(),

@@ -143,7 +143,11 @@ impl TableMaterial {
                 format!("{name}_in_{}", medium.name)
             }),
             argument: argument.to_owned(),
-            films: material.film_arguments().into_iter().map(str::to_owned).collect(),
+            films: material
+                .film_arguments()
+                .into_iter()
+                .map(str::to_owned)
+                .collect(),
             medium: medium.map(|(argument, _)| argument.clone()),
             space: is_spectral.then_some(viewing.integration.space),
             reference: ReferenceCurve::new(surface, Light::Unpolarised),

@@ -181,7 +181,10 @@ impl Run<'_> {
         CommandLine::new("fresnel-gen")
             .list("flavour", [flavour.name])
             .list("material", names)
-            .each("film", first.map_or(Vec::new(), |one| one.material.film_arguments()))
+            .each(
+                "film",
+                first.map_or(Vec::new(), |one| one.material.film_arguments()),
+            )
             .list("medium", medium.map(|(argument, _)| argument))
             .seen_on(
                 &self.request.viewing,

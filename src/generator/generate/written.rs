@@ -182,7 +182,10 @@ impl Run<'_> {
             .list("effect", effect.map(|effect| effect.name))
             .list("method", methods)
             .list("material", subject.map(|subject| &subject.argument))
-            .each("film", subject.map_or(Vec::new(), |one| one.material.film_arguments()))
+            .each(
+                "film",
+                subject.map_or(Vec::new(), |one| one.material.film_arguments()),
+            )
             .list("medium", medium.map(|(argument, _)| argument))
             .list("prefix", Naming::flag_of_prefix(&request.prefix))
             .list("precision", precision.map(Precision::name))

@@ -84,17 +84,14 @@ impl MaterialInMedium {
 
     /// The name of its class: film, metal, semiconductor or dielectric.
     pub fn class(&self) -> &'static str {
-        if self.has_films() {
-            "film"
-        } else {
-            self.material.kind.name()
-        }
+        self.material.class_name()
     }
 
     /// Whether the exact law for dielectrics describes it.
     fn is_glass(&self) -> bool {
         !self.has_films()
-            && self.material.kind == MaterialKind::Dielectric && self.effective.channels.is_transparent()
+            && self.material.kind == MaterialKind::Dielectric
+            && self.effective.channels.is_transparent()
     }
 
     /// Whether a method describes it. Films ask for a method that takes any reflectance. The exact laws for dielectrics take no k, and that for metals no small one. Fitted

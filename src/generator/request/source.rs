@@ -329,8 +329,13 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
         Source::Named(word) if ConstantIndex::parse(word).is_some() => constant(word),
         Source::Named(name) | Source::BroughtAlong(name) => {
             let found = materials::find(name).zip(materials::source(name));
-            let (material, text) =
-                found.ok_or_else(|| unknown("material", name, &materials::names()))?;
+            let (material, text) = found.ok_or_else(|| {
+                unknown(
+                    "material",
+                    name,
+                    &[materials::names(), materials::stacks()].concat(),
+                )
+            })?;
             Ok(Loaded {
                 material: material?,
                 argument: name.clone(),

@@ -27,8 +27,6 @@ pub enum Factor {
     Square(f64),
     /// `c + p`: used by the next ones.
     Shifted(f64),
-    /// `c (c + p)`.
-    Rising(f64),
     /// `1 / (c + p)`.
     Reciprocal(f64),
     /// `1 / √(c + p)`.
@@ -53,6 +51,7 @@ impl Shape {
             c: x.cosine(),
             is_half: x.is_half(),
             known: Vec::new(),
+            taken: Vec::new(),
         };
         let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
         for (factor, input) in self.factors.iter().zip(self.inputs()).rev() {
@@ -92,7 +91,6 @@ impl Factor {
             Factor::Cosine => c,
             Factor::Square(e) => c * c + e,
             Factor::Shifted(p) => c + p,
-            Factor::Rising(p) => c * (c + p),
             Factor::Reciprocal(p) => 1.0 / (c + p),
             Factor::Root(p) => 1.0 / (c + p).sqrt(),
             Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
@@ -111,7 +109,6 @@ impl fmt::Display for Factor {
             Factor::Cosine => write!(out, "c"),
             Factor::Square(e) => write!(out, "(c^2 + {e})"),
             Factor::Shifted(p) => write!(out, "(c + {p})"),
-            Factor::Rising(p) => write!(out, "c (c + {p})"),
             Factor::Reciprocal(p) => write!(out, "1/(c + {p})"),
             Factor::Root(p) => write!(out, "1/sqrt(c + {p})"),
             Factor::Peak(e, p) => write!(out, "(1/(c^2 + {e}) - 1/sqrt(c + {p}))"),
@@ -137,6 +134,7 @@ struct Made<'b> {
     c: Expr<'b>,
     is_half: bool,
     known: Vec<(Factor, Expr<'b>)>,
+    taken: Vec<&'static str>,
 }
 
 impl<'b> Made<'b> {
@@ -150,36 +148,38 @@ impl<'b> Made<'b> {
         made
     }
 
-    fn has(&self, is_meant: fn(&Factor) -> bool) -> bool {
-        self.known.iter().any(|(factor, _)| is_meant(factor))
+    /// The first of these names that no factor has yet.
+    fn free<const N: usize>(&mut self, names: [&'static str; N]) -> &'static str {
+        let is_free = |name: &&'static str| !self.taken.contains(name);
+        let name = names.into_iter().find(is_free);
+        let name = name.expect("no shape has so many factors of a kind");
+        self.taken.push(name);
+        name
     }
 
     fn make(&mut self, factor: Factor) -> Expr<'b> {
         let c = self.c;
         match factor {
             Factor::Grazing(1) => {
-                let is_taken = self.has(|other| matches!(other, Factor::Exponential(_)));
-                let name = if is_taken { "g" } else { "b" };
+                let name = self.free(["b", "g"]);
                 (1.0 - c).named(name, "0 at normal incidence, 1 at grazing")
             }
             Factor::Grazing(p) if self.is_half => power_in_half(c, p),
             Factor::Grazing(p) => power(self.factor(Factor::Grazing(1)), p),
             Factor::Exponential(a) => {
                 let b = (-a * c).exp2();
-                b.named("b", "small at normal incidence, 1 at grazing")
+                b.named(
+                    self.free(["b", "e"]),
+                    "small at normal incidence, 1 at grazing",
+                )
             }
             Factor::Cosine => c,
-            Factor::Square(e) => (c * c + e).named("q", ""),
+            Factor::Square(e) => (c * c + e).named(self.free(["q", "s", "u"]), ""),
             Factor::Shifted(p) => (c + p).named("l", ""),
-            Factor::Rising(p) => (c * (c + p)).named("y", "0 at grazing"),
             Factor::Reciprocal(p) => (1.0 / self.factor(Factor::Shifted(p))).named("r", ""),
             Factor::Root(p) => {
-                // A second one has a name of its own, and no name for its sum.
-                if self.has(|other| matches!(other, Factor::Root(_))) {
-                    return (c + p).inverse_sqrt().named("t", "");
-                }
                 let root = self.factor(Factor::Shifted(p)).inverse_sqrt();
-                root.named("q", "")
+                root.named(self.free(["q", "t"]), "")
             }
             Factor::Peak(e, p) => {
                 let root = self.factor(Factor::Root(p));

@@ -218,7 +218,11 @@ fn formula_fault(formula: &Formula) -> Option<String> {
     }
 }
 
-pub(super) fn check_name(field: &str, name: &Spanned<String>, place: &FileText) -> Result<(), FileFault> {
+pub(super) fn check_name(
+    field: &str,
+    name: &Spanned<String>,
+    place: &FileText,
+) -> Result<(), FileFault> {
     name_fault(name.get_ref()).map_or(Ok(()), |why| {
         let what = format!("field `{field}`: `{}` is no name: {why}", name.get_ref());
         Err(place.fault(name.span().start, what))

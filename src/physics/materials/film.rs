@@ -121,6 +121,15 @@ impl Material {
         Ok(self)
     }
 
+    /// The name of its class: film where films lie on it, else metal, semiconductor or dielectric.
+    pub fn class_name(&self) -> &'static str {
+        if self.films.is_empty() {
+            self.kind.name()
+        } else {
+            "film"
+        }
+    }
+
     /// Its films in words, outermost first; none if it has none.
     pub fn films_in_words(&self) -> Option<String> {
         let film = |film: &Film| format!("{} nm of {}", film.thickness_nm, film.material.name);
@@ -147,7 +156,8 @@ impl Material {
         ] {
             place.one_line(field, value)?;
         }
-        let base = named(raw.base.get_ref()).map_err(|why| place.fault(raw.base.span().start, why))?;
+        let base =
+            named(raw.base.get_ref()).map_err(|why| place.fault(raw.base.span().start, why))?;
         let film = |word: &Spanned<String>| {
             let at = |why: String| place.fault(word.span().start, why);
             let (name, thickness_nm) =
@@ -193,7 +203,14 @@ fn named(word: &str) -> Result<Material, String> {
 }
 
 const FIELDS: [&str; 8] = [
-    "name", "summary", "base", "films", "licence", "reference", "link", "note",
+    "name",
+    "summary",
+    "base",
+    "films",
+    "licence",
+    "reference",
+    "link",
+    "note",
 ];
 
 #[derive(Deserialize)]
@@ -225,10 +242,24 @@ mod tests {
         ] {
             assert_eq!(film_of_word(word), Ok(want));
         }
-        for word in ["gold", ":60nm", "gold:", "gold:60", "gold:nm", "gold:60mm", "gold:1m"] {
+        for word in [
+            "gold",
+            ":60nm",
+            "gold:",
+            "gold:60",
+            "gold:nm",
+            "gold:60mm",
+            "gold:1m",
+        ] {
             assert!(film_of_word(word).is_err(), "{word}");
         }
-        for word in ["gold:-1nm", "gold:NaNnm", "gold:infnm", "gold:1000000um", "gold:4um"] {
+        for word in [
+            "gold:-1nm",
+            "gold:NaNnm",
+            "gold:infnm",
+            "gold:1000000um",
+            "gold:4um",
+        ] {
             let fault = film_of_word(word).unwrap_err();
             assert!(matches!(fault, FilmFault::Length(_)), "{word}: {fault}");
         }
@@ -246,17 +277,34 @@ mod tests {
     #[test]
     fn names_follow_the_films() {
         let titanium = named("titanium").unwrap();
-        let anodised = titanium.under_films(vec![film("titanium_dioxide:62.5nm")]).unwrap();
+        let anodised = titanium
+            .under_films(vec![film("titanium_dioxide:62.5nm")])
+            .unwrap();
         assert_eq!(anodised.name, "titanium_film_titanium_dioxide_62_5nm");
-        let oiled = anodised.clone().under_films(vec![film("1.45:300nm")]).unwrap();
-        let below: Vec<&str> = oiled.films.iter().map(|film| &*film.material.name).collect();
+        let oiled = anodised
+            .clone()
+            .under_films(vec![film("1.45:300nm")])
+            .unwrap();
+        let below: Vec<&str> = oiled
+            .films
+            .iter()
+            .map(|film| &*film.material.name)
+            .collect();
         assert_eq!(below, ["index_1_45", "titanium_dioxide"]);
-        assert_eq!(oiled.film_arguments(), ["1.45:300nm", "titanium_dioxide:62.5nm"]);
+        assert_eq!(
+            oiled.film_arguments(),
+            ["1.45:300nm", "titanium_dioxide:62.5nm"]
+        );
         let many = vec![film("1.45:300nm"); 5];
         let fault = anodised.clone().under_films(many).unwrap_err();
         assert!(fault.contains("a file with a name of its own"), "{fault}");
         let too_many = vec![film("1.45:300nm"); MOST_FILMS];
-        assert!(anodised.under_films(too_many).unwrap_err().contains("101 films"));
+        assert!(
+            anodised
+                .under_films(too_many)
+                .unwrap_err()
+                .contains("101 films")
+        );
     }
 
     #[test]
@@ -267,7 +315,12 @@ mod tests {
         assert_eq!((purple.name.as_str(), purple.films.len()), ("purple", 1));
         assert_eq!(purple.film_arguments(), [""; 0]);
         let wrong = text.replace("titanium_dioxide:50nm", "titanium_dioxid:50nm");
-        let fault = Material::parse("purple.toml", &wrong).unwrap_err().to_string();
-        assert!(fault.contains("purple.toml:4:") && fault.contains("titanium_dioxide"), "{fault}");
+        let fault = Material::parse("purple.toml", &wrong)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            fault.contains("purple.toml:4:") && fault.contains("titanium_dioxide"),
+            "{fault}"
+        );
     }
 }

@@ -22,4 +22,6 @@ pub use film::{Film, FilmFault, film_of_word};
 pub use formula::{DispersionCurve, Extrapolate, Formula};
 pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;
-pub use surface::{AtWavelength, Channels, Surface, SurfaceError, THESIS_NM, ViewingConditions, surfaces_of};
+pub use surface::{
+    AtWavelength, Channels, Surface, SurfaceError, THESIS_NM, ViewingConditions, surfaces_of,
+};

@@ -9,8 +9,8 @@
 
 use glam::DVec3;
 
-use super::formula::Extrapolate;
 use super::film::Film;
+use super::formula::Extrapolate;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{Layer, Reflectance, under_films};
@@ -185,7 +185,8 @@ impl Surface {
 
     /// The reflectance of each channel for unpolarised light, without gamut mapping.
     pub fn unpolarised(&self, cos_theta: f64) -> DVec3 {
-        self.integrator.colour(&self.unpolarised_spectrum(cos_theta))
+        self.integrator
+            .colour(&self.unpolarised_spectrum(cos_theta))
     }
 
     /// The reflectance at each wavelength for unpolarised light.

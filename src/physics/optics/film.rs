@@ -175,7 +175,10 @@ mod tests {
                 for layer in [Layer { n, k, waves: 0.37 }, clear(1.0, 0.81)] {
                     let got = under_films(&[layer], n, k, c);
                     let apart = (got.s - want.s).abs().max((got.p - want.p).abs());
-                    assert!(apart < 1e-13, "{n} {k} {degrees} {layer:?}: {got:?} {want:?}");
+                    assert!(
+                        apart < 1e-13,
+                        "{n} {k} {degrees} {layer:?}: {got:?} {want:?}"
+                    );
                 }
             }
         }
@@ -283,7 +286,10 @@ mod tests {
         for c in [critical, critical - 1e-12, critical + 1e-12] {
             let near = gap(0.3, c);
             let at = gap(0.3, 0.8);
-            assert!((near.s - at.s).abs() < 1e-9 && (near.p - at.p).abs() < 1e-9, "{near:?}");
+            assert!(
+                (near.s - at.s).abs() < 1e-9 && (near.p - at.p).abs() < 1e-9,
+                "{near:?}"
+            );
         }
         assert_eq!(gap(0.3, 0.0), Reflectance { s: 1.0, p: 1.0 });
     }

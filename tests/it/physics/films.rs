@@ -1,7 +1,9 @@
 //! Reflectance under films beside two independent computations: PyPI's package `tmm` (`tests/reference/film_stacks.py`), and colours
 //! of films from spectra (`tests/reference/film.csv`).
 
-use fresnel_gen::physics::materials::{self, Film, Index, Surface, ViewingConditions, film_of_word};
+use fresnel_gen::physics::materials::{
+    self, Film, Index, Surface, ViewingConditions, film_of_word,
+};
 use fresnel_gen::physics::materials::{ConstantIndex, Material};
 use fresnel_gen::physics::optics::{Layer, cosine, under_films};
 use fresnel_gen::physics::spectra::Gamut;
@@ -25,12 +27,7 @@ fn it_agrees_with_tmm_over_random_stacks() {
     let mut worst = (0.0, Vec::new());
     for row in rows {
         let [c, outside, n, k, s, p] = [0, 1, 2, 3, 4, 5].map(|i| number(&row[i]));
-        let relative = |n: f64, k: f64| {
-            Index { n, k }.relative_to(Index {
-                n: outside,
-                k: 0.0,
-            })
-        };
+        let relative = |n: f64, k: f64| Index { n, k }.relative_to(Index { n: outside, k: 0.0 });
         let words: Vec<f64> = row[6].split(' ').map(number).collect();
         let layers = words.chunks(3).map(|layer| {
             let Index { n, k } = relative(layer[0], layer[1]);

@@ -1,5 +1,5 @@
-//! `F = c0 + t (c1 + y (c2 + q (c3 + g² (c4 + b c5))))`, `t = 1/√(c + .084)`, `y = c (c + .102)`, `q = 1/√(c + .031)`, `g = 1 - c`,
-//! `b = 2^(-12.7 c)`, c = cos θ: six coefficients a channel, for a material under films.
+//! `F = c0 + u (c1 + w (c2 + s (c3 + b (c4 + q c5))))`, `u = c² - .945`, `w = (1 - c)²/(1 + 8.6 c)`, `s = c² - 2`, `b = 2^(-7.6 c)`,
+//! `q = 1/√(c + .176)`, c = cos θ: six coefficients a channel, for a material under films.
 //!
 //! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. A film of
 //! fixed thickness is one more F of the cosine, and few terms follow it: fringes of one wavelength are sharp, those of a third of the
@@ -15,11 +15,11 @@ use super::*;
 /// The shape.
 const SHAPE: Shape = Shape {
     factors: &[
-        Factor::Root(0.084),
-        Factor::Rising(0.102),
-        Factor::Root(0.031),
-        Factor::Grazing(2),
-        Factor::Exponential(12.7),
+        Factor::Square(-0.945),
+        Factor::Bent(8.6),
+        Factor::Square(-2.0),
+        Factor::Exponential(7.6),
+        Factor::Root(0.176),
     ],
 };
 
@@ -28,19 +28,21 @@ pub static METHOD: Method = Method {
     name: "fitted_film",
     summary: "six coefficients fitted to a material under films",
     formula: &[
-        "F = c0 + t (c1 + y (c2 + q (c3 + g^2 (c4 + b c5)))), limited to [0, 1]",
-        "t = 1/sqrt(c + 0.084), y = c (c + 0.102), q = 1/sqrt(c + 0.031), g = 1 - c, b = 2^(-12.7 c)",
+        "F = c0 + u (c1 + w (c2 + s (c3 + b (c4 + q c5)))), limited to [0, 1]",
+        "u = c^2 - 0.945, w = (1 - c)^2/(1 + 8.6 c), s = c^2 - 2, b = 2^(-7.6 c), q = 1/sqrt(c + 0.176)",
     ],
     inputs: &Input::COEFFICIENTS,
     class: Class::Film,
     claims: Claims {
-        model: &[
-            Claim::dielectrics(0.001, 30.3),
-            Claim::metals(0.0041, 33.1),
-        ],
-        code_ulp: 22.0,
+        model: &[Claim::dielectrics(0.001, 30.3), Claim::metals(0.0041, 33.1)],
+        code_ulp: 8.0,
         code_over: MediaSet::Metals,
-        by_class: &[ByClass::of_class("film", [0.0015, 0.015], [0.0014, 0.0124], 0.0146)],
+        by_class: &[ByClass::of_class(
+            "film",
+            [0.0015, 0.0157],
+            [0.0018, 0.0122],
+            0.0150,
+        )],
         ..Claims::NONE
     },
     half: InHalf::within_over(0.0028, MediaSet::Metals, FLOOR).materials_within(0.0026),
@@ -55,10 +57,11 @@ mod tests {
 
     #[test]
     fn it_is_the_sum_of_its_terms() {
-        // At normal incidence g and what follows it vanish, at grazing y.
-        let (t, q) = (1.0 / 1.084_f64.sqrt(), 1.0 / 1.031_f64.sqrt());
-        let sum = 0.3 + t * (0.2 + 1.102 * (0.1 + q * 0.05));
-        check(&METHOD, 1.0, &[0.3, 0.2, 0.1, 0.05, 9.0, 9.0], sum);
-        check(&METHOD, 0.0, &[0.3, 0.1, 9.0, 9.0, 9.0, 9.0], 0.3 + 0.1 / 0.084_f64.sqrt());
+        // At normal incidence w and what follows it vanish.
+        check(&METHOD, 1.0, &[0.3, 0.2, 9.0, 9.0, 9.0, 9.0], 0.311);
+        let q = 1.0 / 0.176_f64.sqrt();
+        let sum = 0.9 - 0.945 * (0.1 + 0.2 - 2.0 * (0.05 + 0.02 + q * 0.01));
+        check(&METHOD, 0.0, &[0.9, 0.1, 0.2, 0.05, 0.02, 0.01], sum);
+        check(&METHOD, 0.0, &[-0.5, 0.0, 0.0, 0.0, 0.0, 0.0], 0.0);
     }
 }
