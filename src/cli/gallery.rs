@@ -55,6 +55,12 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
         ..Request::default()
     };
     let found = request.subjects()?;
+    if let Some((filmed, _)) = found.ready.iter().find(|(material, _)| material.has_films()) {
+        return Err(Error::usage(format!(
+            "the material `{}` is under films, and a gallery shows bare materials",
+            filmed.name
+        )));
+    }
     let mut remarks = found.left_out_lines();
     let space = request.viewing.integration.space;
     let gallery = gallery(&found.materials(), space, progress);

@@ -195,6 +195,12 @@ fn material(flags: &RenderFlags) -> Result<Material, Error> {
         None => Source::Named(flags.name.material.to_owned()),
     };
     let material = load(&source)?.material;
+    if let Some(films) = material.films_in_words() {
+        return Err(Error::usage(format!(
+            "the material `{}` is under films ({films}), and an effect is drawn of a bare material",
+            material.name
+        )));
+    }
     if flags.name.is_transparent() && material.kind != MaterialKind::Dielectric {
         return Err(Error::usage(format!(
             "the material `{}` is a {}; {} wants a dielectric",

@@ -20,6 +20,7 @@ mod domains;
 mod effects;
 mod exhaustive;
 mod f82;
+mod films;
 mod fits;
 mod flavours;
 mod furnace;

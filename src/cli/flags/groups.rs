@@ -8,8 +8,8 @@ const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Everyday",
         &[
-            "target", "flavour", "method", "effect", "material", "medium", "output", "out_dir",
-            "check", "quiet",
+            "target", "flavour", "method", "effect", "material", "film", "medium", "output",
+            "out_dir", "check", "quiet",
         ],
     ),
     (

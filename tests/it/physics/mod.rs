@@ -242,7 +242,7 @@ fn dielectric_methods_say_the_same_in_both_forms() {
             method.function(false).expect("good"),
             method.function(true).expect("good"),
         );
-        assert!(method.class == Class::Any || method.class == Class::Dielectric);
+        assert_ne!(method.class, Class::Metal);
         for arguments in arguments(method) {
             for cos_theta in [0.0, 0.1, 0.5, 1.0] {
                 let (a, b) = (

@@ -1,5 +1,5 @@
-//! `F = c0 + u (c1 + w (c2 + s (c3 + b (c4 + q c5))))`, `u = c² - .945`, `w = (1 - c)²/(1 + 8.6 c)`, `s = c² - 2`, `b = 2^(-7.6 c)`,
-//! `q = 1/√(c + .176)`, c = cos θ: six coefficients a channel, for a material under films.
+//! `F = c0 + u (c1 + w (c2 + u (c3 + b (c4 + q c5))))`, `u = c² - .96`, `w = (1 - c)²/(1 + 9.1 c)`, `b = 2^(-8.3 c)`,
+//! `q = 1/√(c + .2)`, c = cos θ: six coefficients a channel, for a material under films.
 //!
 //! Source: ours, as [`fitted`](crate::language::methods::formulas::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. A film of
 //! fixed thickness is one more F of the cosine, and few terms follow it: fringes of one wavelength are sharp, those of a third of the
@@ -15,11 +15,11 @@ use super::*;
 /// The shape.
 const SHAPE: Shape = Shape {
     factors: &[
-        Factor::Square(-0.945),
-        Factor::Bent(8.6),
-        Factor::Square(-2.0),
-        Factor::Exponential(7.6),
-        Factor::Root(0.176),
+        Factor::Square(-0.96),
+        Factor::Bent(9.1),
+        Factor::Square(-0.96),
+        Factor::Exponential(8.3),
+        Factor::Root(0.2),
     ],
 };
 
@@ -28,20 +28,20 @@ pub static METHOD: Method = Method {
     name: "fitted_film",
     summary: "six coefficients fitted to a material under films",
     formula: &[
-        "F = c0 + u (c1 + w (c2 + s (c3 + b (c4 + q c5)))), limited to [0, 1]",
-        "u = c^2 - 0.945, w = (1 - c)^2/(1 + 8.6 c), s = c^2 - 2, b = 2^(-7.6 c), q = 1/sqrt(c + 0.176)",
+        "F = c0 + u (c1 + w (c2 + u (c3 + b (c4 + q c5)))), limited to [0, 1]",
+        "u = c^2 - 0.96, w = (1 - c)^2/(1 + 9.1 c), b = 2^(-8.3 c), q = 1/sqrt(c + 0.2)",
     ],
     inputs: &Input::COEFFICIENTS,
     class: Class::Film,
     claims: Claims {
-        model: &[Claim::dielectrics(0.001, 30.3), Claim::metals(0.0041, 33.1)],
+        model: &[Claim::dielectrics(0.0011, 33.8), Claim::metals(0.0042, 37.7)],
         code_ulp: 8.0,
         code_over: MediaSet::Metals,
         by_class: &[ByClass::of_class(
             "film",
-            [0.0015, 0.0157],
-            [0.0018, 0.0122],
-            0.0150,
+            [0.0015, 0.0158],
+            [0.0019, 0.0125],
+            0.0152,
         )],
         ..Claims::NONE
     },
@@ -58,9 +58,9 @@ mod tests {
     #[test]
     fn it_is_the_sum_of_its_terms() {
         // At normal incidence w and what follows it vanish.
-        check(&METHOD, 1.0, &[0.3, 0.2, 9.0, 9.0, 9.0, 9.0], 0.311);
-        let q = 1.0 / 0.176_f64.sqrt();
-        let sum = 0.9 - 0.945 * (0.1 + 0.2 - 2.0 * (0.05 + 0.02 + q * 0.01));
+        check(&METHOD, 1.0, &[0.3, 0.2, 9.0, 9.0, 9.0, 9.0], 0.308);
+        let q = 1.0 / 0.2_f64.sqrt();
+        let sum = 0.9 - 0.96 * (0.1 + 0.2 - 0.96 * (0.05 + 0.02 + q * 0.01));
         check(&METHOD, 0.0, &[0.9, 0.1, 0.2, 0.05, 0.02, 0.01], sum);
         check(&METHOD, 0.0, &[-0.5, 0.0, 0.0, 0.0, 0.0, 0.0], 0.0);
     }

@@ -1,0 +1,290 @@
+//! Materials under films: what physics says of their colours, the tables of `docs/films.md`, and `--film` in every command.
+
+use std::fs;
+use std::path::Path;
+
+use super::bless;
+use super::cli::Place;
+use super::fits::films;
+use super::physics::films::filmed;
+use super::readme::replaced;
+use fresnel_gen::lab::chart::{ChartData, FunctionOrigin, chart_data, set_name};
+use fresnel_gen::generator::reference::MaterialClass;
+use fresnel_gen::physics::materials::{self, Material, Surface, ViewingConditions};
+use fresnel_gen::physics::optics::cosine;
+use fresnel_gen::physics::spectra::{Gamut, Space, Step, xyz_to_lab};
+use glam::DVec3;
+
+fn surface(material: &Material, step: Step) -> Surface {
+    let mut viewing = ViewingConditions {
+        gamut: Gamut::Keep,
+        ..ViewingConditions::default()
+    };
+    viewing.integration.step = step;
+    Surface::new(material, None, &viewing).unwrap()
+}
+
+fn stack(name: &str) -> Material {
+    materials::find(name).unwrap().unwrap()
+}
+
+/// R at normal incidence, linear sRGB.
+fn f0(material: &Material) -> [f64; 3] {
+    surface(material, Step::default()).unpolarised(1.0).to_array()
+}
+
+/// The hue in degrees of what a material reflects, in CIELAB.
+fn hue(material: &Material) -> f64 {
+    let to_xyz = Space::Srgb.rgb_to_xyz();
+    let white = to_xyz * DVec3::ONE;
+    let lab = xyz_to_lab(to_xyz * DVec3::from_array(f0(material)), white);
+    lab.b.atan2(lab.a).to_degrees().rem_euclid(360.0)
+}
+
+/// Diamanti, Del Curto and Pedeferri 2008: gold, purple, blue as the oxide grows. In CIELAB yellow is about 90 degrees, purple 310
+/// and blue 270.
+#[test]
+fn titanium_turns_gold_then_purple_then_blue() {
+    let of = |nm: u32| hue(&filmed(&format!("titanium_dioxide:{nm}nm"), "titanium"));
+    for nm in [15, 20, 25] {
+        assert!((70.0..100.0).contains(&of(nm)), "{nm}: {}", of(nm));
+    }
+    assert!((295.0..330.0).contains(&of(40)), "{}", of(40));
+    for nm in [50, 55, 60] {
+        assert!((240.0..280.0).contains(&of(nm)), "{nm}: {}", of(nm));
+    }
+    for (name, from, to) in [("gold", 70.0, 100.0), ("purple", 295.0, 330.0), ("blue", 240.0, 280.0)] {
+        let hue = hue(&stack(&format!("anodised_titanium_{name}")));
+        assert!((from..to).contains(&hue), "{name}: {hue}");
+    }
+}
+
+/// Pliskin and Conrad 1964: 300 nm of oxide on silicon are blue to violet-blue.
+#[test]
+fn silicon_is_blue_under_its_oxide() {
+    let hue = hue(&stack("silica_on_silicon"));
+    assert!((265.0..305.0).contains(&hue), "{hue}");
+}
+
+#[test]
+fn soap_turns_black_before_it_bursts() {
+    let black = f0(&stack("soap_black"));
+    assert!(black.iter().all(|r| *r < 0.01), "{black:?}");
+    let thicker = f0(&stack("soap"));
+    assert!(thicker.iter().any(|r| *r > 0.05), "{thicker:?}");
+    // R falls as the square of the thickness.
+    let at = |nm: f64| f0(&filmed(&format!("water:{nm}nm"), "air"))[1];
+    assert!((at(2.0) / at(1.0) - 4.0).abs() < 0.01);
+}
+
+#[test]
+fn a_quarter_wave_takes_reflections_away_and_many_make_a_mirror() {
+    let (bare, coated) = (f0(&stack("bk7")), f0(&stack("magnesium_fluoride_on_glass")));
+    assert!(coated[1] < 0.35 * bare[1], "{coated:?} {bare:?}");
+    let mirror = f0(&stack("cold_mirror"));
+    assert!(mirror.iter().all(|r| *r > 0.9), "{mirror:?}");
+    // The least is where the thickness is a quarter of the wave in the film.
+    let film = filmed("1.2329:111.5nm", "1.52");
+    let surface = surface(&film, Step::default());
+    let spectrum = surface.unpolarised_spectrum(1.0);
+    let least = (0..spectrum.len()).min_by(|a, b| spectrum[*a].total_cmp(&spectrum[*b]));
+    let nm = surface.integrator.wavelengths[least.unwrap()];
+    assert!((nm - 4.0 * 1.2329 * 111.5).abs() <= 5.0, "{nm}");
+}
+
+#[test]
+fn fringes_move_to_shorter_waves_with_the_angle() {
+    let surface = surface(&filmed("1.2329:111.5nm", "1.52"), Step::default());
+    let mut last = f64::INFINITY;
+    for degrees in [0.0, 20.0, 30.0, 40.0] {
+        let both = surface.unpolarised_spectrum(cosine(degrees));
+        let least = (0..both.len()).min_by(|a, b| both[*a].total_cmp(&both[*b])).unwrap();
+        let nm = surface.integrator.wavelengths[least];
+        assert!(nm < last, "{degrees}: {nm} nm");
+        last = nm;
+    }
+}
+
+#[test]
+fn no_film_reflects_more_than_all() {
+    for subject in films("sample").iter().chain(&films("outside")) {
+        for degrees in [0.0, 30.0, 60.0, 85.0, 90.0] {
+            let spectrum = subject.reference.surface.unpolarised_spectrum(cosine(degrees));
+            assert!(spectrum.iter().all(|r| (0.0..=1.0).contains(r)), "{}", subject.name);
+        }
+    }
+}
+
+/// The usual step of 5 nm follows the fringes of the thickest film that is allowed.
+#[test]
+fn the_usual_step_follows_the_thickest_film() {
+    let mut worst: f64 = 0.0;
+    for (film, base) in [("1.5:3000nm", "gold"), ("water:3000nm", "air"), ("titanium_dioxide:3000nm", "titanium")] {
+        let material = filmed(film, base);
+        let [coarse, fine] = [Step::Nm5, Step::Nm1].map(|step| surface(&material, step));
+        for degrees in 0..=90 {
+            let c = cosine(f64::from(degrees));
+            let apart = coarse.unpolarised(c) - fine.unpolarised(c);
+            worst = worst.max(apart.abs().max_element());
+        }
+    }
+    println!("{worst}");
+    assert!(worst < 1e-3, "{worst}");
+}
+
+#[test]
+fn a_film_of_no_thickness_changes_no_bit() {
+    let (bare, none) = (stack("gold"), filmed("1.38:0nm", "gold"));
+    let [bare, none] = [bare, none].map(|material| surface(&material, Step::default()));
+    for degrees in [0.0, 45.0, 89.0, 90.0] {
+        let c = cosine(degrees);
+        assert_eq!(bare.unpolarised(c), none.unpolarised(c));
+    }
+}
+
+/// The methods of the first table, with the words for their inputs.
+const SHOWN: [(&str, bool, &str); 9] = [
+    ("schlick", false, "Schlick's, of the film's F0"),
+    ("schlick", true, "the same with its best F0"),
+    ("f82_tint", false, "`f82_tint`, of the film's F0 and F82"),
+    ("conductor_exact", false, "the exact law of one index a channel"),
+    ("belcour_decomposition", true, "`belcour_decomposition`, its best inputs"),
+    ("fitted", false, "`fitted`"),
+    ("fitted_five", false, "`fitted_five`"),
+    ("fitted_film", false, "**`fitted_film`**"),
+    ("table", false, "`table`, one fetch"),
+];
+
+fn errors_of_films(data: &ChartData, set: &str, entry: usize) -> f64 {
+    let found = data.sets.iter().find(|one| one.name == set).unwrap();
+    found.errors[entry].max_abs.unwrap()
+}
+
+fn films_table() -> String {
+    let data = ["sample", "outside"].map(|set| {
+        chart_data(&films(set), Space::Srgb, None, String::new(), &mut |_, _, _| ())
+    });
+    let costs = data[0].costs.iter().find(|axis| axis.name == "rdna2").unwrap();
+    let mut table = "| function | cost on RDNA 2 | median | 90th percentile | worst | films that had no part in a choice: median, 90th |\n\
+                     |---|---:|---:|---:|---:|---:|\n"
+        .to_owned();
+    for (name, is_best, words) in SHOWN {
+        let entry = data[0].entries.iter().position(|entry| {
+            matches!(&entry.function, FunctionOrigin::Method(method) if method.name == name)
+                && entry.is_best == is_best
+        });
+        let entry = entry.unwrap();
+        let error = |data: &ChartData, statistic| {
+            let set = set_name(MaterialClass::Films, statistic);
+            format!("{:.4}", errors_of_films(data, &set, entry))
+        };
+        let cost = costs.costs[entry].map_or("not recorded".to_owned(), |cost| cost.to_string());
+        let [median, most, worst] = ["median", "p90", "worst"].map(|one| error(&data[0], one));
+        let outside = ["median", "p90"].map(|one| error(&data[1], one)).join(", ");
+        table += &format!("| {words} | {cost} | {median} | {most} | {worst} | {outside} |\n");
+    }
+    table
+}
+
+fn stacks_table() -> String {
+    let mut table = "| name | what it is | films | R at 0 degrees |\n|---|---|---|---|\n".to_owned();
+    for name in materials::stacks() {
+        let stack = stack(name);
+        let films = match stack.films.len() {
+            count @ 4.. => format!("{count} layers"),
+            _ => stack.films_in_words().unwrap(),
+        };
+        let f0 = f0(&stack).map(|r| format!("{r:.3}")).join(", ");
+        table += &format!("| `{name}` | {} | {films} | {f0} |\n", stack.summary);
+    }
+    table
+}
+
+#[test]
+fn the_page_says_what_is_measured() {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/films.md"));
+    let text = fs::read_to_string(path).unwrap();
+    let text = replaced(&text, "films", &films_table());
+    let text = replaced(&text, "stacks", &stacks_table());
+    bless::check(path, text.as_bytes());
+}
+
+/// Every command that takes a material takes its films.
+#[test]
+fn commands_take_films() {
+    let place = Place::new();
+    let on = "--material titanium --film titanium_dioxide:60nm";
+    let name = "titanium_film_titanium_dioxide_60nm";
+    let shown = place.done(&format!("{on} --target gles -o -")).out;
+    assert!(shown.contains(&format!("fresnel_{name}(")), "{shown}");
+    assert!(shown.contains(on), "the command repeats it: {shown}");
+    place.done(&format!("{on} --target wgsl --quiet"));
+    let file = place.read(&format!("shaders-generated/wgsl/materials/{name}.wgsl"));
+    for method in ["", "_fitted", "_table"] {
+        assert!(file.contains(&format!("fn fresnel_{name}{method}(")), "{method}");
+    }
+    for line in [
+        format!("fit {on} --json -"),
+        format!("chart {on} --json -"),
+        format!("stability {on} --method fitted_film --json -"),
+        format!("cost {on} --method fitted_film --json -"),
+        format!("bake {on} --out-dir tables --json -"),
+        "materials params titanium --film titanium_dioxide:60nm --json -".to_owned(),
+        "materials params titanium --film titanium_dioxide:60nm --as openpbr".to_owned(),
+        "materials show titanium --film titanium_dioxide:60nm --json -".to_owned(),
+        format!("--flavour three {on} -o -"),
+    ] {
+        let ran = place.run(&line);
+        let is_done = ran.code == Some(0) || line.starts_with("cost") && ran.code == Some(3);
+        assert!(is_done || line.contains("flavour"), "{ran:?}");
+    }
+    assert!(place.path(&format!("tables/lut/{name}.exr")).is_file());
+}
+
+/// A stack with a name of its own, in a file.
+#[test]
+fn a_stack_of_ones_own_is_a_file() {
+    let place = Place::new();
+    let text = materials::source("oil_on_water").unwrap().replace("oil_on_water", "my_oil");
+    place.put("my_oil.toml", &text);
+    let shown = place.done("--material my_oil.toml --target wgsl -o -").out;
+    assert!(shown.contains("fn fresnel_my_oil("), "{shown}");
+    let more = place.done("--material my_oil.toml --film 1.33:20nm --target wgsl -o -").out;
+    assert!(more.contains("fn fresnel_my_oil_film_index_1_33_20nm("), "{more}");
+    place.put("my_oil.toml", text.replace("1.47:400nm", "1.47:400"));
+    place.refused("--material my_oil.toml -o -", &["my_oil.toml:4:", "nm or um"]);
+    place.put("my_oil.toml", text.replace("\"water\"", "\"watr\""));
+    place.refused("--material my_oil.toml -o -", &["my_oil.toml:3:", "water"]);
+}
+
+/// An answer or a clear error.
+#[test]
+fn wrong_films_are_refused() {
+    let place = Place::new();
+    let refused = |film: &str, says: &[&str]| {
+        place.refused_with(&["--material", "gold", "--film", film, "-o", "-"], says);
+    };
+    refused("1.38", &["a material and its thickness", "titanium_dioxide:60nm"]);
+    refused("1.38:100", &["nm or um"]);
+    refused("1.38:-1nm", &["0 to 3000 nm"]);
+    refused("1.38:NaNnm", &["0 to 3000 nm"]);
+    refused("1.38:1000000um", &["0 to 3000 nm", "--medium"]);
+    refused("0.5:10nm", &["from 1 to 10"]);
+    refused("titanum_dioxide:10nm", &["titanium_dioxide"]);
+    refused("oil_on_water:10nm", &["has films", "one layer"]);
+    // Not known over the spectrum.
+    refused("pmma:100nm", &["pmma", "--extrapolate hold"]);
+    let hundred = ["--film", "1.38:10nm"].repeat(100);
+    let line = [&["--material", "gold", "-o", "-"][..], &hundred].concat();
+    place.refused_with(&line, &["a file with a name of its own"]);
+    place.refused("--film 1.38:10nm -o -", &["--material"]);
+    place.refused("--material gold --medium oil_on_water -o -", &["has films", "medium"]);
+    place.refused("render water --material soap -o x.png", &["under films"]);
+    for line in [
+        "--material gold --film 1.38:0nm --target gles -o -",
+        "--material bk7 --film gold:20nm --target gles -o -",
+        "--material water --film 1.45:.3um --medium 1.2 --target gles -o -",
+    ] {
+        place.done(line);
+    }
+}
