@@ -177,7 +177,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
 
 /// The materials that have a row.
 fn audited(subjects: Vec<MaterialInMedium>, rows: &[AuditRow]) -> Vec<MaterialInMedium> {
-    let has_row = |one: &MaterialInMedium| rows.iter().any(|row| row.material == one.argument);
+    let has_row = |one: &MaterialInMedium| rows.iter().any(|row| row.material == one.label());
     subjects.into_iter().filter(has_row).collect()
 }
 

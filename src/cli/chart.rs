@@ -192,7 +192,7 @@ fn check_shown(flags: &ChartFlags, materials: &[MaterialInMedium]) -> Result<(),
     let Some(show) = &flags.show else {
         return Ok(());
     };
-    let alone = materials.iter().map(|material| material.argument.as_str());
+    let alone = materials.iter().map(MaterialInMedium::label);
     let all: Vec<&str> = MaterialClass::ALL
         .map(MaterialClass::name)
         .into_iter()

@@ -100,8 +100,8 @@ impl FitFlags {
 /// A number of coefficients that some form has.
 fn terms(word: &str) -> Result<usize, &'static str> {
     let terms = word.parse().ok();
-    let terms = terms.filter(|terms| [4, 5].contains(terms));
-    terms.ok_or("no form has so many coefficients; there are forms with 4 or 5")
+    let terms = terms.filter(|terms| [4, 5, 6].contains(terms));
+    terms.ok_or("no form has so many coefficients; there are forms with 4 or 5, and with 6 for materials under films")
 }
 
 /// Fits.
@@ -244,7 +244,7 @@ fn of_subject(
         let missed = promised.then(|| missed(subject, method, without_gamut));
         let error = error(method, &fitted);
         Some(FitRow {
-            material: Some(subject.argument.clone()),
+            material: Some(subject.label().to_owned()),
             class: Some(subject.class()),
             max_abs_without_gamut: (aim.gamut != Gamut::Keep).then_some(without_gamut),
             misses_its_class: missed.flatten(),
@@ -252,7 +252,7 @@ fn of_subject(
         })
     };
     let left_out = |form: &Form| {
-        let (material, method) = (Foreign(&subject.argument), form.method.name);
+        let (material, method) = (Foreign(subject.label()), form.method.name);
         format!("left out: {material} with {method}: {NO_FIT}")
     };
     let own = forms.iter();

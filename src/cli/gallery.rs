@@ -55,7 +55,11 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
         ..Request::default()
     };
     let found = request.subjects()?;
-    if let Some((filmed, _)) = found.ready.iter().find(|(material, _)| material.has_films()) {
+    if let Some((filmed, _)) = found
+        .ready
+        .iter()
+        .find(|(material, _)| material.has_films())
+    {
         return Err(Error::usage(format!(
             "the material `{}` is under films, and a gallery shows bare materials",
             filmed.name

@@ -80,7 +80,7 @@ pub struct GenerateFlags {
     #[arg(long, value_name = "NAME", requires = "budget", value_parser = family())]
     pub gpu: Option<&'static Family>,
     /// Write exactly the functions of this plan, which `fresnel-gen plan --json FILE` made
-    #[arg(long, value_name = "FILE", value_parser = file_only("--plan"), conflicts_with_all = ["method", "effect", "material", "medium", "matching_angle", "precision", "force", "budget", "space", "illuminant", "observer", "adaptation", "step", "wavelengths", "extrapolate", "gamut"])]
+    #[arg(long, value_name = "FILE", value_parser = file_only("--plan"), conflicts_with_all = ["method", "effect", "material", "film", "medium", "matching_angle", "precision", "force", "budget", "space", "illuminant", "observer", "adaptation", "step", "wavelengths", "extrapolate", "gamut"])]
     pub plan: Option<PathBuf>,
     /// A material file that the plan may name though it lies outside of the plan's folder, or a folder of such files
     #[arg(long, value_name = "PATH", requires = "plan")]

@@ -23,6 +23,9 @@ pub(super) fn run(
     progress: Progress,
 ) -> Result<Output, Error> {
     let terms = flags.terms.map_or(vec![4, 5], |terms| vec![terms]);
+    if terms.contains(&6) {
+        return Err(Error::usage("a search has forms with 4 or 5 coefficients"));
+    }
     try_places(flags.report.json(), None)?;
     let (materials, mut remarks) = subjects(flags)?;
     let outside = materials

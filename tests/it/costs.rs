@@ -17,7 +17,15 @@ use fresnel_gen::physics::num::Precision;
 use fresnel_gen::pictures::cost_page::cost_page;
 
 /// The materials whose functions are recorded: those that `tests/costs` names.
-const MATERIALS: [&str; 6] = ["bk7", "diamond", "gold", "platinum", "silver", "water"];
+const MATERIALS: [&str; 7] = [
+    "anodised_titanium_purple",
+    "bk7",
+    "diamond",
+    "gold",
+    "platinum",
+    "silver",
+    "water",
+];
 
 /// What is recorded: all methods, these materials, both precisions, and the effects.
 static FUNCTIONS: LazyLock<Vec<CostedFunction>> = LazyLock::new(|| {

@@ -8,8 +8,8 @@ use super::cli::Place;
 use super::fits::films;
 use super::physics::films::filmed;
 use super::readme::replaced;
-use fresnel_gen::lab::chart::{ChartData, FunctionOrigin, chart_data, set_name};
 use fresnel_gen::generator::reference::MaterialClass;
+use fresnel_gen::lab::chart::{ChartData, FunctionOrigin, chart_data, set_name};
 use fresnel_gen::physics::materials::{self, Material, Surface, ViewingConditions};
 use fresnel_gen::physics::optics::cosine;
 use fresnel_gen::physics::spectra::{Gamut, Space, Step, xyz_to_lab};
@@ -30,7 +30,9 @@ fn stack(name: &str) -> Material {
 
 /// R at normal incidence, linear sRGB.
 fn f0(material: &Material) -> [f64; 3] {
-    surface(material, Step::default()).unpolarised(1.0).to_array()
+    surface(material, Step::default())
+        .unpolarised(1.0)
+        .to_array()
 }
 
 /// The hue in degrees of what a material reflects, in CIELAB.
@@ -53,7 +55,11 @@ fn titanium_turns_gold_then_purple_then_blue() {
     for nm in [50, 55, 60] {
         assert!((240.0..280.0).contains(&of(nm)), "{nm}: {}", of(nm));
     }
-    for (name, from, to) in [("gold", 70.0, 100.0), ("purple", 295.0, 330.0), ("blue", 240.0, 280.0)] {
+    for (name, from, to) in [
+        ("gold", 70.0, 100.0),
+        ("purple", 295.0, 330.0),
+        ("blue", 240.0, 280.0),
+    ] {
         let hue = hue(&stack(&format!("anodised_titanium_{name}")));
         assert!((from..to).contains(&hue), "{name}: {hue}");
     }
@@ -98,7 +104,9 @@ fn fringes_move_to_shorter_waves_with_the_angle() {
     let mut last = f64::INFINITY;
     for degrees in [0.0, 20.0, 30.0, 40.0] {
         let both = surface.unpolarised_spectrum(cosine(degrees));
-        let least = (0..both.len()).min_by(|a, b| both[*a].total_cmp(&both[*b])).unwrap();
+        let least = (0..both.len())
+            .min_by(|a, b| both[*a].total_cmp(&both[*b]))
+            .unwrap();
         let nm = surface.integrator.wavelengths[least];
         assert!(nm < last, "{degrees}: {nm} nm");
         last = nm;
@@ -109,27 +117,44 @@ fn fringes_move_to_shorter_waves_with_the_angle() {
 fn no_film_reflects_more_than_all() {
     for subject in films("sample").iter().chain(&films("outside")) {
         for degrees in [0.0, 30.0, 60.0, 85.0, 90.0] {
-            let spectrum = subject.reference.surface.unpolarised_spectrum(cosine(degrees));
-            assert!(spectrum.iter().all(|r| (0.0..=1.0).contains(r)), "{}", subject.name);
+            let spectrum = subject
+                .reference
+                .surface
+                .unpolarised_spectrum(cosine(degrees));
+            assert!(
+                spectrum.iter().all(|r| (0.0..=1.0).contains(r)),
+                "{}",
+                subject.name
+            );
         }
     }
 }
 
-/// The usual step of 5 nm follows the fringes of the thickest film that is allowed.
+/// Films whose fringes the usual step of 5 nm cannot follow take 1 nm; the thickest that take 5 nm err little by it.
 #[test]
-fn the_usual_step_follows_the_thickest_film() {
+fn wavelengths_are_close_enough_for_fringes() {
     let mut worst: f64 = 0.0;
-    for (film, base) in [("1.5:3000nm", "gold"), ("water:3000nm", "air"), ("titanium_dioxide:3000nm", "titanium")] {
+    for (film, base) in [
+        ("1.5:660nm", "gold"),
+        ("water:745nm", "air"),
+        ("titanium_dioxide:400nm", "titanium"),
+    ] {
         let material = filmed(film, base);
         let [coarse, fine] = [Step::Nm5, Step::Nm1].map(|step| surface(&material, step));
+        assert_eq!(coarse.indices.len(), 81, "{film}");
         for degrees in 0..=90 {
             let c = cosine(f64::from(degrees));
             let apart = coarse.unpolarised(c) - fine.unpolarised(c);
+            if apart.abs().max_element() > worst {
+                println!("{film} {base} {degrees} {apart}");
+            }
             worst = worst.max(apart.abs().max_element());
         }
     }
-    println!("{worst}");
-    assert!(worst < 1e-3, "{worst}");
+    assert!((1e-4..3e-4).contains(&worst), "{worst}");
+    let thick = surface(&filmed("1.5:700nm", "gold"), Step::Nm5);
+    assert_eq!(thick.indices.len(), 401);
+    assert!(thick.seen.contains("steps of 1 nm"), "{}", thick.seen);
 }
 
 #[test]
@@ -147,8 +172,16 @@ const SHOWN: [(&str, bool, &str); 9] = [
     ("schlick", false, "Schlick's, of the film's F0"),
     ("schlick", true, "the same with its best F0"),
     ("f82_tint", false, "`f82_tint`, of the film's F0 and F82"),
-    ("conductor_exact", false, "the exact law of one index a channel"),
-    ("belcour_decomposition", true, "`belcour_decomposition`, its best inputs"),
+    (
+        "conductor_exact",
+        false,
+        "the exact law of one index a channel",
+    ),
+    (
+        "belcour_decomposition",
+        true,
+        "`belcour_decomposition`, its best inputs",
+    ),
     ("fitted", false, "`fitted`"),
     ("fitted_five", false, "`fitted_five`"),
     ("fitted_film", false, "**`fitted_film`**"),
@@ -162,9 +195,19 @@ fn errors_of_films(data: &ChartData, set: &str, entry: usize) -> f64 {
 
 fn films_table() -> String {
     let data = ["sample", "outside"].map(|set| {
-        chart_data(&films(set), Space::Srgb, None, String::new(), &mut |_, _, _| ())
+        chart_data(
+            &films(set),
+            Space::Srgb,
+            None,
+            String::new(),
+            &mut |_, _, _| (),
+        )
     });
-    let costs = data[0].costs.iter().find(|axis| axis.name == "rdna2").unwrap();
+    let costs = data[0]
+        .costs
+        .iter()
+        .find(|axis| axis.name == "rdna2")
+        .unwrap();
     let mut table = "| function | cost on RDNA 2 | median | 90th percentile | worst | films that had no part in a choice: median, 90th |\n\
                      |---|---:|---:|---:|---:|---:|\n"
         .to_owned();
@@ -187,7 +230,8 @@ fn films_table() -> String {
 }
 
 fn stacks_table() -> String {
-    let mut table = "| name | what it is | films | R at 0 degrees |\n|---|---|---|---|\n".to_owned();
+    let mut table =
+        "| name | what it is | films | R at 0 degrees |\n|---|---|---|---|\n".to_owned();
     for name in materials::stacks() {
         let stack = stack(name);
         let films = match stack.films.len() {
@@ -221,7 +265,10 @@ fn commands_take_films() {
     place.done(&format!("{on} --target wgsl --quiet"));
     let file = place.read(&format!("shaders-generated/wgsl/materials/{name}.wgsl"));
     for method in ["", "_fitted", "_table"] {
-        assert!(file.contains(&format!("fn fresnel_{name}{method}(")), "{method}");
+        assert!(
+            file.contains(&format!("fn fresnel_{name}{method}(")),
+            "{method}"
+        );
     }
     for line in [
         format!("fit {on} --json -"),
@@ -245,14 +292,24 @@ fn commands_take_films() {
 #[test]
 fn a_stack_of_ones_own_is_a_file() {
     let place = Place::new();
-    let text = materials::source("oil_on_water").unwrap().replace("oil_on_water", "my_oil");
+    let text = materials::source("oil_on_water")
+        .unwrap()
+        .replace("oil_on_water", "my_oil");
     place.put("my_oil.toml", &text);
     let shown = place.done("--material my_oil.toml --target wgsl -o -").out;
     assert!(shown.contains("fn fresnel_my_oil("), "{shown}");
-    let more = place.done("--material my_oil.toml --film 1.33:20nm --target wgsl -o -").out;
-    assert!(more.contains("fn fresnel_my_oil_film_index_1_33_20nm("), "{more}");
+    let more = place
+        .done("--material my_oil.toml --film 1.33:20nm --target wgsl -o -")
+        .out;
+    assert!(
+        more.contains("fn fresnel_my_oil_film_index_1_33_20nm("),
+        "{more}"
+    );
     place.put("my_oil.toml", text.replace("1.47:400nm", "1.47:400"));
-    place.refused("--material my_oil.toml -o -", &["my_oil.toml:4:", "nm or um"]);
+    place.refused(
+        "--material my_oil.toml -o -",
+        &["my_oil.toml:4:", "nm or um"],
+    );
     place.put("my_oil.toml", text.replace("\"water\"", "\"watr\""));
     place.refused("--material my_oil.toml -o -", &["my_oil.toml:3:", "water"]);
 }
@@ -264,7 +321,10 @@ fn wrong_films_are_refused() {
     let refused = |film: &str, says: &[&str]| {
         place.refused_with(&["--material", "gold", "--film", film, "-o", "-"], says);
     };
-    refused("1.38", &["a material and its thickness", "titanium_dioxide:60nm"]);
+    refused(
+        "1.38",
+        &["a material and its thickness", "titanium_dioxide:60nm"],
+    );
     refused("1.38:100", &["nm or um"]);
     refused("1.38:-1nm", &["0 to 3000 nm"]);
     refused("1.38:NaNnm", &["0 to 3000 nm"]);
@@ -278,7 +338,10 @@ fn wrong_films_are_refused() {
     let line = [&["--material", "gold", "-o", "-"][..], &hundred].concat();
     place.refused_with(&line, &["a file with a name of its own"]);
     place.refused("--film 1.38:10nm -o -", &["--material"]);
-    place.refused("--material gold --medium oil_on_water -o -", &["has films", "medium"]);
+    place.refused(
+        "--material gold --medium oil_on_water -o -",
+        &["has films", "medium"],
+    );
     place.refused("render water --material soap -o x.png", &["under films"]);
     for line in [
         "--material gold --film 1.38:0nm --target gles -o -",

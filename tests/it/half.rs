@@ -13,7 +13,7 @@ use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Materials, Methods, Request, Source};
 use fresnel_gen::lab::verify::{HalfTrial, halves};
 use fresnel_gen::language::ir::Value;
-use fresnel_gen::language::methods::{self, Class, Contract, HALF_AIM, InHalf, Method};
+use fresnel_gen::language::methods::{self, Contract, HALF_AIM, InHalf, Method};
 use fresnel_gen::language::targets::Target;
 use fresnel_gen::physics::num::{Half, Num, Precision};
 
@@ -175,17 +175,13 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
         materials: Materials::All,
         ..Request::default()
     };
-    let mut subjects = request
+    let subjects = request
         .subjects()
         .expect("the catalogue is good")
         .materials();
-    subjects.extend(super::fits::films("sample"));
     let cosines = halves();
     let of = |subject: &MaterialInMedium| -> Vec<Row> {
-        // Of films only the method for films is tried.
-        let own = methods_of(subject)
-            .filter(|method| subject.has_films() == (method.class == Class::Film));
-        let emitted = own.map(|method| {
+        let emitted = methods_of(subject).map(|method| {
             specialised_function(method, subject, &naming(), &Bounds::default())
                 .expect("every method specialises to the catalogue")
         });
@@ -211,10 +207,8 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
         .collect();
     let (mut bounds, mut beyond) = (Vec::new(), Vec::new());
     for row in rows {
-        if row.method.class != Class::Film {
-            bounds.push(row.bound);
-            beyond.extend(row.beyond);
-        }
+        bounds.push(row.bound);
+        beyond.extend(row.beyond);
         if let Some(fault) = row.fault {
             let _ = writeln!(faults, "{fault}");
         }

@@ -225,7 +225,11 @@ impl MaterialFlags {
         }
         let choices: Vec<Choice<MaterialName>> = self.choices().cloned().collect();
         if Choice::is_none(&choices, "materials")? {
-            return Ok(Materials::None);
+            let why = "--film lies on a material, and `--material none` leaves none";
+            return match self.film.is_empty() {
+                true => Ok(Materials::None),
+                false => Err(Error::usage(why)),
+            };
         }
         let mut sources = Vec::new();
         for choice in &choices {

@@ -120,6 +120,11 @@ impl EffectRequest<'_> {
             let media = self.method.class.media();
             return Err(refused(format!("it describes {media}")));
         }
+        if subject.has_films() {
+            return Err(refused(
+                "effects are of bare media, and films have no index to refract by".to_owned(),
+            ));
+        }
         let Some(mut values) = self.values_of_r(part.function.reflectance, subject) else {
             return Ok(None);
         };

@@ -41,7 +41,11 @@ pub fn specialised_graph(
         } else {
             subject.main_method()
         };
-        let what = format!("it describes {}; {serves} serves it", method.class.media());
+        let what = if subject.has_films() {
+            format!("it describes bare media, and films lie on this; {serves} serves it")
+        } else {
+            format!("it describes {}; {serves} serves it", method.class.media())
+        };
         return Err(Error::specialise(method, subject, what));
     }
     let constants = values_for_material_in(precision, subject, method);

@@ -120,6 +120,11 @@ fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {
     if subject.material.kind != MaterialKind::Dielectric {
         return Ok(Body::Conductor);
     }
+    if subject.has_films() {
+        return Err(ExchangeFault::Filmed {
+            name: subject.name.clone(),
+        });
+    }
     let medium: Option<&Material> = subject.medium.as_ref().map(|(_, medium)| medium);
     let middle = subject.effective.channels.n[1];
     let ior = rounded(ior_in(&subject.material, medium).unwrap_or(middle));
@@ -167,6 +172,15 @@ fn remarks(
 /// Why a material cannot be exported to a format.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ExchangeFault {
+    /// A dielectric under films: no model of these formats has both its reflectance and what it lets through.
+    #[error(
+        "`{}` is a dielectric under films: this format would have what lies below, without the films; the functions of `--material` have them",
+        Foreign(name)
+    )]
+    Filmed {
+        /// The material.
+        name: String,
+    },
     /// A dielectric with an index below that of its medium.
     #[error(
         "`{}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \

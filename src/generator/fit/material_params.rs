@@ -115,7 +115,7 @@ pub fn material_params(
     let own = material.rgb_nm.or(medium.and_then(|medium| medium.rgb_nm));
     let viewing = ViewingConditions {
         wavelengths_nm: viewing.wavelengths_nm.or(own),
-        ..viewing.clone()
+        ..viewing.following(material)
     };
     let surface = Surface::new(material, medium, &viewing)?;
     let is_spectral = viewing.wavelengths_nm.is_none();
@@ -124,10 +124,10 @@ pub fn material_params(
     let errors = colour_errors(&surface, &viewing.integration);
     let (truth, extrapolated) = (surface.seen.clone(), surface.extrapolation());
     let grey_f82_tint = grey_tint(&clipped(surface.clone()));
-    let params = params(surface, material.kind);
+    let params = params(surface, material.optical_kind());
     Ok(MaterialParams {
         name: material.name.clone(),
-        class: material.kind.name(),
+        class: material.class_name(),
         medium: medium.map_or("air", |medium| &medium.name).to_owned(),
         space: integration.map(|by| by.space.name()),
         illuminant: integration.map(|by| by.illuminant.name().to_owned()),

@@ -54,7 +54,7 @@ impl MaterialInMedium {
                 Some(medium) => format!("{}_in_{}", material.name, medium.name),
                 None => material.name.clone(),
             },
-            effective: effective(&reference, material.kind),
+            effective: effective(&reference, material.optical_kind()),
             argument,
             material,
             medium,
@@ -74,6 +74,15 @@ impl MaterialInMedium {
             reference.before_gamut()
         } else {
             reference
+        }
+    }
+
+    /// What names it in reports: the argument, or its name where films of the command line lie on it.
+    pub fn label(&self) -> &str {
+        if self.material.film_arguments().is_empty() {
+            &self.argument
+        } else {
+            &self.material.name
         }
     }
 

@@ -296,7 +296,7 @@ impl Binding<'_> {
             None if missing.is_empty() => Err(Error::NoCosine(self.place())),
             _ => Err(Error::Unbound {
                 place: self.place(),
-                material: self.subject.argument.clone(),
+                material: self.subject.label().to_owned(),
                 cosine: match chosen {
                     Some(_) => MissingCosine::Known,
                     None => self.likely_cosine(&missing),

@@ -192,7 +192,7 @@ impl Audited<'_> {
         let mut row = AuditRow {
             target: self.audit.language.name(),
             method: function.name.clone(),
-            material: self.subject.argument.clone(),
+            material: self.subject.label().to_owned(),
             form: "user",
             precision: match self.slice.half {
                 Some(_) => "f16",

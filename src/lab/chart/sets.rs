@@ -34,7 +34,7 @@ pub const STATISTICS: [&str; 4] = ["median", "p90", "worst", "substances"];
 pub fn sets(materials: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
     let alone = |(material, errors): (&MaterialInMedium, &Vec<MethodErrors>)| MaterialSet {
         count: 1,
-        name: material.argument.clone(),
+        name: material.label().to_owned(),
         title: material.name.replace('_', " "),
         undescribed: undescribed(&[(material, errors)]),
         errors: errors.clone(),
@@ -82,7 +82,7 @@ fn undescribed(own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<Vec<Strin
         let none = own
             .iter()
             .filter(|(_, errors)| errors[place].max_abs.is_none());
-        none.map(|(material, _)| material.argument.clone())
+        none.map(|(material, _)| material.label().to_owned())
             .collect()
     };
     (0..entries).map(unknown).collect()

@@ -213,7 +213,7 @@ impl FunctionId {
         precision: Precision,
     ) -> FunctionId {
         FunctionId {
-            material: Some(material.argument.clone()),
+            material: Some(material.label().to_owned()),
             ..FunctionId::library(method, FunctionForm::Specialised, precision)
         }
     }

@@ -76,7 +76,7 @@ impl Study {
         let reference = material.truth_for(method);
         let channel = |(channel, name): (usize, &'static str)| {
             let found = scan_specialised(&code, channel, &|c| reference.at(c)[channel]);
-            self.rows_of(method, Some((material.argument.clone(), name)), found)
+            self.rows_of(method, Some((material.label().to_owned(), name)), found)
         };
         let names = ["red", "green", "blue"].into_iter().enumerate();
         Ok(names.flat_map(channel).collect())

@@ -52,10 +52,6 @@ impl Shape {
             is_half: x.is_half(),
             known: Vec::new(),
             taken: Vec::new(),
-            has_bent: self
-                .factors
-                .iter()
-                .any(|factor| matches!(factor, Factor::Bent(_))),
         };
         let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
         for (factor, input) in self.factors.iter().zip(self.inputs()).rev() {
@@ -139,7 +135,6 @@ struct Made<'b> {
     is_half: bool,
     known: Vec<(Factor, Expr<'b>)>,
     taken: Vec<&'static str>,
-    has_bent: bool,
 }
 
 impl<'b> Made<'b> {
@@ -180,13 +175,8 @@ impl<'b> Made<'b> {
             }
             Factor::Cosine => c,
             Factor::Square(e) => {
-                // In half precision (1 - c)^2 is made of c^2 too, and what two steps share has a name.
-                let squared = if self.is_half && self.has_bent {
-                    (c * c).named("squared", "")
-                } else {
-                    c * c
-                };
-                (squared + e).named(self.free(["q", "u"]), "")
+                let square = c * c + e;
+                square.named(self.free(["q", "u"]), "")
             }
             Factor::Shifted(p) => (c + p).named("l", ""),
             Factor::Reciprocal(p) => (1.0 / self.factor(Factor::Shifted(p))).named("r", ""),

@@ -17,7 +17,8 @@ use toml::Spanned;
 
 use super::catalogue;
 use super::file::{check_name, name_fault};
-use super::material::{ConstantIndex, Material};
+use super::formula::DispersionCurve;
+use super::material::{ConstantIndex, Material, MaterialKind};
 use crate::physics::names::UnknownName;
 use crate::physics::user_text::{FileFault, FileText};
 
@@ -32,8 +33,8 @@ pub struct Film {
     pub argument: String,
 }
 
-/// The greatest thickness of a film in nanometres. Fringes of a film of index 1.5 are 16 nm apart in wavelength there, at 380 nm: the
-/// usual 5 nm follow them. Of a thicker one only a mean is seen.
+/// The greatest thickness of a film in nanometres. Fringes of a film of index 1.5 are 16 nm apart in wavelength there, at 380 nm, and
+/// each third of the spectrum holds several. Of a thicker one only a mean is seen.
 pub const THICKEST_NM: f64 = 3000.0;
 /// The most films of a stack.
 pub const MOST_FILMS: usize = 100;
@@ -105,6 +106,9 @@ impl Material {
                 self.name
             ));
         }
+        if self.name == AIR && !films.is_empty() {
+            self.n = one();
+        }
         for film in &films {
             self.name = format!("{}_film_{}", self.name, film.name());
         }
@@ -114,11 +118,28 @@ impl Material {
                 self.name
             ));
         }
-        if !films.is_empty() {
-            self.substance.clone_from(&self.name);
-            self.films.splice(0..0, films);
+        if films.is_empty() {
+            return Ok(self);
         }
+        self.substance.clone_from(&self.name);
+        self.add_sources(&films);
+        self.films.splice(0..0, films);
+        let own = self.summary.split(UNDER).next().unwrap_or_default();
+        self.summary = format!("{own}{UNDER}{}", self.films_in_words().unwrap_or_default());
         Ok(self)
+    }
+
+    /// Adds the sources and licences of films to its own.
+    fn add_sources(&mut self, films: &[Film]) {
+        for Film { material, .. } in films {
+            let source = format!("{}: {}", material.name, material.reference);
+            if !self.reference.contains(&source) {
+                self.reference = format!("{}; {source}", self.reference);
+            }
+            if !self.licence.contains(&material.licence) {
+                self.licence = format!("{}, {}", self.licence, material.licence);
+            }
+        }
     }
 
     /// The name of its class: film where films lie on it, else metal, semiconductor or dielectric.
@@ -127,6 +148,15 @@ impl Material {
             self.kind.name()
         } else {
             "film"
+        }
+    }
+
+    /// The class whose laws it follows: under films none is without k, since films absorb or shift colours as if they did.
+    pub fn optical_kind(&self) -> MaterialKind {
+        if self.films.is_empty() {
+            self.kind
+        } else {
+            MaterialKind::Semiconductor
         }
     }
 
@@ -175,29 +205,51 @@ impl Material {
             return Err(place.fault(raw.films.span().start, what));
         }
         let name = raw.name.into_inner();
-        Ok(Material {
+        let reference = raw.reference.into_inner();
+        let mut stack = Material {
             substance: name.clone(),
+            reference: format!("{reference}; {}: {}", base.name, base.reference),
             name,
             summary: raw.summary.into_inner(),
             licence: raw.licence.into_inner(),
-            reference: raw.reference.into_inner(),
             link: raw.link.into_inner(),
             page: String::new(),
             conditions: String::new(),
             note: raw.note.unwrap_or_default(),
-            films,
             ..base
-        })
+        };
+        stack.add_sources(&films);
+        stack.films = films;
+        if raw.base.get_ref() == AIR {
+            stack.n = one();
+        }
+        Ok(stack)
     }
 }
+
+/// The base of a free film. Where no medium is named, light comes from an index of 1, and the same lies below: 1.00028 there would
+/// reflect near grazing.
+const AIR: &str = "air";
+
+fn one() -> DispersionCurve {
+    let vacuum = ConstantIndex::parse("1").and_then(Result::ok);
+    vacuum.expect("1 is an index").material().n
+}
+
+/// What stands between the summary of a material and its films.
+const UNDER: &str = ", under ";
 
 /// A material of the catalogue, or a medium that is a number.
 fn named(word: &str) -> Result<Material, String> {
     if let Some(index) = ConstantIndex::parse(word) {
         return Ok(index.map_err(|fault| fault.to_string())?.material());
     }
-    match catalogue::find(word) {
-        Some(found) => found.map_err(|fault| fault.to_string()),
+    let found = catalogue::find(word).transpose();
+    match found.map_err(|fault| fault.to_string())? {
+        Some(bare) if bare.films.is_empty() => Ok(bare),
+        Some(_) => Err(format!(
+            "`{word}` has films itself; name the material of one layer"
+        )),
         None => Err(UnknownName::new("material", word, &catalogue::names()).to_string()),
     }
 }

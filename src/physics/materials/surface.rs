@@ -14,7 +14,7 @@ use super::formula::Extrapolate;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
 use crate::physics::optics::{Layer, Reflectance, under_films};
-use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
+use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM, Step};
 
 /// The conditions under which reflectance becomes three channels.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +41,15 @@ impl Default for ViewingConditions {
 }
 
 impl ViewingConditions {
+    /// These conditions with wavelengths close enough for fringes, where films lie on the material: 1 nm.
+    pub fn following(&self, material: &Material) -> ViewingConditions {
+        let mut viewing = self.clone();
+        if !material.films.is_empty() {
+            viewing.integration.step = Step::Nm1;
+        }
+        viewing
+    }
+
     /// The reference for a spectrum, in words.
     pub fn reference_in_words(&self) -> String {
         format!(
@@ -50,6 +59,9 @@ impl ViewingConditions {
         )
     }
 }
+
+/// The greatest sum of n times thickness of films, in nanometres. Beyond it fringes are finer than 1 nm follows (`films` tests it).
+const THICKEST_OPTICAL_NM: f64 = 6000.0;
 
 /// The surface of a material in its medium, under viewing conditions.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +100,7 @@ impl Surface {
         medium: Option<&Material>,
         viewing: &ViewingConditions,
     ) -> Result<Surface, SurfaceError> {
+        let viewing = &viewing.following(material);
         let three = viewing
             .wavelengths_nm
             .or_else(|| parts(material, medium).find_map(|part| part.rgb_nm));
@@ -111,6 +124,7 @@ impl Surface {
             why,
             advice: advice(extrapolated_nm, three.is_some()),
         })?;
+        check_fringes(material, &all, &integrator.wavelengths)?;
         let (indices, mut films): (_, Vec<_>) =
             all.into_iter().map(|at| (at.index, at.films)).unzip();
         if material.films.is_empty() {
@@ -247,6 +261,32 @@ fn parts<'a>(
 ) -> impl Iterator<Item = &'a Material> {
     let films = material.films.iter().map(|film| &film.material);
     [material].into_iter().chain(films).chain(medium)
+}
+
+/// Refuses films whose fringes are too fine to be seen or integrated.
+fn check_fringes(
+    material: &Material,
+    all: &[AtWavelength],
+    wavelengths: &[f64],
+) -> Result<(), SurfaceError> {
+    let optical = |(at, nm): (&AtWavelength, &f64)| {
+        let waves = at.films.iter().map(|film| film.n * film.waves);
+        waves.sum::<f64>() * nm
+    };
+    let most = all.iter().zip(wavelengths).map(optical).fold(0.0, f64::max);
+    if most <= THICKEST_OPTICAL_NM {
+        return Ok(());
+    }
+    Err(SurfaceError {
+        why: format!(
+            "material `{}`: its films are {most:.0} nm thick by n times thickness",
+            material.name
+        ),
+        advice: format!(
+            "; {THICKEST_OPTICAL_NM} nm are allowed: of thicker ones no colours of interference are seen. A thick layer is a coat, and what lies \
+             below has it as its --medium"
+        ),
+    })
 }
 
 /// A material in its medium at one wavelength.

@@ -115,7 +115,7 @@ impl DrawnMaterial<'_> {
             "{}{}{}, known {}.{}",
             labelled("Page", &material.page),
             labelled("Conditions", &material.conditions),
-            capital(material.kind.name()),
+            capital(material.class_name()),
             axis::words(material.range_nm()),
             licence.unwrap_or_default()
         );
