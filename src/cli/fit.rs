@@ -39,7 +39,7 @@ pub struct FitFlags {
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
-    /// Only forms with so many coefficients: 4 or 5
+    /// Only forms with so many coefficients: 4 or 5, or 6 for materials under films
     #[arg(long, value_name = "N", value_parser = terms)]
     pub terms: Option<usize>,
     /// Without effect: all forms are shared by all materials
@@ -59,7 +59,7 @@ pub struct FitFlags {
     #[arg(long, conflicts_with_all = ["f0", "f82", "gamut"])]
     pub search: bool,
     /// In place of --material: reflectance at 0 degrees, three numbers from 0 to 1 (requires --f82)
-    #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f82", conflicts_with_all = ["material", "medium", "ViewingFlags", "gamut"])]
+    #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f82", conflicts_with_all = ["material", "film", "medium", "ViewingFlags", "gamut"])]
     pub f0: Option<[f64; 3]>,
     /// Reflectance at 81.79 degrees (cos θ = 1/7; requires --f0)
     #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f0")]

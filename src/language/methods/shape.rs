@@ -35,6 +35,8 @@ pub enum Factor {
     Peak(f64, f64),
     /// `(1 - c)² / (1 + a c)`.
     Bent(f64),
+    /// `(1 - c)² / (c + p)`: by the square of the root of the same p, where the shape has it.
+    Glancing(f64),
 }
 
 /// The shape of a fitted method.
@@ -95,6 +97,7 @@ impl Factor {
             Factor::Root(p) => 1.0 / (c + p).sqrt(),
             Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
             Factor::Bent(a) => (1.0 - c) * (1.0 - c) / (1.0 + a * c),
+            Factor::Glancing(p) => (1.0 - c) * (1.0 - c) / (c + p),
         }
     }
 }
@@ -113,6 +116,7 @@ impl fmt::Display for Factor {
             Factor::Root(p) => write!(out, "1/sqrt(c + {p})"),
             Factor::Peak(e, p) => write!(out, "(1/(c^2 + {e}) - 1/sqrt(c + {p}))"),
             Factor::Bent(a) => write!(out, "(1 - c)^2/(1 + {a} c)"),
+            Factor::Glancing(p) => write!(out, "(1 - c)^2/(c + {p})"),
         }
     }
 }
@@ -175,8 +179,12 @@ impl<'b> Made<'b> {
             }
             Factor::Cosine => c,
             Factor::Square(e) => {
-                let square = c * c + e;
-                square.named(self.free(["q", "u"]), "")
+                let known = self.known.iter().find_map(|(other, made)| match other {
+                    Factor::Square(first) => Some(*made + (e - first)),
+                    _ => None,
+                });
+                let square = known.unwrap_or_else(|| c * c + e);
+                square.named(self.free(["q", "u", "s"]), "")
             }
             Factor::Shifted(p) => (c + p).named("l", ""),
             Factor::Reciprocal(p) => (1.0 / self.factor(Factor::Shifted(p))).named("r", ""),
@@ -187,6 +195,11 @@ impl<'b> Made<'b> {
             Factor::Peak(e, p) => {
                 let root = self.factor(Factor::Root(p));
                 (1.0 / (c * c + e) - root).named("a", "large at grazing")
+            }
+            Factor::Glancing(p) => {
+                let root =
+                    (self.factor(Factor::Grazing(1)) * self.factor(Factor::Root(p))).named("h", "");
+                (root * root).named("w", "0 at normal incidence")
             }
             Factor::Bent(a) => {
                 let bent = self.factor(Factor::Grazing(2)) / (1.0 + a * c);

@@ -214,7 +214,7 @@ impl Material {
             licence: raw.licence.into_inner(),
             link: raw.link.into_inner(),
             page: String::new(),
-            conditions: String::new(),
+            conditions: format!("films on {}", base.name),
             note: raw.note.unwrap_or_default(),
             ..base
         };

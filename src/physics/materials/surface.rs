@@ -44,7 +44,7 @@ impl ViewingConditions {
     /// These conditions with wavelengths close enough for fringes, where films lie on the material: 1 nm.
     pub fn following(&self, material: &Material) -> ViewingConditions {
         let mut viewing = self.clone();
-        if !material.films.is_empty() {
+        if material.films.iter().any(|film| film.thickness_nm > 0.0) {
             viewing.integration.step = Step::Nm1;
         }
         viewing
