@@ -85,10 +85,8 @@ pub fn plan(
         .map(|entry| (entry.file.as_str(), entry))
         .collect();
     let files = planned(out_dir, artifacts)?;
-    if let Some(old) = &old {
-        if !scope.alone {
-            earlier_runs::refuse_namesakes(artifacts, &files, old, provenance)?;
-        }
+    if let Some(old) = old.as_ref().filter(|_| !scope.alone) {
+        earlier_runs::refuse_namesakes(artifacts, &files, old, provenance)?;
     }
     let manifest = Planned {
         path: manifest::FILE.to_string(),
