@@ -5,7 +5,8 @@ use super::Place;
 #[test]
 fn an_unknown_name_is_answered_with_the_nearest() {
     let place = Place::new();
-    let all = fresnel_gen::physics::materials::names().len();
+    use fresnel_gen::physics::materials;
+    let all = materials::names().len() + materials::stacks().len();
     let there_are =
         format!("there is no material `zzz`; there are {all} of them: see `fresnel-gen materials`");
     for (line, says) in [

@@ -229,7 +229,7 @@ const USED: [(&str, bool); 52] = [
         true,
     ),
     (
-        "--material gold --method fitted --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut keep --precision f32 --header full --prefix my_ -o - ",
+        "--material gold --film 1.38:100nm --method fitted --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut keep --precision f32 --header full --prefix my_ -o - ",
         true,
     ),
     (
@@ -266,7 +266,7 @@ const USED: [(&str, bool); 52] = [
         true,
     ),
     (
-        "materials show gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --svg a.svg --png a.png --json a.json",
+        "materials show gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --svg a.svg --png a.png --json a.json",
         true,
     ),
     (
@@ -274,7 +274,7 @@ const USED: [(&str, bool); 52] = [
         true,
     ),
     (
-        "materials params gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --json -",
+        "materials params gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --json -",
         true,
     ),
     ("materials params gold --as usd -o a.usda --overwrite", true),
@@ -294,7 +294,7 @@ const USED: [(&str, bool); 52] = [
     ),
     ("materials survey m.yml --wavelengths 600,550,450", true),
     (
-        "bake --material gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --size 8 --axis cos --format png8 --atlas --target gles --prefix my_ --out-dir b --overwrite --quiet --json b.json",
+        "bake --material gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --size 8 --axis cos --format png8 --atlas --target gles --prefix my_ --out-dir b --overwrite --quiet --json b.json",
         true,
     ),
     (
@@ -314,7 +314,7 @@ const USED: [(&str, bool); 52] = [
     ),
     ("plan s.toml --json plan.json", true),
     (
-        "verify --target gles --method schlick --effect coat --material gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --prefix my_ --matching-angle 80 --precision f16 --force --points 500 --out-dir o --adapter a --backend vulkan --tools t --limit 9 --shards 3 --shard 1 --require-all --json v.json --junit v.xml",
+        "verify --target gles --method schlick --effect coat --material gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --prefix my_ --matching-angle 80 --precision f16 --force --points 500 --out-dir o --adapter a --backend vulkan --tools t --limit 9 --shards 3 --shard 1 --require-all --json v.json --junit v.xml",
         false,
     ),
     (
@@ -322,17 +322,17 @@ const USED: [(&str, bool); 52] = [
         false,
     ),
     (
-        "cost --gpu rdna2 --precision f16 --method schlick --material gold --out-dir o --overwrite --tools t --limit 9 --require-all --json c.json",
+        "cost --gpu rdna2 --precision f16 --method schlick --material gold --film 1.38:100nm --out-dir o --overwrite --tools t --limit 9 --require-all --json c.json",
         false,
     ),
     ("cost --effect coat --check", false),
     (
-        "time --method schlick --material gold --precision f16 --adapter a --backend vulkan --clock gpu --size 64 --operations 200 --rounds 3 --limit 9 --require-all --json t.json",
+        "time --method schlick --material gold --film 1.38:100nm --precision f16 --adapter a --backend vulkan --clock gpu --size 64 --operations 200 --rounds 3 --limit 9 --require-all --json t.json",
         false,
     ),
     ("time --hardware", false),
     (
-        "audit m.glsl --function f -D A=1 --define B=2 --language glsl --arg f0=.5 --max-error .1 --max-inputs 3 --tools t --limit 9 --material gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --gpu rdna2 --out-dir o --overwrite --json a.json --junit a.xml",
+        "audit m.glsl --function f -D A=1 --define B=2 --language glsl --arg f0=.5 --max-error .1 --max-inputs 3 --tools t --limit 9 --material gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --gpu rdna2 --out-dir o --overwrite --json a.json --junit a.xml",
         false,
     ),
     (
@@ -347,9 +347,12 @@ const USED: [(&str, bool); 52] = [
         "chart --show metals --of worst --error de2000 --gpu rdna2 --out-dir o --overwrite --json c.json",
         false,
     ),
-    ("chart --material gold", false),
+    ("chart --material gold --film 1.38:100nm", false),
     ("merge a.json b.json --json m.json --junit m.xml", false),
-    ("gallery --material gold --out-dir o --overwrite", false),
+    (
+        "gallery --material gold --film 1.38:100nm --out-dir o --overwrite",
+        false,
+    ),
     ("reproduce --out-dir o --overwrite --json r.json", false),
 ];
 
