@@ -1,11 +1,12 @@
 //! Names that do not exist, and requests that cannot be met: exit 2, the nearest right name, nothing written.
 
+use fresnel_gen::physics::materials;
+
 use super::Place;
 
 #[test]
 fn an_unknown_name_is_answered_with_the_nearest() {
     let place = Place::new();
-    use fresnel_gen::physics::materials;
     let all = materials::names().len() + materials::stacks().len();
     let there_are =
         format!("there is no material `zzz`; there are {all} of them: see `fresnel-gen materials`");
