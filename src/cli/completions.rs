@@ -47,11 +47,6 @@ fn with_names(command: Command, above: &str) -> Command {
     command.mut_subcommands(|below| with_names(below, &here))
 }
 
-/// Materials of the catalogue, and those under films.
-fn known() -> impl Iterator<Item = &'static str> {
-    materials::names().into_iter().chain(materials::stacks())
-}
-
 /// The names that a flag or a list accepts.
 fn names(list: &str) -> Option<Vec<&'static str>> {
     let all = ["all"].into_iter();
@@ -62,8 +57,8 @@ fn names(list: &str) -> Option<Vec<&'static str>> {
         "targets" => targets::ALL.iter().map(|one| one.name).collect(),
         "effect" => all.chain(effects::ALL.iter().map(|one| one.name)).collect(),
         "effects" => effects::ALL.iter().map(|one| one.name).collect(),
-        "material" => all.chain(known()).collect(),
-        "materials" => known().collect(),
+        "material" => all.chain(materials::known()).collect(),
+        "materials" => materials::known(),
         "medium" => materials::names(),
         "gpu" => FAMILIES.iter().map(|one| one.name).collect(),
         "space" => Space::ALL.map(Space::name).to_vec(),

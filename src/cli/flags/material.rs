@@ -39,8 +39,7 @@ impl MaterialName {
     pub fn parse(word: &str) -> Result<MaterialName, UnknownName> {
         let is_known = materials::source(word).is_some();
         if !is_known && !is_path(word) {
-            let known = [materials::names(), materials::stacks()].concat();
-            return Err(UnknownName::new("material", word, &known));
+            return Err(UnknownName::new("material", word, &materials::known()));
         }
         Ok(MaterialName {
             word: word.to_owned(),
@@ -225,11 +224,11 @@ impl MaterialFlags {
         }
         let choices: Vec<Choice<MaterialName>> = self.choices().cloned().collect();
         if Choice::is_none(&choices, "materials")? {
-            let why = "--film lies on a material, and `--material none` leaves none";
-            return match self.film.is_empty() {
-                true => Ok(Materials::None),
-                false => Err(Error::usage(why)),
-            };
+            if !self.film.is_empty() {
+                let why = "--film lies on a material, and `--material none` leaves none";
+                return Err(Error::usage(why));
+            }
+            return Ok(Materials::None);
         }
         let mut sources = Vec::new();
         for choice in &choices {

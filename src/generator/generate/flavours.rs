@@ -151,10 +151,7 @@ impl Run<'_> {
     fn is_brought_along(&self, subject: &MaterialInMedium) -> bool {
         let all = self.request.materials.sources();
         let names_it = Source::BroughtAlong(subject.argument.clone());
-        all.iter().any(|source| match source {
-            Source::UnderFilms { base, .. } => **base == names_it,
-            source => *source == names_it,
-        })
+        all.iter().any(|source| *source.base() == names_it)
     }
 
     /// The command that writes the files of some materials again.

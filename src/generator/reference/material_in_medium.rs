@@ -103,11 +103,14 @@ impl MaterialInMedium {
             && self.effective.channels.is_transparent()
     }
 
-    /// Whether a method describes it. Films ask for a method that takes any reflectance. The exact laws for dielectrics take no k, and that for metals no small one. Fitted
-    /// coefficients also describe a dielectric that absorbs.
+    /// Whether a method describes it. Films ask for a method that takes any reflectance. The exact laws for dielectrics take no k, and
+    /// that for metals no small one. Fitted coefficients also describe a dielectric that absorbs.
     pub fn is_described_by(&self, method: &Method) -> bool {
-        if self.has_films() || method.class == Class::Film {
-            return self.has_films() && matches!(method.class, Class::Any | Class::Film);
+        if method.class == Class::Film {
+            return self.has_films();
+        }
+        if self.has_films() {
+            return method.class == Class::Any;
         }
         let is_followed = method.is_fitted() && self.material.kind == MaterialKind::Dielectric;
         let Channels { n, k } = &self.effective.channels;

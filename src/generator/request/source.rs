@@ -219,13 +219,17 @@ impl Source {
         Source::UnderFilms { base, films }
     }
 
+    /// What lies below its films; itself where there are none.
+    pub(in crate::generator) fn base(&self) -> &Source {
+        match self {
+            Source::UnderFilms { base, .. } => base.base(),
+            bare => bare,
+        }
+    }
+
     /// Whether `all` includes it.
     pub fn is_brought_along(&self) -> bool {
-        match self {
-            Source::BroughtAlong(_) => true,
-            Source::UnderFilms { base, .. } => base.is_brought_along(),
-            Source::Named(_) | Source::File { .. } => false,
-        }
+        matches!(self.base(), Source::BroughtAlong(_))
     }
 
     /// The files that it was read from.
@@ -329,13 +333,8 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
         Source::Named(word) if ConstantIndex::parse(word).is_some() => constant(word),
         Source::Named(name) | Source::BroughtAlong(name) => {
             let found = materials::find(name).zip(materials::source(name));
-            let (material, text) = found.ok_or_else(|| {
-                unknown(
-                    "material",
-                    name,
-                    &[materials::names(), materials::stacks()].concat(),
-                )
-            })?;
+            let (material, text) =
+                found.ok_or_else(|| unknown("material", name, &materials::known()))?;
             Ok(Loaded {
                 material: material?,
                 argument: name.clone(),

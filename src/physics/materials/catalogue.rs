@@ -27,6 +27,11 @@ pub fn stacks() -> Vec<&'static str> {
     names_in(&STACKS)
 }
 
+/// The names of both, as a user may type them.
+pub fn known() -> Vec<&'static str> {
+    [names(), stacks()].concat()
+}
+
 fn names_in(folder: &'static Dir) -> Vec<&'static str> {
     let mut names: Vec<&str> = folder
         .files()
@@ -38,9 +43,17 @@ fn names_in(folder: &'static Dir) -> Vec<&'static str> {
 
 /// The text of the file of a material, or of a stack.
 pub fn source(name: &str) -> Option<&'static str> {
+    Some(file(name)?.1)
+}
+
+/// The path of the file of a material, or of a stack, and its text.
+fn file(name: &str) -> Option<(String, &'static str)> {
     let file = format!("{name}.toml");
-    let found = FILES.get_file(&file).or_else(|| STACKS.get_file(&file));
-    found?.contents_utf8()
+    let folders = [("data/materials", &FILES), ("data/films", &STACKS)];
+    folders.into_iter().find_map(|(folder, files)| {
+        let text = files.get_file(&file)?.contents_utf8()?;
+        Some((format!("{folder}/{file}"), text))
+    })
 }
 
 /// The material of this name, if the catalogue has it or it is a stack.
@@ -52,19 +65,8 @@ pub fn source(name: &str) -> Option<&'static str> {
 /// assert_eq!(water.index(550.0, Extrapolate::Refuse).map(|index| index.n), Ok(1.333));
 /// ```
 pub fn find(name: &str) -> Option<Result<Material, FileFault>> {
-    Some(Material::parse(
-        &format!("{}/{name}.toml", folder(name)),
-        source(name)?,
-    ))
-}
-
-/// The folder of a file.
-fn folder(name: &str) -> &'static str {
-    if stacks().contains(&name) {
-        "data/films"
-    } else {
-        "data/materials"
-    }
+    let (path, text) = file(name)?;
+    Some(Material::parse(&path, text))
 }
 
 /// All materials of the catalogue, by name.

@@ -99,6 +99,9 @@ impl Material {
     /// # Errors
     /// There are too many films, or the name becomes too long.
     pub fn under_films(mut self, films: Vec<Film>) -> Result<Material, String> {
+        if films.is_empty() {
+            return Ok(self);
+        }
         let count = self.films.len() + films.len();
         if count > MOST_FILMS {
             return Err(format!(
@@ -106,7 +109,7 @@ impl Material {
                 self.name
             ));
         }
-        if self.name == AIR && !films.is_empty() {
+        if self.name == AIR {
             self.n = one();
         }
         for film in &films {
@@ -117,9 +120,6 @@ impl Material {
                 "`{}` is no name: {why}; write these films into a file with a name of its own, and pass it as --material FILE.toml",
                 self.name
             ));
-        }
-        if films.is_empty() {
-            return Ok(self);
         }
         self.substance.clone_from(&self.name);
         self.add_sources(&films);

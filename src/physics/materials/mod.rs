@@ -16,7 +16,7 @@ mod rows;
 mod surface;
 
 pub use crate::physics::foreign::{escaped, is_hidden};
-pub use catalogue::{find, list, names, page, source, stacks};
+pub use catalogue::{find, known, list, names, page, source, stacks};
 pub use file::name_fault;
 pub use film::{Film, FilmFault, film_of_word};
 pub use formula::{DispersionCurve, Extrapolate, Formula};

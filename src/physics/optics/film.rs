@@ -19,6 +19,7 @@
 //! Domain: that of `conductor` for each medium; t ≥ 0, and 0 is no layer. Error: within 1e-12 of the package `tmm`
 //! 0.2.0 for 1000 random stacks (the test `physics::films`).
 
+use super::interface::{normal_component, power_ratio};
 use super::{Reflectance, conductor};
 use crate::physics::num::Complex;
 
@@ -74,16 +75,9 @@ struct Wave {
 
 impl Wave {
     fn new(n: f64, k: f64, cos_theta: f64) -> Wave {
-        let squared = Complex::new((n - k) * (n + k), 2.0 * n * k);
-        // Near n = 1 the first keeps the digits of n, for a small m the second those of m.
-        let real = if cos_theta * cos_theta < 0.5 {
-            (n - 1.0) * (n + 1.0) - k * k + cos_theta * cos_theta
-        } else {
-            squared.re - (1.0 - cos_theta) * (1.0 + cos_theta)
-        };
         Wave {
-            squared,
-            w: Complex::new(real, squared.im).sqrt(),
+            squared: Complex::new((n - k) * (n + k), 2.0 * n * k),
+            w: normal_component(n, k, cos_theta).sqrt(),
         }
     }
 }
@@ -122,11 +116,10 @@ const TERMS: u32 = 6;
 /// |(a − y)/(a + y)|² for a real a ≥ 0; 0 where both are 0, as for a surface that is not there.
 fn reflected(a: f64, y: Complex<f64>) -> f64 {
     let outside = Complex::real(a);
-    let whole = (outside + y).norm_sqr();
-    if whole == 0.0 {
+    if (outside + y).norm_sqr() == 0.0 {
         0.0
     } else {
-        (outside - y).norm_sqr() / whole
+        power_ratio(outside, y)
     }
 }
 

@@ -97,7 +97,7 @@ pub fn normal_incidence<N: Num>(n: N, k: N) -> N {
 /// At large angles it is computed as (m² − 1) + cos²θ, which keeps the digits of n near 1. At small ones it is computed
 /// as m² − sin²θ, which keeps those of a small m.
 #[inline]
-fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
+pub(super) fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
     let one = N::from_f64(1.0);
     let cos_squared = cos_theta * cos_theta;
     let real = if cos_squared.less(N::from_f64(0.5)) == Truth::Yes {
@@ -110,7 +110,7 @@ fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
 
 /// |(a − b)/(a + b)|². As a ratio of two squares it is exactly 1 for real a and imaginary b, and for a = 0.
 #[inline]
-fn power_ratio<N: Num>(a: Complex<N>, b: Complex<N>) -> N {
+pub(super) fn power_ratio<N: Num>(a: Complex<N>, b: Complex<N>) -> N {
     (a - b).norm_sqr() / (a + b).norm_sqr()
 }
 

@@ -7,7 +7,7 @@ use super::Place;
 #[test]
 fn an_unknown_name_is_answered_with_the_nearest() {
     let place = Place::new();
-    let all = materials::names().len() + materials::stacks().len();
+    let all = materials::known().len();
     let there_are =
         format!("there is no material `zzz`; there are {all} of them: see `fresnel-gen materials`");
     for (line, says) in [

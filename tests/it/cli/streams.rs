@@ -14,11 +14,7 @@ fn json_on_stdout_stands_there_alone() {
     let place = Place::new();
     for (command, named, count) in [
         ("methods", "methods", methods::ALL.len()),
-        (
-            "materials",
-            "materials list",
-            materials::names().len() + materials::stacks().len(),
-        ),
+        ("materials", "materials list", materials::known().len()),
         ("targets", "targets", targets::ALL.len()),
     ] {
         for line in [
