@@ -152,6 +152,7 @@ pub(super) fn operations(emitted: &EmittedFunction) -> String {
             "exponential or logarithm",
             "exponentials or logarithms",
         ),
+        (&[Op::Sin, Op::Cos], "sine or cosine", "sines or cosines"),
     ] {
         match ops.iter().map(|op| function.count(*op)).sum::<usize>() {
             0 => {}

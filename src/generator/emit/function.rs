@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::code_bound::{Bounds, CodeBound, FILTERED};
 use super::error::Error;
-use super::specialised::{Missed, Specialised, missed, specialise, specialised_graph};
+use super::specialised::{Missed, Specialised, at, missed, specialise, specialised_graph};
 use crate::generator::fit::{Measured, ModelError, model_error};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction};
@@ -199,6 +199,9 @@ fn promised(method: &Method, form: FunctionForm, precision: Precision) -> Measur
         }
         (Precision::F32, _, Some(finds)) => Measured::Yes(CodeBound::Absolute(finds.code_abs)),
         (Precision::F32, ..) if method.is_textured() => Measured::No(FILTERED.to_owned()),
+        (Precision::F32, ..) if method.claims.code_abs > 0.0 => {
+            Measured::Yes(CodeBound::Absolute(method.claims.code_abs))
+        }
         (Precision::F32, ..) => Measured::Yes(CodeBound::Ulp(method.claims.code_ulp)),
     }
 }
@@ -219,6 +222,7 @@ pub fn specialised_function(
         plain_for,
     } = specialised_graph(method, subject, naming.precision, bounds)?;
     let meant = match naming.precision {
+        _ if method.keeps_inputs() => at(method, subject, &constants)?,
         Precision::F32 => function.clone(),
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
@@ -234,6 +238,9 @@ pub fn specialised_function(
         code: match (naming.precision, method.half.refusal()) {
             (Precision::F16, Some(why)) => Measured::No(why.to_owned()),
             _ if method.is_textured() => Measured::No(FILTERED.to_owned()),
+            (Precision::F32, _) if method.claims.code_abs > 0.0 => {
+                Measured::Yes(CodeBound::Absolute(method.claims.code_abs))
+            }
             (precision, _) => bounds.of(precision, &function),
         },
         written_as: Some(method.specialised_as(&constants))

@@ -72,6 +72,16 @@ pub(super) fn specialise(
     function.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
 }
 
+/// The function of the cosine alone, with these constants.
+pub(super) fn at(
+    method: &Method,
+    subject: &MaterialInMedium,
+    constants: &Values,
+) -> Result<Checked, Error> {
+    let function = method.at(constants);
+    function.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
+}
+
 /// The plain form, where it is cheaper and recorded as accurate.
 fn plain(
     method: &Method,
@@ -164,5 +174,10 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
 /// The model error of a method for a material, with the coefficients of its specialised function.
 pub fn fitted_error(subject: &MaterialInMedium, method: &'static Method) -> Option<ModelError> {
     let made = specialised_graph(method, subject, Precision::F32, &Bounds::default()).ok()?;
-    Some(model_error(&made.function, &subject.truth_for(method)))
+    let meant = if method.keeps_inputs() {
+        at(method, subject, &made.constants).ok()?
+    } else {
+        made.function
+    };
+    Some(model_error(&meant, &subject.truth_for(method)))
 }

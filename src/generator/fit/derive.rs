@@ -1,6 +1,7 @@
 //! The values of a method's inputs for a material: those of fitted methods come from a fit, all others from each input's own
 //! rule.
 
+use super::film_samples::film_samples;
 use super::problem::{FitCurve, FitObjective, coefficients_and_error};
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::language::methods::{Input, KnownSurface, Method, Values};
@@ -41,7 +42,10 @@ pub fn values_for_material_in(
     }
     let seen = |cos_theta| subject.reference.at(cos_theta);
     let Channels { n, k } = subject.effective.channels;
-    let known = KnownSurface::with(n, k, seen, subject.derivation.matching_cos);
+    let mut known = KnownSurface::with(n, k, seen, subject.derivation.matching_cos);
+    if method.film_samples > 0 {
+        known.film = subject.film_samples(method.film_samples, film_samples).clone();
+    }
     values_of(method, &known)
 }
 

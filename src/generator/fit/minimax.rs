@@ -213,7 +213,7 @@ fn transposed(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
 }
 
 /// Solves a few linear equations by elimination with the largest pivots. None where there is no unique solution.
-fn solve(mut rows: Vec<Vec<f64>>, mut values: Vec<f64>) -> Option<Vec<f64>> {
+pub(super) fn solve(mut rows: Vec<Vec<f64>>, mut values: Vec<f64>) -> Option<Vec<f64>> {
     let count = values.len();
     for step in 0..count {
         let rest = step..count;

@@ -8,6 +8,7 @@ mod best_inputs;
 mod candidates;
 mod derive;
 mod exact;
+mod film_samples;
 mod grey_tint;
 mod material_params;
 mod method_errors;
@@ -25,6 +26,7 @@ pub use candidates::{
 };
 pub use derive::{known, values, values_for_material, values_for_material_in};
 pub use exact::Exact;
+pub use film_samples::film_samples;
 pub use grey_tint::{Follows, GreyTint, grey_tint};
 pub use material_params::{
     CoatedRow, ColourErrors, MaterialParams, MeasuredSpread, abbe_in, colour_errors, ior_in,

@@ -1,11 +1,14 @@
 //! A material in its medium under viewing conditions, the options for deriving its inputs, and the classes of materials.
 
+use std::sync::{Arc, OnceLock};
+
 use super::effective::{Effective, effective};
 use super::reference_curve::ReferenceCurve;
-use crate::language::methods::{Class, Light, Method};
+use crate::language::methods::{Class, FilmSamples, Light, Method};
 use crate::physics::materials::{
     Channels, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
 };
+use crate::physics::optics::Layer;
 
 /// The least n of a dielectric for which there is a fitted method.
 pub const LEAST_FITTED_N: f64 = 1.2;
@@ -27,7 +30,12 @@ pub struct MaterialInMedium {
     pub effective: Effective,
     /// How inputs are derived from it.
     pub derivation: Derivation,
+    /// Its film at three and at six wavelengths. They are expensive, so they are found once, at the first use, for all clones.
+    film_samples: [Arc<OnceLock<FilmSamples>>; 2],
 }
+
+/// A film with less k than this counts as clear.
+const CLEAR_K: f64 = 0.05;
 
 /// A material with the argument that names it: a name, or a file's name.
 pub type Typed = (String, Material);
@@ -60,7 +68,17 @@ impl MaterialInMedium {
             medium,
             reference,
             derivation,
+            film_samples: Default::default(),
         })
+    }
+
+    /// Its film at three or six wavelengths, as `find` finds them at the first use.
+    pub fn film_samples(
+        &self,
+        count: usize,
+        find: fn(&MaterialInMedium, usize) -> FilmSamples,
+    ) -> &FilmSamples {
+        self.film_samples[usize::from(count > 3)].get_or_init(|| find(self, count))
     }
 
     /// The reference for a method's error, in the method's light. For a method that reads a table, it keeps the table's colours.
@@ -91,6 +109,12 @@ impl MaterialInMedium {
         !self.material.films.is_empty()
     }
 
+    /// Whether one film lies on it, with k below [`CLEAR_K`].
+    fn has_one_clear_film(&self) -> bool {
+        let at = |films: &Vec<Layer>| matches!(films.as_slice(), [film] if film.k < CLEAR_K);
+        self.has_films() && self.reference.surface.films.iter().all(at)
+    }
+
     /// The name of its class: film, metal, semiconductor or dielectric.
     pub fn class(&self) -> &'static str {
         self.material.class_name()
@@ -108,6 +132,9 @@ impl MaterialInMedium {
     pub fn is_described_by(&self, method: &Method) -> bool {
         if method.class == Class::Film {
             return self.has_films();
+        }
+        if method.class == Class::ClearFilm {
+            return self.has_one_clear_film();
         }
         if self.has_films() {
             return method.class == Class::Any;

@@ -10,7 +10,7 @@ use crate::generator::fit::{table_of, values_for_material};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, Source};
 use crate::lab::cost::{FunctionId, REFERENCE};
-use crate::language::methods::{self, Class, Method, Values};
+use crate::language::methods::{self, Class, Method};
 use crate::physics::num::Precision;
 
 /// The method of the heavy shader, which is drawn below all others: the most expensive one of the library.
@@ -131,7 +131,7 @@ impl LibraryMaterials {
     ) -> Result<Vec<TimedFunction>, Error> {
         let material = match method.class {
             Class::Dielectric => &self.dielectric,
-            Class::Metal | Class::Any | Class::Film => &self.metal,
+            Class::Metal | Class::Any | Class::Film | Class::ClearFilm => &self.metal,
         };
         let reference = material.truth_for(method);
         let function = |emitted: EmittedFunction| TimedFunction {
@@ -163,7 +163,7 @@ fn specialised(
     Ok(TimedFunction {
         id: FunctionId::specialised(method, material, precision),
         name: naming(precision).specialised(method, material),
-        values: Values::new(),
+        values: method.kept_of(&made.constants),
         table: table_of(&made.function, |c| reference.at(c)),
         graph: made.function,
     })

@@ -86,9 +86,11 @@ pub fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &EmittedFunction)
     };
     let reference = subject.truth_for(emitted.method);
     let table = fit::table_of(&emitted.function, |c| reference.at(c));
+    let kept = emitted.method.kept();
+    let kept = kept.map(|input| emitted.constants[input.name].map(|value| value as f32));
     TrialCase {
         material: &subject.argument,
-        trial: trial(emitted, Vec::new(), table, bound),
+        trial: trial(emitted, kept.collect(), table, bound),
         limits: limits_of(&subject.effective.channels)
             .into_iter()
             .chain(worst_cosines(emitted.method))
@@ -155,7 +157,7 @@ fn promised_for(emitted: &EmittedFunction, channels: &Channels) -> Measured<f64>
 /// The absolute difference that is no error. What coefficients promise is absolute.
 fn floor(emitted: &EmittedFunction) -> f64 {
     match emitted.code {
-        Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => most,
+        Measured::Yes(CodeBound::Absolute(most)) if !emitted.precision.is_half() => most,
         _ => ABSOLUTE_FLOOR,
     }
 }
@@ -177,7 +179,8 @@ fn trial(
 ) -> Trial {
     // A function that reads a texture is as exact as its sampler, which the trial allows for. What coefficients promise is
     // absolute.
-    let has_no_ulp = emitted.method.is_textured() || emitted.form.coefficient().is_some();
+    let is_absolute = emitted.form.coefficient().is_some() || emitted.method.claims.code_abs > 0.0;
+    let has_no_ulp = emitted.method.is_textured() || is_absolute;
     let bound = match bound {
         Measured::Yes(_) if has_no_ulp => Measured::Yes(0.0),
         Measured::No(_) if emitted.method.is_textured() => Measured::Yes(0.0),

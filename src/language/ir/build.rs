@@ -201,6 +201,16 @@ impl<'b> Expr<'b> {
         self.unary(Op::Log2)
     }
 
+    /// sin x, x in radians
+    pub fn sin(self) -> Expr<'b> {
+        self.unary(Op::Sin)
+    }
+
+    /// cos x, x in radians
+    pub fn cos(self) -> Expr<'b> {
+        self.unary(Op::Cos)
+    }
+
     /// x²
     pub fn squared(self) -> Expr<'b> {
         self * self

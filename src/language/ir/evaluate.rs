@@ -343,6 +343,8 @@ pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value
         (Op::InverseSqrt, _) => arg(0).map(N::inverse_sqrt),
         (Op::Exp2, _) => arg(0).map(N::exp2),
         (Op::Log2, _) => arg(0).map(N::log2),
+        (Op::Sin, _) => arg(0).map(N::sin),
+        (Op::Cos, _) => arg(0).map(N::cos),
         (Op::Less, _) => Value::Bool(arg(0).channel(0).zip(arg(1).channel(0), &N::less)),
         (Op::Select, _) => arg(0).choose(arg(1), arg(2)),
         (Op::Dot, _) => arg(0).dot(arg(1)),

@@ -23,6 +23,8 @@ pub enum Op {
     InverseSqrt,
     Exp2,
     Log2,
+    Sin,
+    Cos,
     Less,
     Select,
     Dot,
@@ -159,7 +161,7 @@ const fn row(
 
 /// Every operation, in the order of [`Op`].
 #[rustfmt::skip]
-pub static OPS: [OpInfo; 25] = [
+pub static OPS: [OpInfo; 27] = [
     row(Op::Number,      "number",       Signature::Number,  0, "a constant"),
     row(Op::Param,       "param",        Signature::Param,   0, "an argument of the function"),
     row(Op::Splat,       "splat",        Signature::Splat,   0, "the same scalar in each channel"),
@@ -178,6 +180,8 @@ pub static OPS: [OpInfo; 25] = [
     row(Op::InverseSqrt, "inverse_sqrt", Signature::Unary,   1, "1 / the square root"),
     row(Op::Exp2,        "exp2",         Signature::Unary,   1, "2 to the power a"),
     row(Op::Log2,        "log2",         Signature::Unary,   1, "the logarithm to base 2"),
+    row(Op::Sin,         "sin",          Signature::Unary,   1, "the sine of a in radians"),
+    row(Op::Cos,         "cos",          Signature::Unary,   1, "the cosine of a in radians"),
     row(Op::Less,        "less",         Signature::Compare, 1, "a < b"),
     row(Op::Select,      "select",       Signature::Choose,  1, "b where a holds, else c"),
     row(Op::Dot,         "dot",          Signature::Dot,     2, "the scalar product: a.x b.x + a.y b.y + a.z b.z"),

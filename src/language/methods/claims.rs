@@ -24,6 +24,8 @@ pub struct Claims {
     /// angles. Differences within 2⁻²² do not count. 0: no larger difference was found, or
     /// the method reads a texture, where the sampler decides.
     pub code_ulp: f64,
+    /// Code error of a method that promises none in ulp: the largest absolute difference. 0 for all others.
+    pub code_abs: f64,
     /// The media that the code error is stated over.
     pub code_over: MediaSet,
     /// The code error over all colours that artists may enter, where a method takes colours.
@@ -37,6 +39,7 @@ impl Claims {
     pub(super) const NONE: Claims = Claims {
         model: &[],
         code_ulp: 0.0,
+        code_abs: 0.0,
         code_over: MediaSet::Wide,
         colours: None,
         by_class: &[],

@@ -2,6 +2,7 @@
 //! derived from a [`KnownSurface`]. An input of a single method stands in that method's file.
 
 use crate::language::ir::{Builder, COSINE, Expr, Ty};
+use crate::physics::materials::THESIS_NM;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics::{self, COS_82};
 
@@ -34,6 +35,8 @@ pub enum InputSource {
     Material(fn(&KnownSurface) -> [f64; 3]),
     /// The material, in channels that have a value; 0 stands for none.
     MaterialOrNone(fn(&KnownSurface) -> [Option<f64>; 3]),
+    /// The material, as a value that changes from pixel to pixel: a function of a material keeps it as an argument.
+    Pixel(fn(&KnownSurface) -> f64),
     /// The artist. Functions of materials take this value.
     Artist(f64),
     /// A fit to the material's reflectance over all angles.
@@ -113,6 +116,7 @@ impl Input {
             InputSource::MaterialOrNone(derived) => {
                 Some(derived(surface).map(|value| value.unwrap_or(0.0)))
             }
+            InputSource::Pixel(derived) => Some([derived(surface); 3]),
             InputSource::Artist(value) | InputSource::TextureLayout(value) => Some([value; 3]),
             InputSource::Fit | InputSource::Texture => None,
         }
@@ -124,6 +128,11 @@ impl Input {
         matches!(self.source, Material(_) | MaterialOrNone(_))
     }
 
+    /// Whether a function of a material keeps it as an argument.
+    pub fn is_kept(&self) -> bool {
+        matches!(self.source, InputSource::Pixel(_))
+    }
+
     /// The value of a channel; none where the input may be missing and the value says so by being 0 or less.
     pub fn present(&self, value: f64) -> Option<f64> {
         let may_lack = matches!(self.source, InputSource::MaterialOrNone(_));
@@ -132,6 +141,14 @@ impl Input {
 
     pub(super) const fn tried(self, tried: &'static [f64]) -> Input {
         Input { tried, ..self }
+    }
+
+    /// The same, tried with its usual value alone.
+    pub(super) const fn tried_once(self) -> Input {
+        Input {
+            tried: self.tried.split_at(1).0,
+            ..self
+        }
     }
 
     pub(super) const fn scanned(self, scanned: &'static [f64]) -> Input {
@@ -356,6 +373,60 @@ pub struct KnownSurface {
     pub matching: [f64; 3],
     /// Reflectance at the two angles that determine Belcour's weights.
     pub belcour: [[f64; 3]; 2],
+    /// Its film at a few wavelengths, for a method that asks for them.
+    pub film: FilmSamples,
+}
+
+/// A material under one film at a few wavelengths, whose weighted sum gives the channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmSamples {
+    /// The film's thickness in nanometres.
+    pub thickness_nm: f64,
+    /// The wavelengths.
+    pub samples: Vec<FilmSample>,
+    /// The largest error of the sum, over all thicknesses from 0 to that of the film, all angles and channels.
+    pub max_abs: f64,
+}
+
+/// A wavelength of [`FilmSamples`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmSample {
+    /// The wavelength in nanometres, in the medium outside.
+    pub wavelength_nm: f64,
+    /// The film's index, relative to the medium outside.
+    pub film_n: f64,
+    /// The base's index, relative to the same: n and k.
+    pub base: [f64; 2],
+    /// Its share in red, green and blue.
+    pub weights: [f64; 3],
+}
+
+impl FilmSamples {
+    /// A surface without a film: each channel is one wavelength, and the film has no thickness.
+    fn of_index(n: [f64; 3], k: [f64; 3]) -> FilmSamples {
+        let sample = |i: usize| FilmSample {
+            wavelength_nm: THESIS_NM[i],
+            film_n: 1.5,
+            base: [n[i], k[i]],
+            weights: each_channel(|channel| f64::from(u8::from(channel == i))),
+        };
+        FilmSamples {
+            thickness_nm: 0.0,
+            samples: each_channel(sample).to_vec(),
+            max_abs: 0.0,
+        }
+    }
+
+    /// A number of each of the three wavelengths from `first` on. Where there are fewer, those that are lack have no weight.
+    pub(super) fn three(&self, first: usize, of: fn(&FilmSample) -> f64) -> [f64; 3] {
+        each_channel(|i| match self.samples.get(first + i) {
+            Some(sample) => of(sample),
+            None => of(&FilmSample {
+                weights: [0.0; 3],
+                ..self.samples[i]
+            }),
+        })
+    }
 }
 
 impl KnownSurface {
@@ -384,6 +455,7 @@ impl KnownSurface {
             matching_cos,
             matching: seen(matching_cos),
             belcour: BELCOUR_COSINES.map(&seen),
+            film: FilmSamples::of_index(n, k),
         }
     }
 }

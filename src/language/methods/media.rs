@@ -11,6 +11,8 @@ pub enum Class {
     Any,
     /// Any material under films: no law of one index follows it.
     Film,
+    /// A material under one film that absorbs next to nothing.
+    ClearFilm,
 }
 
 impl Class {
@@ -20,7 +22,7 @@ impl Class {
             Class::Dielectric => k == 0.0,
             Class::Metal => k >= LEAST_METALLIC * n,
             Class::Any => true,
-            Class::Film => false,
+            Class::Film | Class::ClearFilm => false,
         }
     }
 
@@ -31,6 +33,7 @@ impl Class {
             Class::Metal => "metals (k of n / 4 and more)",
             Class::Any => "all media",
             Class::Film => "materials under films",
+            Class::ClearFilm => "materials under one clear film",
         }
     }
 
@@ -41,6 +44,9 @@ impl Class {
             Class::Metal => "metals only, with k of at least n / 4, and this has less",
             Class::Any => "all media",
             Class::Film => "materials under films only, and this has none",
+            Class::ClearFilm => {
+                "materials under one film only, with k below 0.05, and this is none"
+            }
         }
     }
 }

@@ -64,6 +64,8 @@ pub struct Method {
     pub affine: Option<Affine>,
     /// The mean over the hemisphere, where it does not follow from [`Method::basis`].
     pub average: Option<FittedAverage>,
+    /// At how many wavelengths it computes the law of a film; 0 for one that knows no wavelengths.
+    pub film_samples: usize,
 }
 
 impl Method {
@@ -97,6 +99,7 @@ impl Method {
         shape: None,
         affine: None,
         average: None,
+        film_samples: 0,
     };
 }
 
@@ -222,7 +225,8 @@ impl Method {
         check_in(precision, fold_in(precision, &whole))
     }
 
-    /// The function with these constants folded in. Inputs without a value stay arguments.
+    /// The function with these constants folded in. Inputs without a value stay arguments, and so do those that change from pixel
+    /// to pixel.
     ///
     /// # Errors
     /// With these constants the graph breaks a rule of [`crate::language::ir::RULES`]: one is not finite in f32, for example.
@@ -244,7 +248,35 @@ impl Method {
         }
         let build = self.for_constants.unwrap_or(self.build);
         let library = self.built(build, precision, false)?;
-        check_in(precision, specialise_in(precision, &library, values))
+        let mut folded = values.clone();
+        folded.retain(|name, _| self.kept().all(|input| input.name != name));
+        check_in(precision, specialise_in(precision, &library, &folded))
+    }
+
+    /// The function of the cosine alone: with all of these values folded in.
+    ///
+    /// # Errors
+    /// As [`Method::specialise`].
+    pub fn at(&self, values: &Values) -> Result<Checked, BrokenRule> {
+        let function = self.specialise(values)?;
+        let rest = self.kept_of(values);
+        check_in(Precision::F32, specialise_in(Precision::F32, &function, &rest))
+    }
+
+    /// The inputs that a function of a material keeps as arguments.
+    pub fn kept(&self) -> impl Iterator<Item = &'static Input> {
+        self.inputs.iter().filter(|input| input.is_kept())
+    }
+
+    /// The values of those inputs.
+    pub fn kept_of(&self, values: &Values) -> Values {
+        let kept = self.kept().map(|input| input.name);
+        kept.map(|name| (name.to_owned(), values[name])).collect()
+    }
+
+    /// Whether a function of a material keeps an argument beside the cosine and a texture.
+    pub fn keeps_inputs(&self) -> bool {
+        self.kept().next().is_some()
     }
 
     /// The plain form with these constants folded in, where the method has one; single precision.

@@ -65,18 +65,18 @@ const SHARED: Spelling = Spelling {
     ..C_FAMILY
 };
 
-const FORMS: [(Op, Form); 15] = forms(
+const FORMS: [(Op, Form); 17] = forms(
     "metal::float3",
     "{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb",
 );
 
-const HALF_FORMS: [(Op, Form); 15] = forms(
+const HALF_FORMS: [(Op, Form); 17] = forms(
     "metal::half3",
     "metal::half3({0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb)",
 );
 
 /// The library's functions accept both precisions.
-const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 15] {
+const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 17] {
     [
         (Op::Splat, Form::Call(rgb)),
         (Op::Compose, Form::Call(rgb)),
@@ -88,6 +88,8 @@ const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 15] {
         (Op::InverseSqrt, Form::Call("metal::rsqrt")),
         (Op::Exp2, Form::Call("metal::exp2")),
         (Op::Log2, Form::Call("metal::log2")),
+        (Op::Sin, Form::Call("metal::sin")),
+        (Op::Cos, Form::Call("metal::cos")),
         (Op::Dot, Form::Call("metal::dot")),
         (
             Op::Transform,

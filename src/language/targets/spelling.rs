@@ -164,6 +164,8 @@ fn c_family(op: Op) -> Form {
         Op::InverseSqrt => Form::Call("rsqrt"),
         Op::Exp2 => Form::Call("exp2"),
         Op::Log2 => Form::Call("log2"),
+        Op::Sin => Form::Call("sin"),
+        Op::Cos => Form::Call("cos"),
         Op::Less => Form::Infix("<", precedence::COMPARE),
         Op::Select => Form::Ternary,
         Op::Dot => Form::Call("dot"),

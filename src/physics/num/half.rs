@@ -2,10 +2,10 @@
 //!
 //! Each operation of [`Half`] is done in `f32` and the result rounded to 11 bits. For `+ - * /` and `sqrt` the two
 //! roundings equal one, because 24 ≥ 2·11 + 2 (S. A. Figueroa, *When is double rounding innocuous?*, ACM
-//! SIGNUM Newsletter 30(3), 1995, <https://doi.org/10.1145/221332.221334>). `exp2` and `log2` are `libm`'s `f32`
+//! SIGNUM Newsletter 30(3), 1995, <https://doi.org/10.1145/221332.221334>). `exp2`, `log2`, `sin` and `cos` are `libm`'s `f32`
 //! functions, then rounded: at most 0.501 ulp of binary16.
 //!
-//! In `f32` and `f64`, `+ - * /` and `sqrt` round correctly (IEEE 754). `exp2` and `log2` come from the `libm` crate, with
+//! In `f32` and `f64`, `+ - * /` and `sqrt` round correctly (IEEE 754). `exp2`, `log2`, `sin` and `cos` come from the `libm` crate, with
 //! errors below 1 ulp. The standard library's call the platform's C library and may differ between machines.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -101,13 +101,21 @@ impl Num for Half {
         Half::from_f32(libm::log2f(self.to_f32()))
     }
 
+    fn sin(self) -> Half {
+        Half::from_f32(libm::sinf(self.to_f32()))
+    }
+
+    fn cos(self) -> Half {
+        Half::from_f32(libm::cosf(self.to_f32()))
+    }
+
     fn less(self, other: Half) -> Truth {
         (self < other).into()
     }
 }
 
 macro_rules! native {
-    ($float:ty, $exp2:path, $log2:path) => {
+    ($float:ty, $exp2:path, $log2:path, $sin:path, $cos:path) => {
         impl Num for $float {
             #[inline]
             fn from_f64(x: f64) -> Self {
@@ -150,6 +158,16 @@ macro_rules! native {
             }
 
             #[inline]
+            fn sin(self) -> Self {
+                $sin(self)
+            }
+
+            #[inline]
+            fn cos(self) -> Self {
+                $cos(self)
+            }
+
+            #[inline]
             fn less(self, other: Self) -> Truth {
                 (self < other).into()
             }
@@ -157,8 +175,8 @@ macro_rules! native {
     };
 }
 
-native!(f32, libm::exp2f, libm::log2f);
-native!(f64, libm::exp2, libm::log2);
+native!(f32, libm::exp2f, libm::log2f, libm::sinf, libm::cosf);
+native!(f64, libm::exp2, libm::log2, libm::sin, libm::cos);
 
 #[cfg(test)]
 mod tests {

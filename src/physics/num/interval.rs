@@ -1,8 +1,8 @@
 //! [`Interval`]: the values that a step of a formula can have, for range analysis.
 //!
 //! Every result contains each real number that the operation gives on members of its operands. An end that was
-//! rounded is moved outward by one step of `f64`. An end that is exact stays, so 1 − [0, 1] is [0, 1]. `exp2` and
-//! `log2` are widened by 1e-15 of their value, which is more than `libm`'s error of 1 ulp (2.2e-16). Ends may be
+//! rounded is moved outward by one step of `f64`. An end that is exact stays, so 1 − [0, 1] is [0, 1]. `exp2`,
+//! `log2`, `sin` and `cos` are widened by 1e-15 of their value, which is more than `libm`'s error of 1 ulp (2.2e-16). Ends may be
 //! infinite but never NaN. The method is that of R. E. Moore, *Interval Analysis*, Prentice-Hall, 1966. Exactness is
 //! tested in double-double arithmetic.
 
@@ -10,7 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Num, Truth};
 
-/// The relative widening of `exp2` and `log2`.
+/// The relative widening of `exp2`, `log2`, `sin` and `cos`.
 const FUNCTION_WIDENING: f64 = 1e-15;
 
 /// Below this magnitude the exact error of a product may itself be rounded: 2⁻¹⁰²² · 2¹⁰⁶ and a margin.
@@ -52,6 +52,15 @@ impl Interval {
     #[inline]
     pub fn hi(self) -> f64 {
         self.hi
+    }
+
+    /// A sine or a cosine.
+    fn wave(self, of: fn(f64) -> f64) -> Interval {
+        if self.lo == self.hi && self.lo.is_finite() {
+            let value = of(self.lo);
+            return widened(value, value);
+        }
+        Interval::new(-1.0, 1.0)
     }
 
     /// Whether `x` lies in it; a NaN lies in none.
@@ -291,6 +300,17 @@ impl Num for Interval {
         widened(libm::log2(self.lo.max(0.0)), libm::log2(self.hi.max(0.0)))
     }
 
+    /// [-1, 1], except at a point: a phase that varies passes through whole turns.
+    #[inline]
+    fn sin(self) -> Interval {
+        self.wave(libm::sin)
+    }
+
+    #[inline]
+    fn cos(self) -> Interval {
+        self.wave(libm::cos)
+    }
+
     /// Yes or No if it holds or fails for every pair of members, else Either.
     #[inline]
     fn less(self, other: Interval) -> Truth {
@@ -367,7 +387,15 @@ mod tests {
         let beside = |lo: &f64| ends.map(|hi| Interval::new(*lo, hi));
         let pairs = || ends.iter().flat_map(beside);
         for (a, b) in pairs().flat_map(|a| pairs().map(move |b| (a, b))) {
-            let of_one = [a.sqrt(), a.inverse_sqrt(), a.exp2(), a.log2(), a.squared()];
+            let of_one = [
+                a.sqrt(),
+                a.inverse_sqrt(),
+                a.exp2(),
+                a.log2(),
+                a.sin(),
+                a.cos(),
+                a.squared(),
+            ];
             for result in [a + b, a - b, a * b, a / b].into_iter().chain(of_one) {
                 assert!(result.lo <= result.hi, "{a:?} {b:?} {result:?}");
             }

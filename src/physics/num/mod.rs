@@ -51,8 +51,8 @@ pub fn each_channel<T>(mut of: impl FnMut(usize) -> T) -> [T; 3] {
 
 /// A number that a formula computes with.
 ///
-/// Every operation rounds once, to the nearest representable value, except `inverse_sqrt` (twice), `exp2` and `log2`, and all of
-/// [`Interval`], whose errors each implementation states. A comparison with a NaN is
+/// Every operation rounds once, to the nearest representable value, except `inverse_sqrt` (twice), `exp2`, `log2`, `sin` and `cos`, and all
+/// of [`Interval`], whose errors each implementation states. A comparison with a NaN is
 /// [`Truth::No`]; `min` and `max` return the other operand when one is a NaN, as IEEE 754-2008 `minNum` does.
 pub trait Num:
     Copy
@@ -80,6 +80,10 @@ pub trait Num:
     fn exp2(self) -> Self;
     /// log₂ x
     fn log2(self) -> Self;
+    /// sin x, x in radians
+    fn sin(self) -> Self;
+    /// cos x, x in radians
+    fn cos(self) -> Self;
     /// Whether `self < other`.
     fn less(self, other: Self) -> Truth;
 

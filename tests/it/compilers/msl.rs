@@ -42,7 +42,7 @@ float3 operator-(float3);
 #define OPERATOR(o) float3 operator o(float3, float3); float3 operator o(float3, float); float3 operator o(float, float3);
 OPERATOR(+) OPERATOR(-) OPERATOR(*) OPERATOR(/)
 #define ONE(f) float f(float); float3 f(float3);
-ONE(abs) ONE(exp2) ONE(log2) ONE(rsqrt) ONE(saturate) ONE(sqrt)
+ONE(abs) ONE(cos) ONE(exp2) ONE(log2) ONE(rsqrt) ONE(saturate) ONE(sin) ONE(sqrt)
 #define TWO(f) float f(float, float); float3 f(float3, float3);
 TWO(max) TWO(min)
 struct half3 {
@@ -55,7 +55,7 @@ half3 operator-(half3);
 #define HALF_OPERATOR(o) half3 operator o(half3, half3); half3 operator o(half3, half); half3 operator o(half, half3);
 HALF_OPERATOR(+) HALF_OPERATOR(-) HALF_OPERATOR(*) HALF_OPERATOR(/)
 #define HALF_ONE(f) half f(half); half3 f(half3);
-HALF_ONE(abs) HALF_ONE(exp2) HALF_ONE(log2) HALF_ONE(rsqrt) HALF_ONE(saturate) HALF_ONE(sqrt)
+HALF_ONE(abs) HALF_ONE(cos) HALF_ONE(exp2) HALF_ONE(log2) HALF_ONE(rsqrt) HALF_ONE(saturate) HALF_ONE(sin) HALF_ONE(sqrt)
 #define HALF_TWO(f) half f(half, half); half3 f(half3, half3);
 HALF_TWO(max) HALF_TWO(min)
 float dot(float3, float3);

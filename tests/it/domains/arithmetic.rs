@@ -153,6 +153,14 @@ impl<const KIND: u8> Num for Fast<KIND> {
         Fast::of(libm::log2f(self.value))
     }
 
+    fn sin(self) -> Self {
+        Fast::of(libm::sinf(self.value))
+    }
+
+    fn cos(self) -> Self {
+        Fast::of(libm::cosf(self.value))
+    }
+
     fn less(self, other: Self) -> Truth {
         (self.value < other.value).into()
     }

@@ -397,6 +397,8 @@ fn call(name: &str, arguments: &[Term]) -> Term {
         ("abs", [x]) => x.map(f32::abs),
         ("exp2", [x]) => x.map(libm::exp2f),
         ("log2", [x]) => x.map(libm::log2f),
+        ("sin", [x]) => x.map(libm::sinf),
+        ("cos", [x]) => x.map(libm::cosf),
         ("min", [a, b]) => a.zip(*b, f32::min),
         ("max", [a, b]) => a.zip(*b, f32::max),
         ("select", [no, yes, condition]) => choose(*condition, *yes, *no),

@@ -34,6 +34,7 @@ pub static METHOD: Method = Method {
             ByClass::of_class("metal", [0.0042, 0.0100], [0.0047, 0.0430], 0.0141),
             ByClass::of_class("semiconductor", [0.0066, 0.0074], [0.0065, 0.0096], 0.0094),
         ],
+        ..Claims::NONE
     },
     half: InHalf::Specialised("its coefficients cancel"),
     build,

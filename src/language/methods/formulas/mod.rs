@@ -34,6 +34,8 @@ mod dielectric_exact_s;
 mod dielectric_textbook;
 mod empirical;
 mod f82_tint;
+mod film_spectral_six;
+mod film_spectral_three;
 mod fitted;
 mod fitted_dielectric;
 mod fitted_dielectric_rational;
@@ -68,6 +70,8 @@ pub static ALL: &[&Method] = &[
     &dielectric_textbook::METHOD,
     &empirical::METHOD,
     &f82_tint::METHOD,
+    &film_spectral_six::METHOD,
+    &film_spectral_three::METHOD,
     &fitted::METHOD,
     &fitted_dielectric::METHOD,
     &fitted_dielectric_rational::METHOD,
@@ -104,6 +108,8 @@ impl Method {
     pub const DIELECTRIC_TEXTBOOK: &'static Method = &dielectric_textbook::METHOD;
     pub const EMPIRICAL: &'static Method = &empirical::METHOD;
     pub const F82_TINT: &'static Method = &f82_tint::METHOD;
+    pub const FILM_SPECTRAL_SIX: &'static Method = &film_spectral_six::METHOD;
+    pub const FILM_SPECTRAL_THREE: &'static Method = &film_spectral_three::METHOD;
     pub const FITTED: &'static Method = &fitted::METHOD;
     pub const FITTED_DIELECTRIC: &'static Method = &fitted_dielectric::METHOD;
     pub const FITTED_DIELECTRIC_RATIONAL: &'static Method = &fitted_dielectric_rational::METHOD;
