@@ -254,7 +254,7 @@ fn pairs<'a>(
     let (mut pairs, mut left_out) = (Vec::new(), Vec::new());
     for subject in subjects {
         for method in methods(flags, subject) {
-            let function = method.specialise(&values_for_material(subject, method));
+            let function = method.at(&values_for_material(subject, method));
             match function {
                 Ok(function) if subject.is_described_by(method) => pairs.push(Pair {
                     subject,

@@ -106,6 +106,15 @@ pub(super) fn model_line(error: &ModelError) -> String {
     format!("Model error: {most} (at {degrees:.2} degrees), {mean}{undefined}.")
 }
 
+/// For a method that computes at a few wavelengths: its error at all thicknesses.
+pub(super) fn thickness_line(emitted: &EmittedFunction) -> Option<String> {
+    let (most_nm, error) = emitted.thicknesses?;
+    Some(format!(
+        "Of its film's {most_nm} nm; from 0 to {most_nm} nm: at most {}.",
+        rounded_up(error)
+    ))
+}
+
 /// A line that says that a fit misses its class, and which method serves.
 pub(super) fn missed_line(emitted: &EmittedFunction) -> Option<String> {
     let missed = emitted.missed.as_ref()?;

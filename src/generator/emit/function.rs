@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::code_bound::{Bounds, CodeBound, FILTERED};
 use super::error::Error;
-use super::specialised::{Missed, Specialised, at, missed, specialise, specialised_graph};
-use crate::generator::fit::{Measured, ModelError, model_error};
+use super::specialised::{Missed, Specialised, missed, of_cosine, specialise, specialised_graph};
+use crate::generator::fit::{Measured, ModelError, known_film, model_error};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction};
 use crate::language::ir::{BrokenRule, Checked};
@@ -86,6 +86,8 @@ pub struct EmittedFunction {
     pub constants: Values,
     /// Method against exact law, for a specialised function.
     pub model_error: Option<ModelError>,
+    /// For a method that computes at a few wavelengths: the film's thickness in nanometres, and the largest error from 0 to it.
+    pub thicknesses: Option<(f64, f64)>,
     /// The error of its own precision against f64.
     pub code: Measured<CodeBound>,
     /// The method whose formula it has, if that is another one's.
@@ -114,6 +116,7 @@ impl EmittedFunction {
             function,
             constants: Values::new(),
             model_error: None,
+            thicknesses: None,
             code,
             written_as: None,
             plain_for: None,
@@ -222,7 +225,9 @@ pub fn specialised_function(
         plain_for,
     } = specialised_graph(method, subject, naming.precision, bounds)?;
     let meant = match naming.precision {
-        _ if method.keeps_inputs() => at(method, subject, &constants)?,
+        Precision::F32 if method.keeps_inputs() => {
+            of_cosine(method, subject, naming.precision, bounds)?
+        }
         Precision::F32 => function.clone(),
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
@@ -235,6 +240,10 @@ pub fn specialised_function(
         precision: naming.precision,
         missed: missed(subject, method, error.max_abs),
         model_error: Some(error),
+        thicknesses: (method.wavelengths > 0).then(|| {
+            let film = subject.film(method.wavelengths, known_film);
+            (film.thickness_nm, film.max_abs)
+        }),
         code: match (naming.precision, method.half.refusal()) {
             (Precision::F16, Some(why)) => Measured::No(why.to_owned()),
             _ if method.is_textured() => Measured::No(FILTERED.to_owned()),

@@ -9,7 +9,7 @@ use super::code_bound::FILTERED;
 use super::comment;
 use super::figures::{
     beyond_colours, code_line, half_promise, missed_line, model_line, model_promises, operations,
-    promises,
+    promises, thickness_line,
 };
 use super::function::{EmittedFunction, FunctionForm};
 use crate::generator::fit::Measured;
@@ -158,6 +158,7 @@ impl Heading<'_> {
                 lines.extend(exemption(method));
                 lines.extend(table_line(emitted));
                 lines.extend(emitted.model_error.iter().map(model_line));
+                lines.extend(thickness_line(emitted));
                 lines.extend(missed_line(emitted));
                 lines.push(code_line(emitted));
                 lines.extend(Average::of(emitted).map(|average| average.line()));
@@ -209,6 +210,7 @@ impl Heading<'_> {
                 lines.extend(subject.into_iter().flat_map(viewing_conditions));
                 lines.extend(table_line(emitted));
                 lines.extend(emitted.model_error.iter().map(model_line));
+                lines.extend(thickness_line(emitted));
                 lines.extend(missed_line(emitted));
                 lines.push(format!("{} {OUTPUT_LICENCE}.", code_line(emitted)));
             }
@@ -301,6 +303,7 @@ fn short_figures(emitted: &EmittedFunction) -> Vec<String> {
     };
     let mut lines: Vec<String> = reads_table(emitted).then(table).into_iter().collect();
     lines.extend(emitted.model_error.iter().map(model_line));
+    lines.extend(thickness_line(emitted));
     lines.extend(missed_line(emitted));
     let is_warning = match &emitted.code {
         Measured::Yes(_) => emitted.precision.is_half(),

@@ -47,7 +47,7 @@ pub use page::{
     validate as validate_wgsl,
 };
 pub use print::bare;
-pub use specialised::{Missed, fitted_error, missed, specialised_graph};
+pub use specialised::{Missed, fitted_error, missed, of_cosine, specialised_graph};
 pub use xml::{XmlDocument, xml_comment, xml_text};
 
 /// The version of naga that generates SPIR-V, pinned in Cargo.toml: another version gives other bytes.

@@ -61,6 +61,25 @@ pub fn specialised_graph(
     })
 }
 
+/// A method's formula for a material as a function of the cosine alone, and of the table that it reads: what the material keeps as an
+/// argument is folded in too.
+///
+/// # Errors
+/// As [`specialised_graph`].
+pub fn of_cosine(
+    method: &Method,
+    subject: &MaterialInMedium,
+    precision: Precision,
+    bounds: &Bounds,
+) -> Result<Checked, Error> {
+    let made = specialised_graph(method, subject, precision, bounds)?;
+    if !method.keeps_inputs() {
+        return Ok(made.function);
+    }
+    let whole = method.at(&made.constants);
+    whole.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
+}
+
 /// The stable form with these constants.
 pub(super) fn specialise(
     method: &Method,
@@ -69,16 +88,6 @@ pub(super) fn specialise(
     constants: &Values,
 ) -> Result<Checked, Error> {
     let function = method.specialise_in(precision, constants);
-    function.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
-}
-
-/// The function of the cosine alone, with these constants.
-pub(super) fn at(
-    method: &Method,
-    subject: &MaterialInMedium,
-    constants: &Values,
-) -> Result<Checked, Error> {
-    let function = method.at(constants);
     function.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
 }
 
@@ -173,11 +182,6 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
 
 /// The model error of a method for a material, with the coefficients of its specialised function.
 pub fn fitted_error(subject: &MaterialInMedium, method: &'static Method) -> Option<ModelError> {
-    let made = specialised_graph(method, subject, Precision::F32, &Bounds::default()).ok()?;
-    let meant = if method.keeps_inputs() {
-        at(method, subject, &made.constants).ok()?
-    } else {
-        made.function
-    };
-    Some(model_error(&meant, &subject.truth_for(method)))
+    let function = of_cosine(method, subject, Precision::F32, &Bounds::default()).ok()?;
+    Some(model_error(&function, &subject.truth_for(method)))
 }

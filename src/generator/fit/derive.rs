@@ -1,10 +1,10 @@
 //! The values of a method's inputs for a material: those of fitted methods come from a fit, all others from each input's own
 //! rule.
 
-use super::film_samples::film_samples;
+use super::known_film::known_film;
 use super::problem::{FitCurve, FitObjective, coefficients_and_error};
 use crate::generator::reference::{Derivation, MaterialInMedium};
-use crate::language::methods::{Input, KnownSurface, Method, Values};
+use crate::language::methods::{Class, Input, KnownSurface, Method, Values};
 use crate::physics::materials::Channels;
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics;
@@ -43,8 +43,9 @@ pub fn values_for_material_in(
     let seen = |cos_theta| subject.reference.at(cos_theta);
     let Channels { n, k } = subject.effective.channels;
     let mut known = KnownSurface::with(n, k, seen, subject.derivation.matching_cos);
-    if method.film_samples > 0 {
-        known.film = subject.film_samples(method.film_samples, film_samples).clone();
+    if matches!(method.class, Class::OneFilm | Class::ClearFilm) && subject.is_described_by(method)
+    {
+        known.film = subject.film(method.wavelengths, known_film).clone();
     }
     values_of(method, &known)
 }

@@ -8,8 +8,8 @@ mod best_inputs;
 mod candidates;
 mod derive;
 mod exact;
-mod film_samples;
 mod grey_tint;
+mod known_film;
 mod material_params;
 mod method_errors;
 mod minimax;
@@ -26,8 +26,8 @@ pub use candidates::{
 };
 pub use derive::{known, values, values_for_material, values_for_material_in};
 pub use exact::Exact;
-pub use film_samples::film_samples;
 pub use grey_tint::{Follows, GreyTint, grey_tint};
+pub use known_film::known_film;
 pub use material_params::{
     CoatedRow, ColourErrors, MaterialParams, MeasuredSpread, abbe_in, colour_errors, ior_in,
     material_params,

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::effective::{Effective, effective};
 use super::reference_curve::ReferenceCurve;
-use crate::language::methods::{Class, FilmSamples, Light, Method};
+use crate::language::methods::{Class, KnownFilm, Light, Method};
 use crate::physics::materials::{
     Channels, Material, MaterialKind, Surface, SurfaceError, ViewingConditions,
 };
@@ -30,8 +30,9 @@ pub struct MaterialInMedium {
     pub effective: Effective,
     /// How inputs are derived from it.
     pub derivation: Derivation,
-    /// Its film at three and at six wavelengths. They are expensive, so they are found once, at the first use, for all clones.
-    film_samples: [Arc<OnceLock<FilmSamples>>; 2],
+    /// Its film without wavelengths, at three and at six. They are expensive, so they are found once, at the first use, for all
+    /// clones.
+    film: [Arc<OnceLock<KnownFilm>>; 3],
 }
 
 /// A film with less k than this counts as clear.
@@ -68,17 +69,17 @@ impl MaterialInMedium {
             medium,
             reference,
             derivation,
-            film_samples: Default::default(),
+            film: Default::default(),
         })
     }
 
-    /// Its film at three or six wavelengths, as `find` finds them at the first use.
-    pub fn film_samples(
+    /// Its one film at so many wavelengths, 0, 3 or 6, as `find` finds it at the first use.
+    pub fn film(
         &self,
-        count: usize,
-        find: fn(&MaterialInMedium, usize) -> FilmSamples,
-    ) -> &FilmSamples {
-        self.film_samples[usize::from(count > 3)].get_or_init(|| find(self, count))
+        wavelengths: usize,
+        find: fn(&MaterialInMedium, usize) -> KnownFilm,
+    ) -> &KnownFilm {
+        self.film[wavelengths / 3].get_or_init(|| find(self, wavelengths))
     }
 
     /// The reference for a method's error, in the method's light. For a method that reads a table, it keeps the table's colours.
@@ -109,9 +110,9 @@ impl MaterialInMedium {
         !self.material.films.is_empty()
     }
 
-    /// Whether one film lies on it, with k below [`CLEAR_K`].
-    fn has_one_clear_film(&self) -> bool {
-        let at = |films: &Vec<Layer>| matches!(films.as_slice(), [film] if film.k < CLEAR_K);
+    /// Whether one film lies on it, with less k than this.
+    fn has_one_film(&self, k: f64) -> bool {
+        let at = |films: &Vec<Layer>| matches!(films.as_slice(), [film] if film.k < k);
         self.has_films() && self.reference.surface.films.iter().all(at)
     }
 
@@ -133,8 +134,10 @@ impl MaterialInMedium {
         if method.class == Class::Film {
             return self.has_films();
         }
-        if method.class == Class::ClearFilm {
-            return self.has_one_clear_film();
+        match method.class {
+            Class::OneFilm => return self.has_one_film(f64::INFINITY),
+            Class::ClearFilm => return self.has_one_film(CLEAR_K),
+            _ => {}
         }
         if self.has_films() {
             return method.class == Class::Any;

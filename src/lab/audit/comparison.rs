@@ -194,9 +194,12 @@ pub fn recognised(
 }
 
 /// Whether a method computes what users' functions do. One for polarised light computes something else. Counts of one that reads a
-/// texture do not include the fetch.
+/// texture do not include the fetch, and one for any thickness of a film is no rival for one thickness.
 pub fn is_comparable(method: &Method) -> bool {
-    method.light == Light::Unpolarised && method.contract == Contract::Kept && !method.is_textured()
+    method.light == Light::Unpolarised
+        && method.contract == Contract::Kept
+        && !method.is_textured()
+        && !method.keeps_inputs()
 }
 
 /// Whether a method gives these results.

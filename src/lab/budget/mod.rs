@@ -94,7 +94,9 @@ pub fn choose_within(
 
 /// Whether budgets and plans may choose a method: it must describe unpolarised light and keep the contract.
 pub fn is_choosable(method: &Method) -> bool {
-    method.light == Light::Unpolarised && method.contract == Contract::Kept
+    method.light == Light::Unpolarised
+        && method.contract == Contract::Kept
+        && !method.keeps_inputs()
 }
 
 /// The methods among which a budget chooses.

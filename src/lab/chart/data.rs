@@ -58,7 +58,7 @@ fn entries() -> Vec<ChartEntry> {
             fetches: library.fetches(),
         };
         entries.push(own.clone());
-        if !method.is_fitted() && !method.is_textured() {
+        if !method.is_fitted() && !method.is_textured() && !method.keeps_inputs() {
             entries.push(ChartEntry {
                 is_best: true,
                 ..own

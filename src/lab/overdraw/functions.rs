@@ -131,7 +131,7 @@ impl LibraryMaterials {
     ) -> Result<Vec<TimedFunction>, Error> {
         let material = match method.class {
             Class::Dielectric => &self.dielectric,
-            Class::Metal | Class::Any | Class::Film | Class::ClearFilm => &self.metal,
+            _ => &self.metal,
         };
         let reference = material.truth_for(method);
         let function = |emitted: EmittedFunction| TimedFunction {

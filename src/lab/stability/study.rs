@@ -5,7 +5,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::scan::{Finding, ScannedFunction, scan, scan_specialised};
-use crate::generator::emit::{self, Bounds, specialised_graph};
+use crate::generator::emit::{self, Bounds, of_cosine};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::verify::as_object;
 use crate::language::methods::Method;
@@ -67,10 +67,10 @@ impl Study {
         material: &MaterialInMedium,
     ) -> Result<Vec<StabilityRow>, emit::Error> {
         let bounds = Bounds::recorded();
-        let function = |precision| specialised_graph(method, material, precision, &bounds);
+        let function = |precision| of_cosine(method, material, precision, &bounds);
         let code = ScannedFunction {
-            function: function(self.precision)?.function,
-            meaning: function(Precision::F32)?.function,
+            function: function(self.precision)?,
+            meaning: function(Precision::F32)?,
             precision: self.precision,
         };
         let reference = material.truth_for(method);

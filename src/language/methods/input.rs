@@ -143,10 +143,11 @@ impl Input {
         Input { tried, ..self }
     }
 
-    /// The same, tried with its usual value alone.
+    /// The same, tried and scanned with its usual value alone.
     pub(super) const fn tried_once(self) -> Input {
         Input {
             tried: self.tried.split_at(1).0,
+            scanned: self.tried.split_at(1).0,
             ..self
         }
     }
@@ -347,6 +348,9 @@ impl<'b> Inputs<'b> {
     }
 }
 
+/// The index of a film that is not there: that of glass.
+const NO_FILM: f64 = 1.5;
+
 /// cos θ at which the empirical term meets the exact law: 60 degrees.
 pub const COS_60: f64 = 0.5;
 
@@ -373,22 +377,37 @@ pub struct KnownSurface {
     pub matching: [f64; 3],
     /// Reflectance at the two angles that determine Belcour's weights.
     pub belcour: [[f64; 3]; 2],
-    /// Its film at a few wavelengths, for a method that asks for them.
-    pub film: FilmSamples,
+    /// Its film, for a method of one film.
+    pub film: KnownFilm,
 }
 
-/// A material under one film at a few wavelengths, whose weighted sum gives the channels.
+/// What methods of one film know of a surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FilmSamples {
+pub struct KnownFilm {
     /// The film's thickness in nanometres.
     pub thickness_nm: f64,
-    /// The wavelengths.
+    /// Its index at 550 nm, relative to the medium outside.
+    pub ior: f64,
+    /// What lies below it.
+    pub bare: BareBase,
+    /// Both at a few wavelengths, whose weighted sum gives the channels; empty for a method that takes none.
     pub samples: Vec<FilmSample>,
-    /// The largest error of the sum, over all thicknesses from 0 to that of the film, all angles and channels.
+    /// The largest error of that sum, over all thicknesses from 0 to that of the film, all angles and channels.
     pub max_abs: f64,
 }
 
-/// A wavelength of [`FilmSamples`].
+/// A surface without its film: F0, and the index of each channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BareBase {
+    /// Reflectance at 0 degrees.
+    pub f0: [f64; 3],
+    /// The real part of the index per channel.
+    pub n: [f64; 3],
+    /// The extinction coefficient per channel.
+    pub k: [f64; 3],
+}
+
+/// A wavelength of [`KnownFilm`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmSample {
     /// The wavelength in nanometres, in the medium outside.
@@ -401,17 +420,23 @@ pub struct FilmSample {
     pub weights: [f64; 3],
 }
 
-impl FilmSamples {
+impl KnownFilm {
     /// A surface without a film: each channel is one wavelength, and the film has no thickness.
-    fn of_index(n: [f64; 3], k: [f64; 3]) -> FilmSamples {
+    fn of_index(n: [f64; 3], k: [f64; 3]) -> KnownFilm {
         let sample = |i: usize| FilmSample {
             wavelength_nm: THESIS_NM[i],
-            film_n: 1.5,
+            film_n: NO_FILM,
             base: [n[i], k[i]],
             weights: each_channel(|channel| f64::from(u8::from(channel == i))),
         };
-        FilmSamples {
+        KnownFilm {
             thickness_nm: 0.0,
+            ior: NO_FILM,
+            bare: BareBase {
+                f0: each_channel(|i| optics::normal_incidence(n[i], k[i])),
+                n,
+                k,
+            },
             samples: each_channel(sample).to_vec(),
             max_abs: 0.0,
         }
@@ -455,7 +480,7 @@ impl KnownSurface {
             matching_cos,
             matching: seen(matching_cos),
             belcour: BELCOUR_COSINES.map(&seen),
-            film: FilmSamples::of_index(n, k),
+            film: KnownFilm::of_index(n, k),
         }
     }
 }

@@ -11,6 +11,8 @@ pub enum Class {
     Any,
     /// Any material under films: no law of one index follows it.
     Film,
+    /// A material under one film.
+    OneFilm,
     /// A material under one film that absorbs next to nothing.
     ClearFilm,
 }
@@ -22,7 +24,7 @@ impl Class {
             Class::Dielectric => k == 0.0,
             Class::Metal => k >= LEAST_METALLIC * n,
             Class::Any => true,
-            Class::Film | Class::ClearFilm => false,
+            Class::Film | Class::OneFilm | Class::ClearFilm => false,
         }
     }
 
@@ -33,6 +35,7 @@ impl Class {
             Class::Metal => "metals (k of n / 4 and more)",
             Class::Any => "all media",
             Class::Film => "materials under films",
+            Class::OneFilm => "materials under one film",
             Class::ClearFilm => "materials under one clear film",
         }
     }
@@ -44,6 +47,7 @@ impl Class {
             Class::Metal => "metals only, with k of at least n / 4, and this has less",
             Class::Any => "all media",
             Class::Film => "materials under films only, and this has none",
+            Class::OneFilm => "materials under one film only, and this is none",
             Class::ClearFilm => {
                 "materials under one film only, with k below 0.05, and this is none"
             }

@@ -65,7 +65,7 @@ pub struct Method {
     /// The mean over the hemisphere, where it does not follow from [`Method::basis`].
     pub average: Option<FittedAverage>,
     /// At how many wavelengths it computes the law of a film; 0 for one that knows no wavelengths.
-    pub film_samples: usize,
+    pub wavelengths: usize,
 }
 
 impl Method {
@@ -99,7 +99,7 @@ impl Method {
         shape: None,
         affine: None,
         average: None,
-        film_samples: 0,
+        wavelengths: 0,
     };
 }
 
@@ -260,7 +260,10 @@ impl Method {
     pub fn at(&self, values: &Values) -> Result<Checked, BrokenRule> {
         let function = self.specialise(values)?;
         let rest = self.kept_of(values);
-        check_in(Precision::F32, specialise_in(Precision::F32, &function, &rest))
+        check_in(
+            Precision::F32,
+            specialise_in(Precision::F32, &function, &rest),
+        )
     }
 
     /// The inputs that a function of a material keeps as arguments.

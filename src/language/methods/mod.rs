@@ -24,7 +24,7 @@ pub use claims::{ByClass, ColourClaim, HALF_AIM, InHalf, Spread};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
-pub use input::{FilmSample, FilmSamples, Input, InputSource, Inputs, KnownSurface, Range};
+pub use input::{BareBase, FilmSample, Input, InputSource, Inputs, KnownFilm, KnownSurface, Range};
 pub use media::{Class, MediaSet};
 pub use method::{Contract, Forms, Light, Method, Origin, Values};
 pub use renamed::{FORMER, RENAMED, Renamed, renamed};

@@ -63,10 +63,12 @@ pub struct OwnIndex {
     pub inputs: BTreeMap<&'static str, (usize, Packed)>,
 }
 
-/// The methods that the gallery shows: those for unpolarised light without a table.
+/// The methods that the gallery shows: those for unpolarised light without a table, of any bare medium.
 pub fn shown_methods() -> impl Iterator<Item = &'static Method> {
     let all = crate::language::methods::ALL.iter().copied();
-    all.filter(|method| method.light == Light::Unpolarised && !method.is_textured())
+    all.filter(|method| {
+        method.light == Light::Unpolarised && !method.is_textured() && !method.keeps_inputs()
+    })
 }
 
 /// The methods with their costs.

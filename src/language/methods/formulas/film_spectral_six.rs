@@ -90,7 +90,10 @@ pub static METHOD: Method = Method {
         Input::WEIGHTS_BLUE_2,
     ],
     build: |x| {
-        let (first, second) = (entered(x, &METHOD.inputs[1..5]), entered(x, &METHOD.inputs[8..12]));
+        let (first, second) = (
+            entered(x, &METHOD.inputs[1..5]),
+            entered(x, &METHOD.inputs[8..12]),
+        );
         let channel = |channel: usize| {
             let weights = [5, 12].map(|from| x.get(METHOD.inputs[from + channel]));
             1.0 - (weights[0].dot(first) + weights[1].dot(second))
@@ -98,7 +101,7 @@ pub static METHOD: Method = Method {
         let rgb = x.cosine().builder();
         rgb.compose(channel(0), channel(1), channel(2)).saturate()
     },
-    film_samples: 6,
+    wavelengths: 6,
     ..three::METHOD
 };
 
@@ -110,7 +113,11 @@ mod tests {
     #[test]
     fn it_is_the_mean_of_two_wavelengths() {
         let law = |nm: f64| {
-            let layer = Layer { n: 1.4, k: 0.0, waves: 200.0 / nm };
+            let layer = Layer {
+                n: 1.4,
+                k: 0.0,
+                waves: 200.0 / nm,
+            };
             under_films(&[layer], 0.2, 3.4, 0.4).unpolarised()
         };
         let of = |nm: f64, share: f64| [nm, 1.4, 0.2, 3.4, share, share, share];

@@ -165,10 +165,15 @@ pub static METHOD: Method = Method {
         let entered = entered(x, &METHOD.inputs[1..5]);
         let channel = |weights: Input| 1.0 - x.get(weights).dot(entered);
         let rgb = x.cosine().builder();
-        let [red, green, blue] = [Input::WEIGHTS_RED, Input::WEIGHTS_GREEN, Input::WEIGHTS_BLUE];
-        rgb.compose(channel(red), channel(green), channel(blue)).saturate()
+        let [red, green, blue] = [
+            Input::WEIGHTS_RED,
+            Input::WEIGHTS_GREEN,
+            Input::WEIGHTS_BLUE,
+        ];
+        rgb.compose(channel(red), channel(green), channel(blue))
+            .saturate()
     },
-    film_samples: 3,
+    wavelengths: 3,
     ..Method::BASE
 };
 
@@ -183,7 +188,11 @@ const FADE: f64 = -2.0 / std::f64::consts::LN_2;
 
 /// (T_s + T_p) / 2 at three wavelengths: `inputs` are these, the film's index, and n and k of the base.
 pub(super) fn entered<'b>(x: &Inputs<'b>, inputs: &[Input]) -> Expr<'b> {
-    let second = if inputs[0].name.ends_with('2') { "_2" } else { "" };
+    let second = if inputs[0].name.ends_with('2') {
+        "_2"
+    } else {
+        ""
+    };
     let name = |expr: Expr<'b>, name: &str, why: &str| expr.named(&format!("{name}{second}"), why);
     let c = x.cosine();
     let number = |value: f64| c.builder().number(value);
@@ -200,21 +209,31 @@ pub(super) fn entered<'b>(x: &Inputs<'b>, inputs: &[Input]) -> Expr<'b> {
     let turn = x.get(Input::THICKNESS) * (std::f64::consts::TAU / wavelengths);
     let phase = name(turn * (size * inverse), "phase", "");
     let fade = name((FADE * phase).exp2(), "fade", "past the critical angle");
-    let cosine = y2.choose_below(zero, 0.5 + 0.5 * fade, phase.cos());
-    let cosine = name(cosine, "cosine", "C");
-    let sine = y2.choose_below(zero, 0.5 - 0.5 * fade, phase.sin()) * inverse;
+    let half_fade = name(0.5 * fade, "half_faded", "");
+    let (cos, sin) = (
+        name(phase.cos(), "cos_phase", ""),
+        name(phase.sin(), "sin_phase", ""),
+    );
+    let cosh = name(0.5 + half_fade, "cosh_phase", "times e^-phase");
+    let sinh = name(0.5 - half_fade, "sinh_phase", "likewise");
+    let cosine = name(y2.choose_below(zero, cosh, cos), "cosine", "C");
+    let sine = y2.choose_below(zero, sinh, sin) * inverse;
     let sine = name(sine, "sine", "S");
     let left = name(y2.choose_below(zero, fade, number(1.0)), "left", "");
 
     // The base: a + ib, where the smaller of both is a quotient, so that nothing cancels.
     let re = name((n - k) * (n + k), "re", "m^2");
     let im = name(2.0 * n * k, "im", "");
-    let across = name(re - (1.0 - c2), "across", "m^2 - s^2");
-    let q = (across.squared() + im.squared()).at_least(1e-37).sqrt();
+    let im2 = name(im.squared(), "im2", "");
+    let s2 = (1.0 - c2).named("s2", "");
+    let across = name(re - s2, "across", "m^2 - s^2");
+    let q = (across.squared() + im2).at_least(1e-37).sqrt();
     let q = name(q, "q", "a^2 + b^2");
     let larger2 = (0.5 * q + 0.5 * across.abs()).at_least(LEAST_BASE);
-    let larger = name(larger2.sqrt(), "larger", "the larger of a and b");
-    let smaller = name(0.5 * im / larger, "smaller", "the other one");
+    let larger2 = name(larger2, "larger2", "");
+    let root = name(larger2.inverse_sqrt(), "root", "");
+    let larger = name(larger2 * root, "larger", "the larger of a and b");
+    let smaller = name(0.5 * im * root, "smaller", "the other one");
     let a = name(across.choose_below(zero, smaller, larger), "a", "");
     let b = name(across.choose_below(zero, larger, smaller), "b", "");
 
@@ -226,11 +245,11 @@ pub(super) fn entered<'b>(x: &Inputs<'b>, inputs: &[Input]) -> Expr<'b> {
     let cs = name(2.0 * cosine * sine, "cross", "");
     let c2q = name(c2 * q, "c2q", "");
     let y4 = name(y2.squared(), "y4", "");
-    let ac = name(c * left, "shared", "");
+    let ac = name(c * left, "weight_c", "");
     let a_s = name(2.0 * a * ac, "a_s", "");
     let p_s = cc * (c2 + q) + ss * (c2q + y4) - cs * b * apart;
     let d_s = name(p_s + a_s, "d_s", "");
-    let base4 = name(re.squared() + im.squared(), "base4", "|m|^4");
+    let base4 = name(re.squared() + im2, "base4", "|m|^4");
     let film4 = name(film2.squared(), "film4", "");
     let a_p = name(2.0 * (a * re + b * im) * ac, "a_p", "");
     let b_p = b * re - a * im;
@@ -261,7 +280,11 @@ mod tests {
             for film in [1.38, 2.4, 0.6, n] {
                 for nm in [0.0, 40.0, 300.0, 900.0] {
                     for c in [1.0, 0.9, 0.5, 0.2, 0.01] {
-                        let layer = Layer { n: film, k: 0.0, waves: nm / NM };
+                        let layer = Layer {
+                            n: film,
+                            k: 0.0,
+                            waves: nm / NM,
+                        };
                         let law = under_films(&[layer], n, k, c).unpolarised();
                         check(&METHOD, c, &inputs(nm, film, n, k), law);
                     }

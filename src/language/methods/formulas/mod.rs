@@ -21,6 +21,7 @@ use crate::physics::num::{Precision, each_channel};
 use crate::physics::optics;
 
 // BEGIN list (written by tests/lists)
+mod airy_materialx;
 mod belcour_decomposition;
 mod conductor_artistic;
 mod conductor_exact;
@@ -45,6 +46,7 @@ mod fitted_film;
 mod fitted_five;
 mod fitted_rational;
 mod hoffman_f82;
+mod iridescence_khr;
 mod schlick;
 mod schlick_corrected;
 mod schlick_f90;
@@ -57,6 +59,7 @@ mod table;
 /// Every method, by name.
 #[rustfmt::skip]
 pub static ALL: &[&Method] = &[
+    &airy_materialx::METHOD,
     &belcour_decomposition::METHOD,
     &conductor_artistic::METHOD,
     &conductor_exact::METHOD,
@@ -81,6 +84,7 @@ pub static ALL: &[&Method] = &[
     &fitted_five::METHOD,
     &fitted_rational::METHOD,
     &hoffman_f82::METHOD,
+    &iridescence_khr::METHOD,
     &schlick::METHOD,
     &schlick_corrected::METHOD,
     &schlick_f90::METHOD,
@@ -95,6 +99,7 @@ pub static ALL: &[&Method] = &[
 #[rustfmt::skip]
 #[allow(missing_docs)]
 impl Method {
+    pub const AIRY_MATERIALX: &'static Method = &airy_materialx::METHOD;
     pub const BELCOUR_DECOMPOSITION: &'static Method = &belcour_decomposition::METHOD;
     pub const CONDUCTOR_ARTISTIC: &'static Method = &conductor_artistic::METHOD;
     pub const CONDUCTOR_EXACT: &'static Method = &conductor_exact::METHOD;
@@ -119,6 +124,7 @@ impl Method {
     pub const FITTED_FIVE: &'static Method = &fitted_five::METHOD;
     pub const FITTED_RATIONAL: &'static Method = &fitted_rational::METHOD;
     pub const HOFFMAN_F82: &'static Method = &hoffman_f82::METHOD;
+    pub const IRIDESCENCE_KHR: &'static Method = &iridescence_khr::METHOD;
     pub const SCHLICK: &'static Method = &schlick::METHOD;
     pub const SCHLICK_CORRECTED: &'static Method = &schlick_corrected::METHOD;
     pub const SCHLICK_F90: &'static Method = &schlick_f90::METHOD;

@@ -1,5 +1,5 @@
-//! A film at a few wavelengths: the wavelengths and their shares in red, green and blue that follow the whole spectrum best, over
-//! all angles and all thicknesses from 0 to the film's.
+//! What methods of one film know of a material: the film, the bare base, and both at a few wavelengths. These wavelengths and their
+//! shares in red, green and blue follow the whole spectrum best, over all angles and all thicknesses from 0 to the film's.
 //!
 //! ```text
 //! F_c(θ, d) = Σ_i w_ci R(λ_i, θ, d)      Σ_i w_ci = 1, so that a mirror stays white
@@ -10,8 +10,8 @@
 //! Domain: one film. Of three wavelengths in place of a spectrum, each is a channel and the sum is exact.
 
 use super::minimax::solve;
-use crate::generator::reference::MaterialInMedium;
-use crate::language::methods::{FilmSample, FilmSamples};
+use crate::generator::reference::{MaterialInMedium, ReferenceCurve, effective};
+use crate::language::methods::{BareBase, FilmSample, KnownFilm, Light};
 use crate::physics::materials::Surface;
 use crate::physics::num::each_channel;
 use crate::physics::optics::{Layer, cosine, under_films};
@@ -36,31 +36,58 @@ const MOVES: [usize; 3] = [4, 2, 1];
 /// Two wavelengths that nearly say the same have no shares of their own: this much is added to each square.
 const RIDGE: f64 = 1e-9;
 
-/// A material under one film, at this many wavelengths: three or six.
-pub fn film_samples(subject: &MaterialInMedium, count: usize) -> FilmSamples {
+/// A base with less k than this counts as clear: it changes a reflectance by less than 1e-6.
+const CLEAR_K: f64 = 1e-5;
+/// The wavelength of a film's index in the parameters of engines.
+const IOR_NM: f64 = 550.0;
+
+/// A material under one film, at this many wavelengths: none, three or six.
+pub fn known_film(subject: &MaterialInMedium, count: usize) -> KnownFilm {
     let surface = &subject.reference.surface;
     let thickness_nm = subject.material.films[0].thickness_nm;
-    let places = |nm: &[f64]| -> Vec<usize> { nm.iter().map(|nm| place(surface, *nm)).collect() };
+    let known = KnownFilm {
+        thickness_nm,
+        ior: surface.films[place(surface, IOR_NM)][0].n,
+        bare: bare(subject),
+        samples: Vec::new(),
+        max_abs: 0.0,
+    };
+    if count == 0 {
+        return known;
+    }
     if !surface.is_spectral() {
         let sample = |i: usize| sample(surface, i, thickness_nm, identity(i));
-        return FilmSamples {
-            thickness_nm,
+        return KnownFilm {
             samples: each_channel(sample).to_vec(),
-            max_abs: 0.0,
+            ..known
         };
     }
     let rows = rows(surface);
-    let start = if count == 3 { places(&THREE_NM) } else { places(&SIX_NM) };
+    let start: &[f64] = if count == 3 { &THREE_NM } else { &SIX_NM };
     let squares = Squares::new(&rows, surface);
-    let found = squares.nearest(start);
+    let found = squares.nearest(start.iter().map(|nm| place(surface, *nm)).collect());
     let shares = squares.shares(&found);
-    let max_abs = largest(&rows, &found, &shares);
-    let each = found.iter().enumerate();
-    let samples = each.map(|(i, at)| sample(surface, *at, thickness_nm, shares[i]));
-    FilmSamples {
-        thickness_nm,
+    let each = found.iter().zip(&shares);
+    let samples = each.map(|(at, shares)| sample(surface, *at, thickness_nm, *shares));
+    KnownFilm {
         samples: samples.collect(),
-        max_abs,
+        max_abs: largest(&rows, &found, &shares),
+        ..known
+    }
+}
+
+/// What lies below the film.
+fn bare(subject: &MaterialInMedium) -> BareBase {
+    let surface = Surface {
+        films: Vec::new(),
+        ..subject.reference.surface.clone()
+    };
+    let reference = ReferenceCurve::new(surface, Light::Unpolarised);
+    let channels = effective(&reference, subject.material.kind).channels;
+    BareBase {
+        f0: reference.at(1.0),
+        n: channels.n,
+        k: channels.k,
     }
 }
 
@@ -86,7 +113,7 @@ fn sample(surface: &Surface, place: usize, thickness_nm: f64, weights: [f64; 3])
     FilmSample {
         wavelength_nm: outside,
         film_n: film.n,
-        base: [index.n, index.k],
+        base: [index.n, if index.k < CLEAR_K { 0.0 } else { index.k }],
         weights,
     }
 }
@@ -140,7 +167,9 @@ impl Squares {
         let grid: Vec<usize> = (0..=steps).map(|i| place(surface, nm(i))).collect();
         let sum = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).sum::<f64>();
         let product = |a: usize, b: usize| sum(&|row| row.spectrum[a] * row.spectrum[b]);
-        let own = grid.iter().map(|a| grid.iter().map(|b| product(*a, *b)).collect());
+        let own = grid
+            .iter()
+            .map(|a| grid.iter().map(|b| product(*a, *b)).collect());
         let own: Vec<Vec<f64>> = own.collect();
         let of_colour = |a: &usize| each_channel(|i| sum(&|row| row.spectrum[*a] * row.colour[i]));
         Squares {
@@ -179,7 +208,9 @@ impl Squares {
             solve(rows.clone(), values.chain([1.0]).collect()).unwrap_or(vec![0.0; count + 1])
         };
         let channels = each_channel(of);
-        (0..count).map(|i| each_channel(|c| channels[c][i])).collect()
+        (0..count)
+            .map(|i| each_channel(|c| channels[c][i]))
+            .collect()
     }
 
     /// The sum of squares of what these wavelengths miss, less a part that is the same for all.
@@ -188,7 +219,10 @@ impl Squares {
         let each = inner.iter().zip(&shares);
         let of = |(a, share): (&usize, &[f64; 3])| {
             let own = |c: usize| {
-                let sum = inner.iter().zip(&shares).map(|(b, other)| self.own[*a][*b] * other[c]);
+                let sum = inner
+                    .iter()
+                    .zip(&shares)
+                    .map(|(b, other)| self.own[*a][*b] * other[c]);
                 share[c] * (sum.sum::<f64>() - 2.0 * self.with_colour[*a][c])
             };
             (0..3).map(own).sum::<f64>()
@@ -206,7 +240,10 @@ impl Squares {
                 has_moved = false;
                 for i in 0..inner.len() {
                     let here = inner[i];
-                    for to in [here.checked_sub(by), Some(here + by)].into_iter().flatten() {
+                    for to in [here.checked_sub(by), Some(here + by)]
+                        .into_iter()
+                        .flatten()
+                    {
                         if to >= self.grid.len() || inner.contains(&to) {
                             continue;
                         }
@@ -229,7 +266,9 @@ fn largest(rows: &[Row], places: &[usize], shares: &[[f64; 3]]) -> f64 {
     let off = |row: &Row| {
         let each = each_channel(|channel| {
             let parts = places.iter().zip(shares);
-            let sum: f64 = parts.map(|(at, share)| row.spectrum[*at] * share[channel]).sum();
+            let sum: f64 = parts
+                .map(|(at, share)| row.spectrum[*at] * share[channel])
+                .sum();
             (sum.clamp(0.0, 1.0) - row.colour[channel].clamp(0.0, 1.0)).abs()
         });
         each.into_iter().fold(0.0, f64::max)
