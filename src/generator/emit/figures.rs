@@ -110,7 +110,7 @@ pub(super) fn model_line(error: &ModelError) -> String {
 pub(super) fn thickness_line(emitted: &EmittedFunction) -> Option<String> {
     let (most_nm, error) = emitted.thicknesses?;
     Some(format!(
-        "Of its film's {most_nm} nm; from 0 to {most_nm} nm: at most {}.",
+        "That is of {most_nm} nm. Of any thickness from 0 to {most_nm} nm: at most {}.",
         rounded_up(error)
     ))
 }

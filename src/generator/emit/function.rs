@@ -242,7 +242,7 @@ pub fn specialised_function(
         model_error: Some(error),
         thicknesses: (method.wavelengths > 0).then(|| {
             let film = subject.film(method.wavelengths, known_film);
-            (film.thickness_nm, film.max_abs)
+            (film.thickness_nm, film.max_abs.max(error.max_abs))
         }),
         code: match (naming.precision, method.half.refusal()) {
             (Precision::F16, Some(why)) => Measured::No(why.to_owned()),
