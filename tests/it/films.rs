@@ -8,8 +8,12 @@ use super::cli::Place;
 use super::fits::films;
 use super::physics::films::filmed;
 use super::readme::replaced;
-use fresnel_gen::generator::reference::MaterialClass;
-use fresnel_gen::lab::chart::{ChartData, FunctionOrigin, chart_data, set_name};
+use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
+use fresnel_gen::lab::chart::{ChartData, FunctionOrigin, chart_data};
+use fresnel_gen::lab::cost::{CostFigures, FunctionId, records};
+use fresnel_gen::language::methods::{self, Method};
+use fresnel_gen::physics::num::Precision;
+use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::materials::{
     self, AtWavelength, Extrapolate, Material, Surface, ViewingConditions,
 };
@@ -180,7 +184,17 @@ fn a_film_of_no_thickness_changes_no_bit() {
 }
 
 /// The methods of the first table, with the words for their inputs.
-const SHOWN: [(&str, bool, &str); 9] = [
+const SHOWN: [(&str, bool, &str); 13] = [
+    (
+        "iridescence_khr",
+        false,
+        "KHR_materials_iridescence, as in three.js",
+    ),
+    (
+        "airy_materialx",
+        false,
+        "Airy's series with n and k, as in MaterialX",
+    ),
     ("schlick", false, "Schlick's, of the film's F0"),
     ("schlick", true, "the same with its best F0"),
     ("f82_tint", false, "`f82_tint`, of the film's F0 and F82"),
@@ -198,45 +212,83 @@ const SHOWN: [(&str, bool, &str); 9] = [
     ("fitted_five", false, "`fitted_five`"),
     ("fitted_film", false, "**`fitted_film`**"),
     ("table", false, "`table`, one fetch"),
+    (
+        "film_spectral_three",
+        false,
+        "**`film_spectral_three`**, thickness at run time",
+    ),
+    (
+        "film_spectral_six",
+        false,
+        "**`film_spectral_six`**, thickness at run time",
+    ),
 ];
 
-fn errors_of_films(data: &ChartData, set: &str, entry: usize) -> f64 {
-    let found = data.sets.iter().find(|one| one.name == set).unwrap();
-    found.errors[entry].max_abs.unwrap()
+/// The errors of an entry for each film that its method describes, by the sets of single materials.
+fn errors_of_films(data: &ChartData, subjects: &[MaterialInMedium], entry: usize) -> Vec<f64> {
+    let of = |subject: &MaterialInMedium| {
+        let mut sets = data.sets.iter();
+        let own = sets.find(|set| set.count == 1 && set.name == subject.label());
+        own.unwrap().errors[entry].max_abs
+    };
+    subjects.iter().filter_map(of).collect()
+}
+
+/// What a function costs on RDNA 2. Methods that keep the thickness as an argument: as a function of anodised titanium, and with
+/// all numbers as arguments.
+fn cost(method: &'static Method) -> String {
+    let record = records("rdna2");
+    let shown = |figures: Option<CostFigures>| {
+        figures.map_or("not recorded".to_owned(), |figures| figures.cost().to_string())
+    };
+    let library = shown(record.library(method));
+    if !method.keeps_inputs() {
+        return library;
+    }
+    let viewing = ViewingConditions::default();
+    let name = "anodised_titanium_purple";
+    let typed = (name.to_owned(), stack(name));
+    let subject = MaterialInMedium::new(typed, None, &viewing, Derivation::default()).unwrap();
+    let id = FunctionId::specialised(method, &subject, Precision::F32);
+    format!("{}; {library} with all numbers as arguments", shown(record.of(&id)))
 }
 
 fn films_table() -> String {
-    let data = ["sample", "outside"].map(|set| {
-        chart_data(
-            &films(set),
+    let both = ["sample", "outside"].map(|set| {
+        let subjects = films(set);
+        let data = chart_data(
+            &subjects,
             Space::Srgb,
             None,
             String::new(),
             &mut |_, _, _| (),
-        )
+        );
+        (subjects, data)
     });
-    let costs = data[0]
-        .costs
-        .iter()
-        .find(|axis| axis.name == "rdna2")
-        .unwrap();
-    let mut table = "| function | cost on RDNA 2 | median | 90th percentile | worst | films that had no part in a choice: median, 90th |\n\
-                     |---|---:|---:|---:|---:|---:|\n"
+    let mut table = "| function | cost on RDNA 2 | films | median | 90th percentile | worst | films that had no part in a choice: number, median, 90th |\n\
+                     |---|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for (name, is_best, words) in SHOWN {
-        let entry = data[0].entries.iter().position(|entry| {
-            matches!(&entry.function, FunctionOrigin::Method(method) if method.name == name)
-                && entry.is_best == is_best
+        let method = methods::find(name).unwrap();
+        let [own, outside] = both.each_ref().map(|(subjects, data)| {
+            let entry = data.entries.iter().position(|entry| {
+                matches!(&entry.function, FunctionOrigin::Method(one) if one.name == name)
+                    && entry.is_best == is_best
+            });
+            errors_of_films(data, subjects, entry.unwrap())
         });
-        let entry = entry.unwrap();
-        let error = |data: &ChartData, statistic| {
-            let set = set_name(MaterialClass::Films, statistic);
-            format!("{:.4}", errors_of_films(data, &set, entry))
-        };
-        let cost = costs.costs[entry].map_or("not recorded".to_owned(), |cost| cost.to_string());
-        let [median, most, worst] = ["median", "p90", "worst"].map(|one| error(&data[0], one));
-        let outside = ["median", "p90"].map(|one| error(&data[1], one)).join(", ");
-        table += &format!("| {words} | {cost} | {median} | {most} | {worst} | {outside} |\n");
+        let shown = |errors: &[f64], share| format!("{:.4}", quantile(errors, share));
+        table += &format!(
+            "| {words} | {} | {} | {} | {} | {} | {}, {}, {} |\n",
+            cost(method),
+            own.len(),
+            shown(&own, 0.5),
+            shown(&own, 0.9),
+            shown(&own, 1.0),
+            outside.len(),
+            shown(&outside, 0.5),
+            shown(&outside, 0.9),
+        );
     }
     table
 }

@@ -21,6 +21,7 @@ pub static FORMAT: Format = Format {
     name: "blender",
     summary: "Python for Blender 4.3 and later: inputs of Principled BSDF and Metallic BSDF",
     spaces: &Space::ALL,
+    has_film: false,
     sheet,
     text,
 };

@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
-use crate::generator::fit::{abbe_in, ior_in};
+use crate::generator::fit::{abbe_in, ior_in, known_film};
 use crate::generator::reference::MaterialInMedium;
-use crate::language::methods::{Input, KnownSurface};
+use crate::language::methods::{Input, KnownFilm, KnownSurface};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
@@ -22,9 +22,28 @@ pub struct EngineMaterial<'a> {
     pub tint: [f64; 3],
     /// What lies below the surface.
     pub body: Body,
+    /// The one film on it, with what lies below.
+    pub film: Option<EngineFilm>,
     /// The index of the medium, if it is above that of air: then the medium may be a coat.
     pub coat: Option<f64>,
     remarks: Vec<String>,
+}
+
+/// A film, and the base without it, rounded as they are written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngineFilm {
+    /// Its index at 550 nm.
+    pub ior: f64,
+    /// Its thickness in nanometres.
+    pub thickness_nm: f64,
+    /// Reflectance of the base at 0 degrees, clamped to [0, 1].
+    pub f0: [f64; 3],
+    /// F82 of the base over Schlick's value there. It may exceed 1.
+    pub tint: [f64; 3],
+    /// The effective index of the base: n of each channel.
+    pub n: [f64; 3],
+    /// The same: k.
+    pub k: [f64; 3],
 }
 
 /// What lies below the surface.
@@ -77,6 +96,7 @@ impl EngineMaterial<'_> {
             f0,
             tint: tint.map(rounded),
             body: body(subject)?,
+            film: film(subject),
             coat: coat(subject),
             remarks: remarks(subject, viewing, unclipped),
         })
@@ -116,17 +136,40 @@ fn coat(subject: &MaterialInMedium) -> Option<f64> {
     (index > 1.0).then_some(index)
 }
 
+/// The film on it, if there is one and no other.
+fn film(subject: &MaterialInMedium) -> Option<EngineFilm> {
+    let [_] = subject.material.films.as_slice() else {
+        return None;
+    };
+    let KnownFilm {
+        thickness_nm,
+        ior,
+        bare,
+        ..
+    } = *subject.film(0, known_film);
+    let base = KnownSurface {
+        f0: bare.f0,
+        f82: bare.f82,
+        ..KnownSurface::of_index(bare.n, bare.k, subject.derivation.matching_cos)
+    };
+    let tint = Input::TINT.value(&base).expect("a surface gives it");
+    Some(EngineFilm {
+        ior: rounded(ior),
+        thickness_nm: rounded(thickness_nm),
+        f0: bare.f0.map(|value| rounded(value.clamp(0.0, 1.0))),
+        tint: tint.map(rounded),
+        n: bare.n.map(rounded),
+        k: bare.k.map(rounded),
+    })
+}
+
 fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {
     if subject.material.kind != MaterialKind::Dielectric {
         return Ok(Body::Conductor);
     }
-    if subject.has_films() {
-        return Err(ExchangeFault::Filmed {
-            name: subject.name.clone(),
-        });
-    }
     let medium: Option<&Material> = subject.medium.as_ref().map(|(_, medium)| medium);
-    let middle = subject.effective.channels.n[1];
+    let own = subject.effective.channels.n;
+    let middle = film(subject).map_or(own, |film| film.n)[1];
     let ior = rounded(ior_in(&subject.material, medium).unwrap_or(middle));
     if ior < 1.0 {
         return Err(ExchangeFault::Rarer {
@@ -137,7 +180,7 @@ fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {
     Ok(Body::Dielectric {
         ior,
         abbe: abbe_in(&subject.material, medium).filter(|abbe| *abbe > 0.0),
-        is_clear: subject.effective.channels.is_transparent(),
+        is_clear: film(subject).map_or(subject.effective.channels.k, |film| film.k) == [0.0; 3],
     })
 }
 
@@ -172,9 +215,9 @@ fn remarks(
 /// Why a material cannot be exported to a format.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ExchangeFault {
-    /// A dielectric under films: no model of these formats has both its reflectance and what it lets through.
+    /// A dielectric under films, for a format that has no film, or more films than one.
     #[error(
-        "`{}` is a dielectric under films: this format would have what lies below, without the films; the functions of `--material` have them",
+        "`{}` is a dielectric under films: this format would have what lies below, without the films; the functions of `--material` have them, and gltf, materialx and openpbr take one film",
         Foreign(name)
     )]
     Filmed {

@@ -19,6 +19,7 @@ pub static FORMAT: Format = Format {
     name: "filament",
     summary: "lines of a Filament material's fragment function",
     spaces: &[Space::Srgb],
+    has_film: false,
     sheet,
     text,
 };

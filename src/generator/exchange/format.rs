@@ -1,7 +1,7 @@
 //! The record of an exchange format, a material exported to one, and the lines above the numbers of its file: mark, command, what the
 //! material is, errors, remarks.
 
-use super::engine_material::{EngineMaterial, ExchangeFault};
+use super::engine_material::{Body, EngineMaterial, ExchangeFault};
 use super::model::NodeError;
 use super::sheet::{Node, Sheet};
 use crate::generator::emit::{MARK, OUTPUT_LICENCE, comment_lines};
@@ -16,6 +16,8 @@ pub struct Format {
     pub summary: &'static str,
     /// The working spaces that its colours may be in.
     pub spaces: &'static [Space],
+    /// Whether it has a film of its own.
+    pub has_film: bool,
     /// The format's nodes with their numbers, and what was clamped.
     pub sheet: fn(&EngineMaterial) -> Sheet,
     /// The text of the file.
@@ -63,6 +65,13 @@ impl Format {
                 format: self.name,
                 space: space.name(),
                 allowed: allowed.join(", "),
+            });
+        }
+        let takes_it = self.has_film && material.film.is_some();
+        let is_dielectric = material.body != Body::Conductor;
+        if material.subject.has_films() && is_dielectric && !takes_it {
+            return Err(ExchangeFault::Filmed {
+                name: material.subject.name.clone(),
             });
         }
         let sheet = (self.sheet)(material);

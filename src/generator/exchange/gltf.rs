@@ -2,16 +2,18 @@
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification", version 2.0.1, 2021,
 //! <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, appendix B, and the extensions KHR_materials_ior,
-//! KHR_materials_specular, KHR_materials_transmission, KHR_materials_volume and KHR_materials_dispersion of the Khronos Group,
+//! KHR_materials_specular, KHR_materials_transmission, KHR_materials_volume, KHR_materials_dispersion and KHR_materials_iridescence of
+//! the Khronos Group,
 //! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos>.
 //!
 //! A metal's F0 is `baseColorFactor`. A dielectric's is that of `ior`, times `specularColorFactor`, at most 1. Both use Schlick's
 //! approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number, and needs a volume. `metallicFactor` and
-//! `roughnessFactor` are 1 by default.
+//! `roughnessFactor` are 1 by default. A metal under one film is written twice: with the film's colours, and with the bare metal's
+//! colours under a film of the extension, whose thickness without a texture is `iridescenceThicknessMaximum`, in nanometres.
 
 use serde::Serialize;
 
-use super::engine_material::{Body, EngineMaterial, f0_of, rounded};
+use super::engine_material::{Body, EngineFilm, EngineMaterial, f0_of, rounded};
 use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
@@ -24,6 +26,7 @@ pub static FORMAT: Format = Format {
     name: "gltf",
     summary: "a material of glTF 2.0, as a whole asset",
     spaces: &[Space::Srgb],
+    has_film: true,
     sheet,
     text,
 };
@@ -51,9 +54,8 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             is_clear,
         } => {
             let grey = f0_of(ior);
-            let colour = material
-                .f0
-                .map(|f0| if grey > 0.0 { rounded(f0 / grey) } else { 1.0 });
+            let own = material.film.map_or(material.f0, |film| film.f0);
+            let colour = own.map(|f0| if grey > 0.0 { rounded(f0 / grey) } else { 1.0 });
             let mut fields = vec![
                 Field::number("metallicFactor", 0.0),
                 Field::number("roughnessFactor", 0.0),
@@ -74,20 +76,50 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             (fields, colour.map(|colour| (colour * grey).min(1.0)))
         }
     };
-    let node = Node::new("material", fields, Model::schlick(f0));
-    Sheet {
-        nodes: vec![node],
-        remarks,
-    }
+    let nodes = match (material.film, material.body) {
+        (None, _) => vec![Node::new("material", fields, Model::schlick(f0))],
+        (Some(film), Body::Dielectric { .. }) => {
+            let fields = [fields, iridescence(&film)].concat();
+            vec![Node::new("material", fields, Model::iridescence(&film, f0))]
+        }
+        (Some(film), Body::Conductor) => {
+            remarks.push(
+                "`material` has the colours of the film, `iridescence` the film itself".to_owned(),
+            );
+            let bare = vec![
+                Field::colour("baseColorFactor", film.f0),
+                Field::number("metallicFactor", 1.0),
+                Field::number("roughnessFactor", 0.0),
+            ];
+            let bare = [bare, iridescence(&film)].concat();
+            vec![
+                Node::new("material", fields, Model::schlick(f0)),
+                Node::new("iridescence", bare, Model::iridescence(&film, film.f0)),
+            ]
+        }
+    };
+    Sheet { nodes, remarks }
+}
+
+/// The fields of a film.
+fn iridescence(film: &EngineFilm) -> Vec<Field> {
+    vec![
+        Field::number("iridescenceFactor", 1.0),
+        Field::number("iridescenceIor", film.ior),
+        Field::number("iridescenceThicknessMaximum", film.thickness_nm),
+    ]
 }
 
 /// The extensions that hold a field. All other fields belong to `pbrMetallicRoughness`.
-const EXTENSIONS: [(&str, &str); 5] = [
+const EXTENSIONS: [(&str, &str); 8] = [
     ("ior", "KHR_materials_ior"),
     ("specularColorFactor", "KHR_materials_specular"),
     ("transmissionFactor", "KHR_materials_transmission"),
     ("thicknessFactor", "KHR_materials_volume"),
     ("dispersion", "KHR_materials_dispersion"),
+    ("iridescenceFactor", "KHR_materials_iridescence"),
+    ("iridescenceIor", "KHR_materials_iridescence"),
+    ("iridescenceThicknessMaximum", "KHR_materials_iridescence"),
 ];
 
 type Object = serde_json::Map<String, serde_json::Value>;
@@ -98,7 +130,7 @@ struct Asset<'a> {
     asset: AssetHead<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     extensions_used: Vec<&'static str>,
-    materials: [Material<'a>; 1],
+    materials: Vec<Material>,
 }
 
 #[derive(Serialize)]
@@ -118,26 +150,37 @@ struct Extras<'a> {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Material<'a> {
-    name: &'a str,
+struct Material {
+    name: String,
     pbr_metallic_roughness: Object,
     #[serde(skip_serializing_if = "Object::is_empty")]
     extensions: Object,
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let (mut core, mut extensions, mut used) = (Object::new(), Object::new(), Vec::new());
-    for field in sheet.nodes.iter().flat_map(|node| &node.fields) {
-        let extension = EXTENSIONS.iter().find(|(name, _)| *name == field.name);
-        match extension {
-            None => drop(core.insert(field.name.to_owned(), value(field))),
-            Some((_, extension)) => {
+    let mut used = Vec::new();
+    let materials = sheet.nodes.iter().map(|node| {
+        let suffix = if node.name == "material" { "" } else { "_iridescence" };
+        let (mut core, mut extensions) = (Object::new(), Object::new());
+        for field in &node.fields {
+            let extension = EXTENSIONS.iter().find(|(name, _)| *name == field.name);
+            let Some((_, extension)) = extension else {
+                core.insert(field.name.to_owned(), value(field));
+                continue;
+            };
+            if !used.contains(extension) {
                 used.push(*extension);
-                let own = Object::from_iter([(field.name.to_owned(), value(field))]);
-                extensions.insert((*extension).to_owned(), own.into());
             }
+            let own = extensions.entry(*extension).or_insert_with(|| Object::new().into());
+            own[field.name] = value(field);
         }
-    }
+        Material {
+            name: format!("{}{suffix}", material.subject.name),
+            pbr_metallic_roughness: core,
+            extensions,
+        }
+    });
+    let materials = materials.collect();
     let asset = Asset {
         asset: AssetHead {
             version: "2.0",
@@ -149,11 +192,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
             },
         },
         extensions_used: used,
-        materials: [Material {
-            name: &material.subject.name,
-            pbr_metallic_roughness: core,
-            extensions,
-        }],
+        materials,
     };
     escaped(&json_text(&asset))
 }

@@ -5,7 +5,8 @@
 //! <https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.PBRSpec.md>. `color0` is
 //! F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees. `ior` and `extinction` have a colour type but are
 //! not colours: the space `none` keeps them unchanged. Yet the F computed from them is a colour of the document's space.
-//! Roughness is .05 by default, .3 in OpenPBR.
+//! Roughness is .05 by default, .3 in OpenPBR. `conductor_bsdf` takes a film, its thickness in nanometres: the same metal bare, under
+//! it. `open_pbr_surface` of 1.39 halves what a metal under a film reflects, and is not written for one.
 
 use super::engine_material::{Body, EngineMaterial, rounded};
 use super::format::{self, Format, Notes};
@@ -20,11 +21,14 @@ pub static FORMAT: Format = Format {
     name: "materialx",
     summary: "a document of MaterialX 1.39, .mtlx",
     spaces: &[Space::Srgb, Space::DisplayP3, Space::AcesCg],
+    has_film: true,
     sheet,
     text,
 };
 
 const OPEN_PBR: &str = "open_pbr_surface";
+/// A second `conductor_bsdf`, with a film.
+const FILMED: &str = "conductor_bsdf_thinfilm";
 
 /// The name of a space in MaterialX.
 fn space(space: Space) -> &'static str {
@@ -62,6 +66,19 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             ],
             model: Model::conductor(n, k),
         });
+        nodes.extend(material.film.map(|film| {
+            Node {
+                name: FILMED,
+                fields: vec![
+                    Field::channels("ior", film.n),
+                    Field::channels("extinction", film.k),
+                    Field::both("roughness", 0.0),
+                    Field::number("thinfilm_thickness", film.thickness_nm),
+                    Field::number("thinfilm_ior", film.ior),
+                ],
+                model: Model::airy(&film, film.n, film.k),
+            }
+        }));
         remarks.extend(of_conductor(material));
     }
     Sheet { nodes, remarks }
@@ -92,7 +109,8 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
 
 /// A node with the surface around it, and a material that refers to it.
 fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
-    let (kind, name) = (node.name, format!("{material}_{}", node.name));
+    let name = format!("{material}_{}", node.name);
+    let kind = if node.name == FILMED { "conductor_bsdf" } else { node.name };
     let is_surface = kind == OPEN_PBR;
     let ty = if is_surface { "surfaceshader" } else { "BSDF" };
     document.open(kind, &[("name", &name), ("type", ty)]);

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::engine_material::EngineMaterial;
+use super::engine_material::{EngineFilm, EngineMaterial};
 use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::Checked;
 use crate::language::methods::{self, Method, Values};
@@ -79,6 +79,23 @@ impl Model {
     pub fn conductor(n: [f64; 3], k: [f64; 3]) -> Model {
         let words = "Fresnel's equations with n and k of each channel";
         Model::new(words, "conductor_exact", &[("n", n), ("k", k)])
+    }
+
+    /// A film as KHR_materials_iridescence has it.
+    pub fn iridescence(film: &EngineFilm, f0: [f64; 3]) -> Model {
+        let words = "a film as KHR_materials_iridescence has it";
+        let (ior, nm) = ([film.ior; 3], [film.thickness_nm; 3]);
+        let values = [("thickness_nm", nm), ("film_ior", ior), ("base_f0", f0)];
+        Model::new(words, "iridescence_khr", &values)
+    }
+
+    /// Airy's series of a film on a base with this index per channel.
+    pub fn airy(film: &EngineFilm, n: [f64; 3], k: [f64; 3]) -> Model {
+        let words = "Airy's series of the film, with n and k of the base";
+        let (ior, nm) = ([film.ior; 3], [film.thickness_nm; 3]);
+        let base = [("channel_n", n), ("channel_k", k)];
+        let values = [&[("thickness_nm", nm), ("film_ior", ior)], &base[..]].concat();
+        Model::new(words, "airy_materialx", &values)
     }
 
     /// Its largest error for a material, and the angle in degrees.

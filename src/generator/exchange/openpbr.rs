@@ -5,9 +5,11 @@
 //! <https://academysoftwarefoundation.github.io/OpenPBR/>, sections on the metallic and the dielectric base. Parameters do not
 //! state their space: a host takes their colours in its working space, for which OpenPBR recommends ACEScg. The file is in the
 //! space of the run, and says so where that is another. `base_color` and `specular_color` lie in [0, 1]. Dispersion is Abbe's
-//! number with a scale, which is 0 by default. `specular_roughness` is .3 by default.
+//! number with a scale, which is 0 by default. A film has `thin_film_thickness` in micrometres, and `thin_film_ior`; a metal under one
+//! film is written twice, with the film's colours and with the bare metal's under the film. Of how a film is computed the specification
+//! recommends Belcour and Barla's series, with a complex index of the metal. `specular_roughness` is .3 by default.
 
-use super::engine_material::{Body, EngineMaterial};
+use super::engine_material::{Body, EngineFilm, EngineMaterial};
 use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{self, Field, Node, Sheet, capped_tint};
@@ -18,16 +20,45 @@ pub static FORMAT: Format = Format {
     name: "openpbr",
     summary: "parameters of OpenPBR 1.1.1, as TOML",
     spaces: &Space::ALL,
+    has_film: true,
     sheet,
     text,
 };
 
 fn sheet(material: &EngineMaterial) -> Sheet {
     let (node, remark) = surface(material, "open_pbr_surface");
+    let under = under_film(material);
+    let both = under.as_ref().map(|_| {
+        "[open_pbr_surface] has the colours of the film, [thin_film] the film itself: take one"
+            .to_owned()
+    });
+    let remarks = remark.into_iter().chain(both).chain(of_space(material));
     Sheet {
-        nodes: vec![node],
-        remarks: remark.into_iter().chain(of_space(material)).collect(),
+        nodes: [node].into_iter().chain(under).collect(),
+        remarks: remarks.collect(),
     }
+}
+
+/// A metal under one film, with the film's parameters.
+fn under_film(material: &EngineMaterial) -> Option<Node> {
+    let film = material.film.filter(|_| material.body == Body::Conductor)?;
+    let fields = vec![
+        Field::colour("base_color", film.f0),
+        Field::number("base_metalness", 1.0),
+        Field::number("specular_roughness", 0.0),
+        Field::colour("specular_color", film.tint.map(|tint| tint.min(1.0))),
+    ];
+    let fields = [fields, thin_film(&film)].concat();
+    Some(Node::new("thin_film", fields, Model::airy(&film, film.n, film.k)))
+}
+
+/// The fields of a film.
+fn thin_film(film: &EngineFilm) -> Vec<Field> {
+    vec![
+        Field::number("thin_film_weight", 1.0),
+        Field::number("thin_film_thickness", film.thickness_nm / 1000.0),
+        Field::number("thin_film_ior", film.ior),
+    ]
 }
 
 /// A remark on the space of colours, if it is not the one that OpenPBR takes.
@@ -72,7 +103,13 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
                 fields.push(Field::number("transmission_dispersion_scale", 1.0));
                 fields.push(Field::number("transmission_dispersion_abbe_number", abbe));
             }
-            (fields, Model::dielectric(ior), None)
+            match material.film {
+                None => (fields, Model::dielectric(ior), None),
+                Some(film) => {
+                    let fields = [fields, thin_film(&film)].concat();
+                    (fields, Model::airy(&film, [ior; 3], [0.0; 3]), None)
+                }
+            }
         }
     };
     let node = Node::new(name, fields, model);

@@ -22,6 +22,7 @@ pub static FORMAT: Format = Format {
     name: "unreal",
     summary: "inputs of Unreal Engine's Default Lit and of a Substrate slab, as TOML",
     spaces: &Space::ALL,
+    has_film: false,
     sheet,
     text,
 };

@@ -16,6 +16,7 @@ pub static FORMAT: Format = Format {
     name: "usd",
     summary: "a UsdPreviewSurface, as a .usda layer",
     spaces: &[Space::Srgb],
+    has_film: false,
     sheet,
     text,
 };

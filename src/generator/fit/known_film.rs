@@ -14,7 +14,7 @@ use crate::generator::reference::{MaterialInMedium, ReferenceCurve, effective};
 use crate::language::methods::{BareBase, FilmSample, KnownFilm, Light};
 use crate::physics::materials::Surface;
 use crate::physics::num::each_channel;
-use crate::physics::optics::{Layer, cosine, under_films};
+use crate::physics::optics::{COS_82, Layer, cosine, under_films};
 
 /// The angles in degrees at which the spectrum is followed; denser near grazing, where all films change most.
 const DEGREES: [f64; 20] = [
@@ -86,6 +86,7 @@ fn bare(subject: &MaterialInMedium) -> BareBase {
     let channels = effective(&reference, subject.material.kind).channels;
     BareBase {
         f0: reference.at(1.0),
+        f82: reference.at(COS_82),
         n: channels.n,
         k: channels.k,
     }

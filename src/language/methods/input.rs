@@ -396,11 +396,13 @@ pub struct KnownFilm {
     pub max_abs: f64,
 }
 
-/// A surface without its film: F0, and the index of each channel.
+/// A surface without its film: reflectances, and the index of each channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BareBase {
     /// Reflectance at 0 degrees.
     pub f0: [f64; 3],
+    /// Reflectance at 81.79 degrees.
+    pub f82: [f64; 3],
     /// The real part of the index per channel.
     pub n: [f64; 3],
     /// The extinction coefficient per channel.
@@ -434,6 +436,7 @@ impl KnownFilm {
             ior: NO_FILM,
             bare: BareBase {
                 f0: each_channel(|i| optics::normal_incidence(n[i], k[i])),
+                f82: each_channel(|i| optics::conductor(n[i], k[i], COS_82).unpolarised()),
                 n,
                 k,
             },

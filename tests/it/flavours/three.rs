@@ -19,7 +19,7 @@ const THREE: Host = Host {
     ],
     hands: "</html>",
     bundled: None,
-    materials: "gold,silver,diamond,water",
+    materials: "gold,silver,diamond,water,anodised_titanium_purple",
 };
 
 #[test]
