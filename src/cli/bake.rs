@@ -11,9 +11,10 @@ use crate::cli::generate::named;
 use crate::cli::output::{Output, Progress, reported};
 use crate::cli::places::{folder_or_current, refuse_within_tree, try_places};
 use crate::generator::bake::{
-    ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest,
-    TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
-    split_sum_methods, usual_method, viewing_flags,
+    ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, FilmTableRequest,
+    SplitSumRequest, THICKNESS_ROWS, TableMaterial, TableSize, Thicknesses, as_tables_are_seen,
+    bake, bake_film_thickness, bake_split_sum, material_words, split_sum_methods, usual_method,
+    viewing_flags,
 };
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::Artifact;
@@ -32,6 +33,7 @@ use crate::generator::request::Request;
 use crate::language::methods::{self, Method, TEXELS};
 use crate::language::targets::{self, Finish, Target};
 use crate::physics::foreign;
+use crate::physics::materials::{Material, length_nm};
 use crate::physics::names::UnknownName;
 use crate::pictures::table;
 
@@ -88,6 +90,10 @@ pub struct BakeFlags {
     /// Also write one image with one row per material
     #[arg(long)]
     pub atlas: bool,
+    /// One table by cos θ and thickness, for the outermost film of the one material: thicknesses from the first row to the last, such as
+    /// 0..800nm
+    #[arg(long, value_name = "FROM..TO", conflicts_with_all = ["dfg", "atlas", "budget"], value_parser = thicknesses)]
+    pub film_thickness: Option<Thicknesses>,
     /// Search size, axis and bit depth: the smallest table whose filtered lookup errs by at most this, among the formats
     /// and axes named [default: all axes; png8, exr-half, png16 and exr-float]
     #[arg(
@@ -124,6 +130,27 @@ fn target(word: &str) -> Result<Choice<&'static Target>, String> {
     let text = text.filter(|target| target.finish != Finish::Spirv);
     let parse = one_or_all("target", text, |target| target.name);
     parse(word).map_err(|unknown| unknown.to_string())
+}
+
+/// Parses thicknesses with their unit, such as 0..800nm.
+fn thicknesses(word: &str) -> Result<Thicknesses, String> {
+    let wanted = || {
+        format!(
+            "`{word}` is no range of thicknesses; both ends are wanted, with a unit, such as 0..800nm"
+        )
+    };
+    let (from, to) = word.split_once("..").ok_or_else(wanted)?;
+    let to_nm = length_nm(to).map_err(|fault| fault.to_string())?;
+    let unit = to.trim_start_matches(|letter: char| letter.is_ascii_digit() || letter == '.');
+    let from_nm = length_nm(from).or_else(|_| length_nm(&format!("{from}{unit}")));
+    let from_nm = from_nm.map_err(|fault| fault.to_string())?;
+    if from_nm < to_nm {
+        Ok(Thicknesses { from_nm, to_nm })
+    } else {
+        Err(format!(
+            "`{word}`: the first thickness must be less than the last"
+        ))
+    }
 }
 
 /// Parses a method. Those that are not affine are accepted here, and refused with the reason when they are baked.
@@ -176,6 +203,9 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
         viewing: as_tables_are_seen(&viewing, flags.viewing.gamut.is_some()),
         ..Request::default()
     };
+    if let Some(thicknesses) = flags.film_thickness {
+        return film_table(flags, &wanted, thicknesses, progress, announce);
+    }
     let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;
     let request = BakeRequest {
@@ -195,6 +225,57 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     try_places(flags.report.json(), None)?;
     let baked = bake(&request, progress)?;
     finished(flags, request.command_line(), baked, &left_out, announce)
+}
+
+/// Bakes one table by thickness.
+fn film_table(
+    flags: &BakeFlags,
+    wanted: &Request,
+    thicknesses: Thicknesses,
+    progress: Progress,
+    announce: Announce,
+) -> Result<Output, Error> {
+    let subjects = wanted.subjects()?.materials();
+    let one = match subjects.as_slice() {
+        [one] if one.has_films() => one,
+        _ => {
+            return Err(Error::usage(
+                "--film-thickness takes one material with a film, whose thickness it replaces: --material titanium --film titanium_dioxide:60nm",
+            ));
+        }
+    };
+    let of = |material: &Material| {
+        TableMaterial::new(
+            (&one.argument, material),
+            one.medium.as_ref(),
+            &wanted.viewing,
+        )
+    };
+    let at = |half: usize| {
+        let mut material = one.material.clone();
+        material.films[0].thickness_nm = thicknesses.at(half as f64 / 2.0);
+        of(&material)
+    };
+    let halves = (0..2 * THICKNESS_ROWS - 1).map(at);
+    let halves = halves.collect::<Result<Vec<_>, _>>()?;
+    let subject = vec![of(&one.material)?];
+    let request = FilmTableRequest {
+        thicknesses,
+        halves,
+        own: BakeRequest {
+            typed: material_words(&subject),
+            flags: viewing_flags(&subject, &wanted.viewing),
+            subjects: subject,
+            formats: formats(flags),
+            shape: shape(flags)?,
+            atlas: false,
+            targets: targets(&flags.target),
+            prefix: flags.prefix.clone(),
+        },
+    };
+    try_places(flags.report.json(), None)?;
+    let baked = bake_film_thickness(&request, progress)?;
+    finished(flags, request.command_line(), vec![baked], &[], announce)
 }
 
 /// Bakes the split-sum table of a method.
@@ -325,10 +406,12 @@ fn bake_text(rows: &[BakeRow]) -> String {
         let (name, format, texels, axis, file) = match row {
             BakeRow::Table(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
             BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, &*row.axis, &row.file),
+            BakeRow::Film(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
         };
         let (scale, max_abs, mean_rel) = match row {
             BakeRow::Table(row) => (row.scale, row.max_abs, row.mean_rel),
             BakeRow::SplitSum(row) => (row.scale, row.max_abs, row.mean_rel),
+            BakeRow::Film(row) => (row.scale, row.max_abs, None),
         };
         vec![
             name.clone(),

@@ -50,6 +50,8 @@ pub enum BakeRow {
     Table(Box<TableRow>),
     /// A split-sum table in a file.
     SplitSum(Box<SplitSumRow>),
+    /// A table by thickness in a file.
+    Film(Box<FilmTableRow>),
 }
 
 /// A material in a file.
@@ -178,6 +180,101 @@ pub struct SplitSumLookup {
     pub(super) filter: &'static str,
     pub(super) level: u32,
     pub(super) functions: Vec<String>,
+}
+
+/// A table by cosine and thickness of a film in a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FilmTableRow {
+    material: String,
+    medium: String,
+    /// The thickness of the first row and of the last one.
+    film_thickness_nm: [f64; 2],
+    /// The format's name.
+    pub format: &'static str,
+    /// Texels in a row.
+    pub texels: usize,
+    rows: usize,
+    /// The axis of cosines.
+    pub axis: &'static str,
+    /// The file's path.
+    pub file: String,
+    /// value = texel × scale.
+    pub scale: f64,
+    /// The largest error of the filtered lookup, between texels and rows too.
+    pub max_abs: f64,
+    depth: &'static str,
+    bytes: usize,
+    channels: &'static str,
+    lookup: FilmLookup,
+    /// The table's name.
+    pub name: String,
+    space: Option<&'static str>,
+    gamut: &'static str,
+    truth: String,
+    weights: &'static str,
+}
+
+/// How a table by thickness is looked up.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct FilmLookup {
+    u: String,
+    v: String,
+    wrap: &'static str,
+    filter: &'static str,
+    level: u32,
+    functions: Vec<String>,
+}
+
+impl FilmTableRow {
+    /// The row of a picture of these thicknesses in this file, with its error.
+    pub fn new(
+        subject: &TableMaterial,
+        [from_nm, to_nm]: [f64; 2],
+        picture: &Picture,
+        (format, file): (Format, &str),
+        max_abs: f64,
+    ) -> FilmTableRow {
+        let own = TableLookup::new(picture, &[]);
+        let rows = picture.height();
+        FilmTableRow {
+            material: subject.argument.clone(),
+            medium: subject.medium.clone().unwrap_or_else(|| "air".to_owned()),
+            film_thickness_nm: [from_nm, to_nm],
+            format: format.name(),
+            texels: picture.width,
+            rows,
+            axis: picture.axis.name(),
+            file: file.to_owned(),
+            scale: f64::from(picture.scale),
+            max_abs,
+            depth: picture.depth.name(),
+            bytes: picture.width * rows * picture.depth.bytes(),
+            channels: "linear red, green, blue",
+            lookup: FilmLookup {
+                u: format!("w = {}, {}", own.w, own.u),
+                v: format!(
+                    "(clamp((thickness_nm - {from_nm}) / {}, 0.0, 1.0) * {} + 0.5) / {rows}",
+                    to_nm - from_nm,
+                    rows - 1
+                ),
+                wrap: own.wrap,
+                filter: own.filter,
+                level: own.level,
+                functions: Vec::new(),
+            },
+            name: picture.name.clone(),
+            space: subject.space.map(|space| space.name()),
+            gamut: subject.reference.surface.gamut.name(),
+            truth: subject.seen().to_owned(),
+            weights: WEIGHTS,
+        }
+    }
+
+    /// The same, with the functions that read it.
+    pub fn read_by(mut self, functions: &[String]) -> FilmTableRow {
+        self.lookup.functions = functions.to_vec();
+        self
+    }
 }
 
 /// One row for each material of a picture in this file, with the functions that read it. The errors of each table are those with

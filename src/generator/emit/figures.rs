@@ -33,6 +33,9 @@ pub fn promises(precision: Precision, method: &Method) -> Vec<String> {
     let media = method.code_media();
     lines.push(if method.is_textured() {
         format!("Code error: {FILTERED}")
+    } else if method.claims.code_abs > 0.0 {
+        let bound = unfused(method.claims.code_abs);
+        format!("Code error for films of up to 1000 nm: {bound}")
     } else {
         format!("Code error for {media}: {}", bound(method.claims.code_ulp))
     });

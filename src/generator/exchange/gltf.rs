@@ -160,7 +160,11 @@ struct Material {
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let mut used = Vec::new();
     let materials = sheet.nodes.iter().map(|node| {
-        let suffix = if node.name == "material" { "" } else { "_iridescence" };
+        let suffix = if node.name == "material" {
+            ""
+        } else {
+            "_iridescence"
+        };
         let (mut core, mut extensions) = (Object::new(), Object::new());
         for field in &node.fields {
             let extension = EXTENSIONS.iter().find(|(name, _)| *name == field.name);
@@ -171,7 +175,9 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
             if !used.contains(extension) {
                 used.push(*extension);
             }
-            let own = extensions.entry(*extension).or_insert_with(|| Object::new().into());
+            let own = extensions
+                .entry(*extension)
+                .or_insert_with(|| Object::new().into());
             own[field.name] = value(field);
         }
         Material {

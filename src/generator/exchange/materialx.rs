@@ -66,18 +66,16 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             ],
             model: Model::conductor(n, k),
         });
-        nodes.extend(material.film.map(|film| {
-            Node {
-                name: FILMED,
-                fields: vec![
-                    Field::channels("ior", film.n),
-                    Field::channels("extinction", film.k),
-                    Field::both("roughness", 0.0),
-                    Field::number("thinfilm_thickness", film.thickness_nm),
-                    Field::number("thinfilm_ior", film.ior),
-                ],
-                model: Model::airy(&film, film.n, film.k),
-            }
+        nodes.extend(material.film.map(|film| Node {
+            name: FILMED,
+            fields: vec![
+                Field::channels("ior", film.n),
+                Field::channels("extinction", film.k),
+                Field::both("roughness", 0.0),
+                Field::number("thinfilm_thickness", film.thickness_nm),
+                Field::number("thinfilm_ior", film.ior),
+            ],
+            model: Model::airy(&film, film.n, film.k),
         }));
         remarks.extend(of_conductor(material));
     }
@@ -110,7 +108,11 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
 /// A node with the surface around it, and a material that refers to it.
 fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
     let name = format!("{material}_{}", node.name);
-    let kind = if node.name == FILMED { "conductor_bsdf" } else { node.name };
+    let kind = if node.name == FILMED {
+        "conductor_bsdf"
+    } else {
+        node.name
+    };
     let is_surface = kind == OPEN_PBR;
     let ty = if is_surface { "surfaceshader" } else { "BSDF" };
     document.open(kind, &[("name", &name), ("type", ty)]);

@@ -49,7 +49,11 @@ fn under_film(material: &EngineMaterial) -> Option<Node> {
         Field::colour("specular_color", film.tint.map(|tint| tint.min(1.0))),
     ];
     let fields = [fields, thin_film(&film)].concat();
-    Some(Node::new("thin_film", fields, Model::airy(&film, film.n, film.k)))
+    Some(Node::new(
+        "thin_film",
+        fields,
+        Model::airy(&film, film.n, film.k),
+    ))
 }
 
 /// The fields of a film.

@@ -41,6 +41,39 @@ pub fn lookup(
     check(fold(&builder.finish("lookup", reflectance)))
 }
 
+/// The function that reads a table of several thicknesses, a row each, between its rows too.
+///
+/// Its arguments are `cos_theta`, `table`, `thickness_nm`, and `table_scale` where no scale is given. Thicknesses beyond both ends are
+/// those of the ends.
+///
+/// # Errors
+/// The graph breaks a rule of the representation: a bug.
+pub fn lookup_by_thickness(
+    (axis, texels): (TableAxis, usize),
+    scale: Option<f32>,
+    rows: usize,
+    [from_nm, to_nm]: [f64; 2],
+) -> Result<Checked, BrokenRule> {
+    let builder = Builder::new();
+    let inputs = [Some(Input::TABLE), Some(Input::THICKNESS)].into_iter();
+    let inputs: Vec<Input> = inputs
+        .chain([scale.is_none().then_some(Input::TABLE_SCALE)])
+        .flatten()
+        .collect();
+    let x = Inputs::declare(&builder, &inputs, false, Precision::F32);
+    let share = (x.get(Input::THICKNESS) - from_nm) * (1.0 / (to_nm - from_nm));
+    let (all, half) = (rows as f64, 0.5 / rows as f64);
+    let row = share.saturate() * (1.0 - 1.0 / all) + half;
+    let scale = match scale {
+        Some(scale) => builder.number(f64::from(scale)),
+        None => x.get(Input::TABLE_SCALE),
+    };
+    let texels = builder.number(texels as f64);
+    let table = x.get(Input::TABLE);
+    let reflectance = fetch(table, warp(axis, x.cosine()), texels, row.named("v", "")) * scale;
+    check(fold(&builder.finish("lookup", reflectance)))
+}
+
 /// w of a clamped cosine: [`TableAxis::warp`] as nodes of a graph.
 fn warp(axis: TableAxis, c: Expr) -> Expr {
     let why = "0 at grazing, 1 at normal incidence; dense near grazing";

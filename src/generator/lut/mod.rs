@@ -30,7 +30,7 @@ pub use axis::TableAxis;
 pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
 pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
-pub use lookup::lookup;
+pub use lookup::{lookup, lookup_by_thickness};
 pub use picture::{Picture, TermChannels};
 pub use search::{BetweenTexels, TableKind, smallest, table_error};
 pub use split_sum::{

@@ -136,6 +136,9 @@ fn known_worst(emitted: &EmittedFunction) -> Vec<TrialCase<'static>> {
 /// What a library function promises for a material. Its bound is stated over a set of media.
 fn promised_for(emitted: &EmittedFunction, channels: &Channels) -> Measured<f64> {
     let method = emitted.method;
+    if method.claims.code_abs > 0.0 && !emitted.precision.is_half() {
+        return promised(method);
+    }
     let over = match (emitted.precision, method.half.claim()) {
         (Precision::F32, _) => method.claims.code_over,
         (Precision::F16, Some(claim)) => claim.over,

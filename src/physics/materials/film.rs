@@ -70,6 +70,14 @@ pub enum FilmFault {
 pub fn film_of_word(word: &str) -> Result<(&str, f64), FilmFault> {
     let parts = word.rsplit_once(':').filter(|(name, _)| !name.is_empty());
     let (name, length) = parts.ok_or_else(|| FilmFault::NoThickness(word.to_owned()))?;
+    Ok((name, length_nm(length)?))
+}
+
+/// The thickness in nanometres that a word such as `60nm` or `.06um` says.
+///
+/// # Errors
+/// It has no unit, or lies outside of its limits.
+pub fn length_nm(length: &str) -> Result<f64, FilmFault> {
     let units = [("nm", 1.0), ("um", 1000.0), ("µm", 1000.0), ("μm", 1000.0)];
     let with_unit = units
         .iter()
@@ -79,7 +87,7 @@ pub fn film_of_word(word: &str) -> Result<(&str, f64), FilmFault> {
     // A thickness in micrometres has as few digits as in nanometres: .06 × 1000 is 60.
     let thickness_nm = (number * nm * 1e6).round() / 1e6;
     if (0.0..=THICKEST_NM).contains(&thickness_nm) {
-        Ok((name, thickness_nm.abs()))
+        Ok(thickness_nm.abs())
     } else {
         Err(FilmFault::Length(length.to_owned()))
     }

@@ -18,7 +18,7 @@ mod surface;
 pub use crate::physics::foreign::{escaped, is_hidden};
 pub use catalogue::{find, known, list, names, page, source, stacks};
 pub use file::name_fault;
-pub use film::{Film, FilmFault, film_of_word};
+pub use film::{Film, FilmFault, film_of_word, length_nm};
 pub use formula::{DispersionCurve, Extrapolate, Formula};
 pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;

@@ -59,6 +59,7 @@ HALF_ONE(abs) HALF_ONE(cos) HALF_ONE(exp2) HALF_ONE(log2) HALF_ONE(rsqrt) HALF_O
 #define HALF_TWO(f) half f(half, half); half3 f(half3, half3);
 HALF_TWO(max) HALF_TWO(min)
 float dot(float3, float3);
+half dot(half3, half3);
 struct float2 { float x, y; float2(float, float); explicit float2(half, half); };
 struct float4 { float3 rgb; float a, x, y, z, w; float4(float3, float); };
 struct float4x4 {};

@@ -9,7 +9,7 @@ use fresnel_gen::generator::fit;
 use fresnel_gen::language::ir::{
     BrokenRule, Checked, Function, Label, Op, Payload, Ty, Value, check, evaluate, print,
 };
-use fresnel_gen::language::methods;
+use fresnel_gen::language::methods::{self, InHalf};
 use fresnel_gen::physics::num::{Half, Num, Precision};
 
 fn all_functions() -> Vec<Checked> {
@@ -203,6 +203,12 @@ fn half_form(function: &Checked) -> Checked {
     half.expect("well formed")
 }
 
+/// A method that half precision refuses agrees with nothing there.
+fn is_refused_in_half(function: &Checked) -> bool {
+    let stem = function.name.trim_end_matches("_scalar");
+    matches!(methods::find(stem).unwrap().half, InHalf::Refused(_))
+}
+
 #[test]
 fn every_kind_of_number_agrees_within_its_precision() {
     for function in all_functions() {
@@ -218,6 +224,9 @@ fn every_kind_of_number_agrees_within_its_precision() {
                 close(run::<f32>(&function, cos_theta), 2e-6),
                 "{name} in f32"
             );
+            if is_refused_in_half(&function) {
+                continue;
+            }
             // The thin end of f16: the two methods that solve for n lose most.
             let half = if name == "conductor_from_f0_f82" {
                 0.1

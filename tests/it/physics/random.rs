@@ -100,7 +100,7 @@ proptest! {
     /// More light than came in, or less than none, within the domain of a method.
     #[test]
     fn reflectance_lies_between_zero_and_one(
-        which in 0..KEPT.len(), shares in prop::array::uniform6((0.0..=1.0, 0.0..=1.0)), cos_theta in cosine(),
+        which in 0..KEPT.len(), shares in prop::array::uniform16((0.0..=1.0, 0.0..=1.0)), cos_theta in cosine(),
     ) {
         let method = KEPT[which];
         let given = method.inputs.iter().zip(shares);

@@ -347,6 +347,11 @@ impl Reader<'_> {
                 assert!(self.take(".") && self.take("rgb"));
                 sampled
             }
+            ("dot", [Term::Colour(a), Term::Colour(b)]) => {
+                let rounded = |x: f32| Term::Scalar(x).rounded(self.precision).scalar();
+                let [x, y, z] = [0, 1, 2].map(|i| rounded(a[i] * b[i]));
+                Term::Scalar(rounded(rounded(x + y) + z))
+            }
             _ => match self.callees.get(name) {
                 Some(callee) => callee.run(arguments),
                 None => call(name, arguments).rounded(self.precision),

@@ -59,6 +59,10 @@ pub static METHOD: Method = Method {
     class: Class::OneFilm,
     domain: "a film of an index below 1 is taken as 1; a film that absorbs is taken as clear",
     contract: Contract::Exempt("a film of the medium's index is no number at grazing"),
+    claims: Claims {
+        code_abs: 1e-4,
+        ..Claims::NONE
+    },
     half: InHalf::Refused("half precision keeps no phase"),
     build,
     ..Method::BASE

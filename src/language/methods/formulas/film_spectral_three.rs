@@ -205,7 +205,7 @@ pub(super) fn entered<'b>(x: &Inputs<'b>, inputs: &[Input]) -> Expr<'b> {
     let apart = name((film_n - 1.0) * (film_n + 1.0), "apart", "film_n^2 - 1");
     let y2 = name(apart + c2, "y2", "film_n^2 - s^2");
     let size = name(y2.abs().at_least(LEAST_SQUARE), "size", "");
-    let inverse = name(size.inverse_sqrt(), "inverse", "1 / |y|");
+    let inverse = name(size.inverse_sqrt(), "rest", "1 / |y|");
     let turn = x.get(Input::THICKNESS) * (std::f64::consts::TAU / wavelengths);
     let phase = name(turn * (size * inverse), "phase", "");
     let fade = name((FADE * phase).exp2(), "fade", "past the critical angle");

@@ -65,6 +65,10 @@ pub static METHOD: Method = Method {
     class: Class::OneFilm,
     domain: "a real index stands for the base, so metals have the wrong phase; a film without thickness does not give the bare base",
     contract: Contract::Exempt("it may exceed 1"),
+    claims: Claims {
+        code_abs: 1e-4,
+        ..Claims::NONE
+    },
     half: InHalf::Refused("half precision keeps no phase"),
     build,
     ..Method::BASE
