@@ -103,7 +103,7 @@ pub fn bake_film_thickness(
             .iter()
             .map(|table| Stored::scaled(table, format.depth(), scale))
             .collect();
-        let error = error(&stored, &lines);
+        let error = error(&stored, &lines, request.thicknesses);
         let picture = picture(request, &name, *format, &stored, error);
         let file = format!("{TABLES}/{name}{}", format.ending());
         lookups.push((file.clone(), scale, error));
@@ -137,24 +137,46 @@ pub fn bake_film_thickness(
     })
 }
 
-/// The largest error of the filtered lookup at texels, rows, and half-way between both, weights in steps of 1/256.
-fn error(stored: &[Stored], lines: &[Table]) -> f64 {
+/// The largest error of the filtered lookup, and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmTableError {
+    /// The error.
+    pub max_abs: f64,
+    /// The cosine there.
+    pub cos_theta: f64,
+    /// The thickness in nanometres there.
+    pub thickness_nm: f64,
+}
+
+/// The error at texels, rows, and half-way between both, weights in steps of 1/256.
+fn error(stored: &[Stored], lines: &[Table], thicknesses: Thicknesses) -> FilmTableError {
     let fine = lines.first().map_or(0, |line| line.texels.len());
-    let at = |line: usize, place: usize| {
-        let u = |row: &Stored| {
-            let cosine = row.axis.cosine(place as f64 / (fine - 1) as f64);
-            row.sample(Weights::Steps256, row.coordinate(cosine as f32))
-        };
-        let (first, second) = (u(&stored[line / 2]), u(&stored[line.div_ceil(2)]));
-        let scale = stored[0].scale;
-        let off = |i: usize| {
-            let mixed = 0.5 * (first[i] + second[i]) * scale;
-            (f64::from(mixed) - lines[line].texels[place][i]).abs()
-        };
-        (0..3).map(off).fold(0.0, f64::max)
+    let mut worst = FilmTableError {
+        max_abs: 0.0,
+        cos_theta: 1.0,
+        thickness_nm: thicknesses.from_nm,
     };
-    let all = (0..lines.len()).flat_map(|line| (0..fine).map(move |place| (line, place)));
-    all.map(|(line, place)| at(line, place)).fold(0.0, f64::max)
+    for (half, line) in lines.iter().enumerate() {
+        for (place, want) in line.texels.iter().enumerate() {
+            let cos_theta = line.axis.cosine(place as f64 / (fine - 1) as f64);
+            let [first, second] = [half / 2, half.div_ceil(2)].map(|row| {
+                let row = &stored[row];
+                row.sample(Weights::Steps256, row.coordinate(cos_theta as f32))
+            });
+            for i in 0..3 {
+                let mixed = 0.5 * (first[i] + second[i]) * stored[0].scale;
+                let max_abs = (f64::from(mixed) - want[i]).abs();
+                if max_abs > worst.max_abs {
+                    worst = FilmTableError {
+                        max_abs,
+                        cos_theta,
+                        thickness_nm: thicknesses.at(half as f64 / 2.0),
+                    };
+                }
+            }
+        }
+    }
+    worst
 }
 
 /// The head of all files: how to make them again, what they show, how they are looked up.
@@ -191,9 +213,10 @@ fn about(
     lines
 }
 
-fn error_words(error: f64) -> String {
+fn error_words(error: FilmTableError) -> String {
     format!(
-        "Error of the filtered lookup, between texels and rows too, weights in steps of 1/256: at most {error:.6}."
+        "Error of the filtered lookup, between texels and rows too, weights in steps of 1/256: at most {:.6} (at cos theta {:.4} and {:.2} nm).",
+        error.max_abs, error.cos_theta, error.thickness_nm
     )
 }
 
@@ -202,7 +225,7 @@ fn picture(
     name: &str,
     format: Format,
     stored: &[Stored],
-    error: f64,
+    error: FilmTableError,
 ) -> Picture {
     let names: Vec<String> = (0..stored.len())
         .map(|row| format!("{:.2} nm", request.thicknesses.at(row as f64)))
@@ -221,7 +244,7 @@ fn function(
     request: &FilmTableRequest,
     target: &'static Target,
     picture: &Picture,
-    files: &[(String, f32, f64)],
+    files: &[(String, f32, FilmTableError)],
 ) -> Result<(String, Vec<u8>), Error> {
     let name = &picture.name;
     let path = format!("{TABLES}/{}/{name}.{}", target.name, target.extension);

@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use super::film_thickness::FilmTableError;
 use super::request::{ATLAS, TableMaterial};
 use crate::generator::fit::ModelError;
 use crate::generator::lut::{Format, Picture, TableAxis};
@@ -202,6 +203,8 @@ pub struct FilmTableRow {
     pub scale: f64,
     /// The largest error of the filtered lookup, between texels and rows too.
     pub max_abs: f64,
+    worst_cos: f64,
+    worst_thickness_nm: f64,
     depth: &'static str,
     bytes: usize,
     channels: &'static str,
@@ -232,7 +235,7 @@ impl FilmTableRow {
         [from_nm, to_nm]: [f64; 2],
         picture: &Picture,
         (format, file): (Format, &str),
-        max_abs: f64,
+        error: FilmTableError,
     ) -> FilmTableRow {
         let own = TableLookup::new(picture, &[]);
         let rows = picture.height();
@@ -246,7 +249,9 @@ impl FilmTableRow {
             axis: picture.axis.name(),
             file: file.to_owned(),
             scale: f64::from(picture.scale),
-            max_abs,
+            max_abs: error.max_abs,
+            worst_cos: error.cos_theta,
+            worst_thickness_nm: error.thickness_nm,
             depth: picture.depth.name(),
             bytes: picture.width * rows * picture.depth.bytes(),
             channels: "linear red, green, blue",
