@@ -35,8 +35,10 @@ pub enum Factor {
     Peak(f64, f64),
     /// `(1 - c)² / (1 + a c)`.
     Bent(f64),
-    /// `(1 - c)² / (c + p)`: by the square of the root of the same p, where the shape has it.
-    Glancing(f64),
+    /// `log2(c + p) + e`, as (p, e).
+    Logarithm(f64, f64),
+    /// `log2(c + p)² + e`, as (p, e).
+    LogarithmSquared(f64, f64),
 }
 
 /// The shape of a fitted method.
@@ -97,7 +99,11 @@ impl Factor {
             Factor::Root(p) => 1.0 / (c + p).sqrt(),
             Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
             Factor::Bent(a) => (1.0 - c) * (1.0 - c) / (1.0 + a * c),
-            Factor::Glancing(p) => (1.0 - c) * (1.0 - c) / (c + p),
+            Factor::Logarithm(p, e) => libm::log2(c + p) + e,
+            Factor::LogarithmSquared(p, e) => {
+                let logarithm = libm::log2(c + p);
+                logarithm * logarithm + e
+            }
         }
     }
 }
@@ -116,7 +122,9 @@ impl fmt::Display for Factor {
             Factor::Root(p) => write!(out, "1/sqrt(c + {p})"),
             Factor::Peak(e, p) => write!(out, "(1/(c^2 + {e}) - 1/sqrt(c + {p}))"),
             Factor::Bent(a) => write!(out, "(1 - c)^2/(1 + {a} c)"),
-            Factor::Glancing(p) => write!(out, "(1 - c)^2/(c + {p})"),
+            Factor::Logarithm(p, 0.0) => write!(out, "log2(c + {p})"),
+            Factor::Logarithm(p, e) => write!(out, "(log2(c + {p}) + {e})"),
+            Factor::LogarithmSquared(p, e) => write!(out, "(log2(c + {p})^2 + {e})"),
         }
     }
 }
@@ -196,10 +204,17 @@ impl<'b> Made<'b> {
                 let root = self.factor(Factor::Root(p));
                 (1.0 / (c * c + e) - root).named("a", "large at grazing")
             }
-            Factor::Glancing(p) => {
-                let root =
-                    (self.factor(Factor::Grazing(1)) * self.factor(Factor::Root(p))).named("h", "");
-                (root * root).named("w", "0 at normal incidence")
+            Factor::Logarithm(p, 0.0) => {
+                let logarithm = self.factor(Factor::Shifted(p)).log2();
+                logarithm.named("g", "")
+            }
+            Factor::Logarithm(p, e) => {
+                let moved = self.factor(Factor::Logarithm(p, 0.0)) + e;
+                moved.named(self.free(["u", "v"]), "")
+            }
+            Factor::LogarithmSquared(p, e) => {
+                let logarithm = self.factor(Factor::Logarithm(p, 0.0));
+                (logarithm * logarithm + e).named("s", "")
             }
             Factor::Bent(a) => {
                 let bent = self.factor(Factor::Grazing(2)) / (1.0 + a * c);
@@ -257,13 +272,17 @@ impl Input {
     pub const C3: Input = coefficient("c3", "coefficient of the third term");
     pub const C4: Input = coefficient("c4", "coefficient of the fourth term");
     pub const C5: Input = coefficient("c5", "coefficient of the fifth term");
-    pub const COEFFICIENTS: [Input; 6] = [
+    pub const C6: Input = coefficient("c6", "coefficient of the sixth term");
+    pub const C7: Input = coefficient("c7", "coefficient of the seventh term");
+    pub const COEFFICIENTS: [Input; 8] = [
         Input::C0,
         Input::C1,
         Input::C2,
         Input::C3,
         Input::C4,
         Input::C5,
+        Input::C6,
+        Input::C7,
     ];
 }
 

@@ -43,6 +43,7 @@ mod fitted_dielectric_rational;
 mod fitted_f82;
 mod fitted_f82_metal;
 mod fitted_film;
+mod fitted_film_eight;
 mod fitted_five;
 mod fitted_rational;
 mod hoffman_f82;
@@ -81,6 +82,7 @@ pub static ALL: &[&Method] = &[
     &fitted_f82::METHOD,
     &fitted_f82_metal::METHOD,
     &fitted_film::METHOD,
+    &fitted_film_eight::METHOD,
     &fitted_five::METHOD,
     &fitted_rational::METHOD,
     &hoffman_f82::METHOD,
@@ -121,6 +123,7 @@ impl Method {
     pub const FITTED_F82: &'static Method = &fitted_f82::METHOD;
     pub const FITTED_F82_METAL: &'static Method = &fitted_f82_metal::METHOD;
     pub const FITTED_FILM: &'static Method = &fitted_film::METHOD;
+    pub const FITTED_FILM_EIGHT: &'static Method = &fitted_film_eight::METHOD;
     pub const FITTED_FIVE: &'static Method = &fitted_five::METHOD;
     pub const FITTED_RATIONAL: &'static Method = &fitted_rational::METHOD;
     pub const HOFFMAN_F82: &'static Method = &hoffman_f82::METHOD;
