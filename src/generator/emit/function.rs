@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::code_bound::{Bounds, CodeBound, FILTERED};
 use super::error::Error;
 use super::specialised::{Missed, Specialised, missed, of_cosine, specialise, specialised_graph};
-use crate::generator::fit::{Measured, ModelError, known_film, model_error};
+use crate::generator::fit::{Measured, ModelError, known_film, model_error, thickness_error};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction};
 use crate::language::ir::{BrokenRule, Checked};
@@ -242,7 +242,8 @@ pub fn specialised_function(
         model_error: Some(error),
         thicknesses: (method.wavelengths > 0).then(|| {
             let film = subject.film(method.wavelengths, known_film);
-            (film.thickness_nm, film.max_abs.max(error.max_abs))
+            let most = thickness_error(subject, film);
+            (film.thickness_nm, most.max(error.max_abs))
         }),
         code: match (naming.precision, method.half.refusal()) {
             (Precision::F16, Some(why)) => Measured::No(why.to_owned()),

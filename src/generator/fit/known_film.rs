@@ -33,6 +33,9 @@ const THREE_NM: [f64; 3] = [610.0, 530.0, 445.0];
 const SIX_NM: [f64; 6] = [635.0, 590.0, 550.0, 510.0, 465.0, 430.0];
 /// By how many places of the grid a wavelength moves.
 const MOVES: [usize; 3] = [4, 2, 1];
+/// The angles and the finer steps of thickness over which errors are sought.
+const ANGLES: usize = 45;
+const FINER: usize = 4;
 /// Two wavelengths that nearly say the same have no shares of their own: this much is added to each square.
 const RIDGE: f64 = 1e-9;
 
@@ -50,7 +53,6 @@ pub fn known_film(subject: &MaterialInMedium, count: usize) -> KnownFilm {
         ior: surface.films[place(surface, IOR_NM)][0].n,
         bare: bare(subject),
         samples: Vec::new(),
-        max_abs: 0.0,
     };
     if count == 0 {
         return known;
@@ -62,7 +64,7 @@ pub fn known_film(subject: &MaterialInMedium, count: usize) -> KnownFilm {
             ..known
         };
     }
-    let rows = rows(surface);
+    let rows = rows(surface, &DEGREES, 1);
     let start: &[f64] = if count == 3 { &THREE_NM } else { &SIX_NM };
     let squares = Squares::new(&rows, surface);
     let found = squares.nearest(start.iter().map(|nm| place(surface, *nm)).collect());
@@ -71,7 +73,6 @@ pub fn known_film(subject: &MaterialInMedium, count: usize) -> KnownFilm {
     let samples = each.map(|(at, shares)| sample(surface, *at, thickness_nm, *shares));
     KnownFilm {
         samples: samples.collect(),
-        max_abs: largest(&rows, &found, &shares),
         ..known
     }
 }
@@ -113,6 +114,7 @@ fn sample(surface: &Surface, place: usize, thickness_nm: f64, weights: [f64; 3])
     };
     FilmSample {
         wavelength_nm: outside,
+        vacuum_nm: surface.integrator.wavelengths[place],
         film_n: film.n,
         base: [index.n, if index.k < CLEAR_K { 0.0 } else { index.k }],
         weights,
@@ -125,11 +127,12 @@ struct Row {
     colour: [f64; 3],
 }
 
-fn rows(surface: &Surface) -> Vec<Row> {
+/// At these angles, and so many times as many thicknesses as least squares want.
+fn rows(surface: &Surface, degrees: &[f64], times: usize) -> Vec<Row> {
     let optical = |(films, nm): (&Vec<Layer>, &f64)| films[0].n * films[0].waves * nm;
     let both = surface.films.iter().zip(&surface.integrator.wavelengths);
     let most = both.map(optical).fold(0.0, f64::max);
-    let steps = ((most / STEP_NM).ceil() as usize).clamp(STEPS[0], STEPS[1]);
+    let steps = times * ((most / STEP_NM).ceil() as usize).clamp(STEPS[0], STEPS[1]);
     let shares = (0..=steps).map(|i| i as f64 / steps as f64);
     let row = |share: f64, degrees: f64| {
         let at = |place: usize| {
@@ -147,7 +150,8 @@ fn rows(surface: &Surface) -> Vec<Row> {
         }
     };
     shares
-        .flat_map(|share| DEGREES.map(|degrees| row(share, degrees)))
+        .flat_map(|share| degrees.iter().map(move |degrees| (share, *degrees)))
+        .map(|(share, degrees)| row(share, degrees))
         .collect()
 }
 
@@ -262,15 +266,26 @@ impl Squares {
     }
 }
 
-/// The largest error of the sum over all rows, both in [0, 1].
-fn largest(rows: &[Row], places: &[usize], shares: &[[f64; 3]]) -> f64 {
+/// The largest error of a method of a few wavelengths over all thicknesses from 0 to that of the film, angles and channels.
+pub fn thickness_error(subject: &MaterialInMedium, film: &KnownFilm) -> f64 {
+    let surface = &subject.reference.surface;
+    if !surface.is_spectral() {
+        return 0.0;
+    }
+    let places: Vec<usize> = (film.samples.iter())
+        .map(|sample| place(surface, sample.vacuum_nm))
+        .collect();
+    let degrees: Vec<f64> = (0..=ANGLES)
+        .map(|i| 90.0 * i as f64 / ANGLES as f64)
+        .chain([89.2, 89.7, 89.9])
+        .collect();
+    let rows = rows(surface, &degrees, FINER);
     let off = |row: &Row| {
         let each = each_channel(|channel| {
-            let parts = places.iter().zip(shares);
-            let sum: f64 = parts
-                .map(|(at, share)| row.spectrum[*at] * share[channel])
-                .sum();
-            (sum.clamp(0.0, 1.0) - row.colour[channel].clamp(0.0, 1.0)).abs()
+            let parts = places.iter().zip(&film.samples);
+            let sum = parts.map(|(at, sample)| row.spectrum[*at] * sample.weights[channel]);
+            let truth = row.colour[channel].clamp(0.0, 1.0);
+            (sum.sum::<f64>().clamp(0.0, 1.0) - truth).abs()
         });
         each.into_iter().fold(0.0, f64::max)
     };

@@ -392,8 +392,6 @@ pub struct KnownFilm {
     pub bare: BareBase,
     /// Both at a few wavelengths, whose weighted sum gives the channels; empty for a method that takes none.
     pub samples: Vec<FilmSample>,
-    /// The largest error of that sum, over all thicknesses from 0 to that of the film, all angles and channels.
-    pub max_abs: f64,
 }
 
 /// A surface without its film: reflectances, and the index of each channel.
@@ -414,6 +412,8 @@ pub struct BareBase {
 pub struct FilmSample {
     /// The wavelength in nanometres, in the medium outside.
     pub wavelength_nm: f64,
+    /// The same in a vacuum.
+    pub vacuum_nm: f64,
     /// The film's index, relative to the medium outside.
     pub film_n: f64,
     /// The base's index, relative to the same: n and k.
@@ -427,6 +427,7 @@ impl KnownFilm {
     fn of_index(n: [f64; 3], k: [f64; 3]) -> KnownFilm {
         let sample = |i: usize| FilmSample {
             wavelength_nm: THESIS_NM[i],
+            vacuum_nm: THESIS_NM[i],
             film_n: NO_FILM,
             base: [n[i], k[i]],
             weights: each_channel(|channel| f64::from(u8::from(channel == i))),
@@ -441,7 +442,6 @@ impl KnownFilm {
                 k,
             },
             samples: each_channel(sample).to_vec(),
-            max_abs: 0.0,
         }
     }
 

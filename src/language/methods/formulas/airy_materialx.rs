@@ -11,7 +11,8 @@
 //! Source: Belcour, Barla, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence", ACM Transactions on
 //! Graphics 36(4), 2017, <https://doi.org/10.1145/3072959.3073620>, in the form of `mx_fresnel_airy` of MaterialX 1.39.5,
 //! <https://github.com/AcademySoftwareFoundation/MaterialX>, with its two iterations. Arctangents of phases are left out: what is needed
-//! are the cosine and sine of the phase, which are quotients. The polarisations share the observer's waves.
+//! are the cosine and sine of the phase, which are quotients. The polarisations share the observer's waves. 1 - R12 R23 is at least
+//! 1e-6: at 90 degrees MaterialX divides 0 by 0.
 //! Domain: film_ior from .05 to 10, taken as 1 where it is less. Error: a channel's reflectances are turned into another channel's
 //! colour, as if they were X, Y and Z, with the primaries of CIE RGB, and two terms are too few for metals: .06 to .27.
 
@@ -58,7 +59,6 @@ pub static METHOD: Method = Method {
     ],
     class: Class::OneFilm,
     domain: "a film of an index below 1 is taken as 1; a film that absorbs is taken as clear",
-    contract: Contract::Exempt("a film of the medium's index is no number at grazing"),
     claims: Claims {
         code_abs: 1e-4,
         ..Claims::NONE
@@ -87,7 +87,10 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let inside = inside2.sqrt().named("inside", "the cosine in the film");
 
     // Air and film.
-    let (near, far) = ((ior * inside).named("near", ""), (ior * c).named("far", ""));
+    let (near, far) = (
+        (ior * inside).named("y", ""),
+        (ior * c).named("slanted", ""),
+    );
     let ratio_s = ((c - near) / (c + near)).named("ratio_s", "");
     let outer_s = ratio_s.squared().named("outer_s", "R12 of s");
     let ratio_p = ((far - inside) / (far + inside)).named("ratio_p", "");
@@ -110,8 +113,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         .max(number(0.0).rgb())
         .sqrt()
         .named("v", "");
-    let near2 = near.squared().named("near2", "");
-    let near_twice = (2.0 * near).named("near_twice", "");
+    let near2 = near.squared().named("y2", "");
+    let near_twice = (2.0 * near).named("y_twice", "");
     let cross_s = (near_twice * u).named("cross_s", "");
     let sum_s = (size + near2).named("sum_s", "");
     let inner_s = ((sum_s - cross_s) / (sum_s + cross_s)).named("inner_s", "R23 of s");
@@ -142,7 +145,10 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         );
         let through = named(1.0 - outer, "through");
         let product = named(outer * inner, "product");
-        let all = named(through.squared() * inner / (1.0 - product), "all");
+        let all = named(
+            through.squared() * inner / (1.0 - product).at_least(1e-6),
+            "all",
+        );
         let step = named(product.sqrt(), "step");
         let first = named((all - through) * step, "first");
         let twice = [

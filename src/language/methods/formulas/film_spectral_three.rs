@@ -242,7 +242,7 @@ pub(super) fn entered<'b>(x: &Inputs<'b>, inputs: &[Input]) -> Expr<'b> {
         name(cosine.squared(), "cosine2", ""),
         name(sine.squared(), "sine2", ""),
     );
-    let cs = name(2.0 * cosine * sine, "cross", "");
+    let cs = name(2.0 * cosine * sine, "twice_cs", "");
     let c2q = name(c2 * q, "c2q", "");
     let y4 = name(y2.squared(), "y4", "");
     let ac = name(c * left, "weight_c", "");

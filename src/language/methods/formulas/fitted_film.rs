@@ -37,16 +37,16 @@ pub static METHOD: Method = Method {
     class: Class::Film,
     claims: Claims {
         model: &[
-            Claim::dielectrics(0.0012, 34.0),
-            Claim::metals(0.0042, 37.7),
+            Claim::dielectrics(0.0011, 35.6),
+            Claim::metals(0.0047, 63.0),
         ],
-        code_ulp: 6.5,
+        code_ulp: 4.5,
         code_over: MediaSet::Metals,
         by_class: &[ByClass::of_class(
             "film",
-            [0.0015, 0.0148],
-            [0.0019, 0.0098],
-            0.0140,
+            [0.0015, 0.0149],
+            [0.0019, 0.0079],
+            0.0138,
         )],
         ..Claims::NONE
     },

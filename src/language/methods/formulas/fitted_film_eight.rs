@@ -38,16 +38,16 @@ pub static METHOD: Method = Method {
     class: Class::Film,
     claims: Claims {
         model: &[
-            Claim::dielectrics(0.0001, 34.0),
-            Claim::metals(0.0010, 37.7),
+            Claim::dielectrics(0.000072, 19.8),
+            Claim::metals(0.0022, 21.5),
         ],
-        code_ulp: 8.0,
+        code_ulp: 0.0,
         code_over: MediaSet::Metals,
         by_class: &[ByClass::of_class(
             "film",
             [0.0004, 0.0061],
-            [0.0004, 0.0053],
-            0.0060,
+            [0.0003, 0.0051],
+            0.0062,
         )],
         ..Claims::NONE
     },

@@ -100,13 +100,13 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let product = product
         .min(number(PRODUCT[1]).rgb())
         .named("product", "R12 R23");
-    let all = (through.squared() * inner / (1.0 - product)).named("all", "R_s");
+    let all = (through.squared() * inner / (1.0 - product)).named("sum", "R_s");
     let turned = ior.choose_below(one, number(0.0), pi)
         + base.choose_below(ior.rgb(), pi.rgb(), number(0.0).rgb());
     let turned = turned.named("turned", "what both faces add to the phase");
     let path = (2.0 * ior * x.get(Input::THICKNESS) * inside).named("path", "D");
 
-    let step = product.sqrt().named("step", "");
+    let step = product.sqrt().named("factor", "");
     let first = ((all - through) * step).named("first", "C_1");
     let fringe = |m: f64, part: Expr<'b>| {
         let order = (m * path).named(&format!("path_{m}"), "");
