@@ -140,6 +140,9 @@ fn thicknesses(word: &str) -> Result<Thicknesses, String> {
         )
     };
     let (from, to) = word.split_once("..").ok_or_else(wanted)?;
+    if to.starts_with('.') {
+        return Err(wanted());
+    }
     let to_nm = length_nm(to).map_err(|fault| fault.to_string())?;
     let unit = to.trim_start_matches(|letter: char| letter.is_ascii_digit() || letter == '.');
     let from_nm = length_nm(from).or_else(|_| length_nm(&format!("{from}{unit}")));
@@ -227,6 +230,9 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     finished(flags, request.command_line(), baked, &left_out, announce)
 }
 
+/// The most texels of a row of a table by thickness: its error is sought between them too.
+const MOST_FILM_TEXELS: usize = 8192;
+
 /// Bakes one table by thickness.
 fn film_table(
     flags: &BakeFlags,
@@ -235,6 +241,14 @@ fn film_table(
     progress: Progress,
     announce: Announce,
 ) -> Result<Output, Error> {
+    if let Some(size) = flags.size.filter(|size| *size > MOST_FILM_TEXELS) {
+        return Err(RequestFault::OutOfRange {
+            flag: "size",
+            value: size.to_string(),
+            allowed: format!("is at most {MOST_FILM_TEXELS} with --film-thickness"),
+        }
+        .into());
+    }
     let subjects = wanted.subjects()?.materials();
     let one = match subjects.as_slice() {
         [one] if one.has_films() => one,

@@ -100,8 +100,8 @@ impl FitFlags {
 /// A number of coefficients that some form has.
 fn terms(word: &str) -> Result<usize, &'static str> {
     let terms = word.parse().ok();
-    let terms = terms.filter(|terms| [4, 5, 6].contains(terms));
-    terms.ok_or("no form has so many coefficients; there are forms with 4 or 5, and with 6 for materials under films")
+    let terms = terms.filter(|terms| [4, 5, 6, 8].contains(terms));
+    terms.ok_or("no form has so many coefficients; there are forms with 4 or 5, and with 6 or 8 for materials under films")
 }
 
 /// Fits.

@@ -124,7 +124,9 @@ fn methods_of(
     is_library: bool,
 ) -> (Vec<&'static Method>, Vec<String>) {
     let numeric = methods::ALL.iter().copied();
-    let numeric = numeric.filter(|method| !method.is_textured());
+    let is_one =
+        |method: &&'static Method| !method.is_textured() && !(is_library && method.keeps_inputs());
+    let numeric = numeric.filter(is_one);
     let chosen = Choice::chosen(words, numeric, |method| method.name);
     let refusal = |method: &Method| {
         if is_library {
@@ -133,10 +135,23 @@ fn methods_of(
             method.half.refusal()
         }
     };
+    let named = words.iter().filter_map(|word| match word {
+        Choice::One(_, method) => Some(*method),
+        _ => None,
+    });
+    let kept = named.filter(|method| is_library && method.keeps_inputs());
+    let kept: Vec<String> = kept
+        .map(|method| {
+            format!(
+                "left out: {}: its channels share wavelengths: name a material under a film",
+                method.name
+            )
+        })
+        .collect();
     if !Choice::is_all(words) || !precision.is_half() {
-        return (chosen, Vec::new());
+        return (chosen, kept);
     }
-    let (mut written, mut left_out) = (Vec::new(), Vec::new());
+    let (mut written, mut left_out) = (Vec::new(), kept);
     for method in chosen {
         match refusal(method) {
             Some(why) => left_out.push(format!("left out: {}: {why}", method.name)),

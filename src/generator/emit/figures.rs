@@ -2,7 +2,7 @@
 
 use super::code_bound::{CodeBound, FILTERED};
 use super::function::EmittedFunction;
-use crate::generator::fit::{Measured, ModelError, rounded_up};
+use crate::generator::fit::{Measured, ModelError, SEEN_DEGREES, rounded_up};
 use crate::language::ir::Op;
 use crate::language::methods::{ColourClaim, Input, Method};
 use crate::physics::num::Precision;
@@ -35,7 +35,7 @@ pub fn promises(precision: Precision, method: &Method) -> Vec<String> {
         format!("Code error: {FILTERED}")
     } else if method.claims.code_abs > 0.0 {
         let bound = unfused(method.claims.code_abs);
-        format!("Code error for films of up to 1000 nm: {bound}")
+        format!("Code error for films of up to 1000 nm, cos_theta from {FILM_COSINE}: {bound}")
     } else {
         format!("Code error for {media}: {}", bound(method.claims.code_ulp))
     });
@@ -113,10 +113,13 @@ pub(super) fn model_line(error: &ModelError) -> String {
 pub(super) fn thickness_line(emitted: &EmittedFunction) -> Option<String> {
     let (most_nm, error) = emitted.thicknesses?;
     Some(format!(
-        "That is of {most_nm} nm. Of any thickness from 0 to {most_nm} nm: at most {}.",
+        "That is of {most_nm} nm. Of thicknesses from 0 to {most_nm} nm, up to {SEEN_DEGREES} degrees: at most {}. Nearer to grazing a narrow fringe may fall between its wavelengths.",
         rounded_up(error)
     ))
 }
+
+/// The least cosine at which methods of films promise a code error: nearer to grazing fringes are as narrow as the cosine is small.
+const FILM_COSINE: f64 = 0.05;
 
 /// A line that says that a fit misses its class, and which method serves.
 pub(super) fn missed_line(emitted: &EmittedFunction) -> Option<String> {
@@ -130,7 +133,13 @@ pub(super) fn code_line(emitted: &EmittedFunction) -> String {
         Measured::Yes(CodeBound::Absolute(most)) if emitted.precision.is_half() => {
             format!("Code error: {}.", absolute(*most))
         }
-        Measured::Yes(CodeBound::Absolute(most)) => format!("Code error: {}.", unfused(*most)),
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => {
+            format!("Code error: {}.", unfused(*most))
+        }
+        Measured::Yes(CodeBound::Absolute(most)) => format!(
+            "Code error for films of up to 1000 nm, cos_theta from {FILM_COSINE}: {}.",
+            unfused(*most)
+        ),
         Measured::No(why) => format!("Code error: {why}."),
     }
 }

@@ -225,9 +225,7 @@ pub fn specialised_function(
         plain_for,
     } = specialised_graph(method, subject, naming.precision, bounds)?;
     let meant = match naming.precision {
-        Precision::F32 if method.keeps_inputs() => {
-            of_cosine(method, subject, naming.precision, bounds)?
-        }
+        _ if method.keeps_inputs() => of_cosine(method, subject, Precision::F32, bounds)?,
         Precision::F32 => function.clone(),
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
@@ -243,7 +241,7 @@ pub fn specialised_function(
         thicknesses: (method.wavelengths > 0).then(|| {
             let film = subject.film(method.wavelengths, known_film);
             let most = thickness_error(subject, film);
-            (film.thickness_nm, most.max(error.max_abs))
+            (film.thickness_nm, most)
         }),
         code: match (naming.precision, method.half.refusal()) {
             (Precision::F16, Some(why)) => Measured::No(why.to_owned()),

@@ -102,11 +102,18 @@ impl<'a> PageRequest<'a> {
     /// The bytes of a file.
     pub fn render(&self) -> Result<Vec<u8>, Error> {
         let (target, first) = (self.target, self.functions[0].1);
-        let numbers = first.function.params.iter();
-        let numbers = numbers.filter(|param| is_number(param));
-        let functions = self.functions.iter();
-        let params = functions.flat_map(|(_, one)| &one.function.params);
-        let textures = params.filter(|param| param.ty == Ty::Texture);
+        let params = || {
+            self.functions
+                .iter()
+                .flat_map(|(_, one)| &one.function.params)
+        };
+        let mut numbers: Vec<&Param> = Vec::new();
+        for param in params().filter(|param| is_number(param)) {
+            if !numbers.contains(&param) {
+                numbers.push(param);
+            }
+        }
+        let textures = params().filter(|param| param.ty == Ty::Texture);
         let functions = self.functions.iter().enumerate();
         let view = PageView {
             header: self.header,
@@ -117,6 +124,7 @@ impl<'a> PageRequest<'a> {
                 .collect(),
             textures: textures.map(|param| param.name.as_str()).collect(),
             parameters: numbers
+                .into_iter()
                 .map(|param| ParameterView {
                     name: &param.name,
                     ty: target.spelling.ty(param.ty),

@@ -10,7 +10,7 @@ use crate::generator::fit::{
 };
 use crate::generator::reference::{LEAST_FITTED_N, MaterialInMedium};
 use crate::language::ir::Checked;
-use crate::language::methods::{self, ALL, Class, Method, Values};
+use crate::language::methods::{self, ALL, Method, Values};
 use crate::physics::num::Precision;
 
 /// A method's formula with a material's constants folded in, in the form that is written.
@@ -41,11 +41,7 @@ pub fn specialised_graph(
         } else {
             subject.main_method()
         };
-        let of_films = matches!(
-            method.class,
-            Class::Film | Class::OneFilm | Class::ClearFilm
-        );
-        let what = if subject.has_films() && !of_films {
+        let what = if subject.has_films() && !method.class.is_of_films() {
             format!("it describes bare media, and films lie on this; {serves} serves it")
         } else {
             format!("it describes {}; {serves} serves it", method.class.media())

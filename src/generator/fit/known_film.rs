@@ -34,8 +34,10 @@ const SIX_NM: [f64; 6] = [635.0, 590.0, 550.0, 510.0, 465.0, 430.0];
 /// By how many places of the grid a wavelength moves.
 const MOVES: [usize; 3] = [4, 2, 1];
 /// The angles and the finer steps of thickness over which errors are sought.
-const ANGLES: usize = 45;
-const FINER: usize = 4;
+const ANGLES: usize = 40;
+const FINER: usize = 6;
+/// The greatest of these angles, in degrees.
+pub const SEEN_DEGREES: f64 = 85.0;
 /// Two wavelengths that nearly say the same have no shares of their own: this much is added to each square.
 const RIDGE: f64 = 1e-9;
 
@@ -266,7 +268,8 @@ impl Squares {
     }
 }
 
-/// The largest error of a method of a few wavelengths over all thicknesses from 0 to that of the film, angles and channels.
+/// The largest error of a method of a few wavelengths over thicknesses from 0 to that of the film, angles up to [`SEEN_DEGREES`] and
+/// channels. Nearer to grazing fringes get as narrow as the cosine, and may fall between the wavelengths.
 pub fn thickness_error(subject: &MaterialInMedium, film: &KnownFilm) -> f64 {
     let surface = &subject.reference.surface;
     if !surface.is_spectral() {
@@ -276,8 +279,7 @@ pub fn thickness_error(subject: &MaterialInMedium, film: &KnownFilm) -> f64 {
         .map(|sample| place(surface, sample.vacuum_nm))
         .collect();
     let degrees: Vec<f64> = (0..=ANGLES)
-        .map(|i| 90.0 * i as f64 / ANGLES as f64)
-        .chain([89.2, 89.7, 89.9])
+        .map(|i| SEEN_DEGREES * i as f64 / ANGLES as f64)
         .collect();
     let rows = rows(surface, &degrees, FINER);
     let off = |row: &Row| {

@@ -27,7 +27,7 @@ pub use candidates::{
 pub use derive::{known, values, values_for_material, values_for_material_in};
 pub use exact::Exact;
 pub use grey_tint::{Follows, GreyTint, grey_tint};
-pub use known_film::{known_film, thickness_error};
+pub use known_film::{SEEN_DEGREES, known_film, thickness_error};
 pub use material_params::{
     CoatedRow, ColourErrors, MaterialParams, MeasuredSpread, abbe_in, colour_errors, ior_in,
     material_params,

@@ -104,7 +104,7 @@ const EDGE_COLOUR: &[&str] = &["edgecolor", "edgecolour"];
 const REFLECTIVITY: &[&str] = &["reflectivity"];
 
 /// Names whose meaning does not depend on the other arguments.
-const ALIASES: [Alias; 8] = [
+const ALIASES: [Alias; 10] = [
     alias(INVERSE_INDEX, &["1/eta", "eta"]),
     alias(REAL_INDEX, &["n"]),
     alias(EXTINCTION, &["k", "k^2"]),
@@ -147,6 +147,16 @@ const ALIASES: [Alias; 8] = [
         &["f82", "f82_tint"],
     ),
     alias(&["tint", "f82tint", "tint82"], &["f82_tint", "f82"]),
+    alias(
+        &[
+            "thickness",
+            "filmthickness",
+            "thinfilmthickness",
+            "iridescencethickness",
+        ],
+        &["thickness_nm"],
+    ),
+    alias(&["thinfilmior", "iridescenceior", "filmeta"], &["film_ior"]),
 ];
 
 /// A name in the form of aliases. A single letter keeps its case, since N may be the normal.

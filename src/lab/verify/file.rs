@@ -239,9 +239,7 @@ impl<'a> FileTrial<'a> {
 
 /// The values of a method's inputs for the materials that library functions are run with.
 fn input_values(plan: &VerifyPlan, method: &Method) -> Vec<Vec<(String, [f64; 3])>> {
-    let subjects = plan.trial_subjects().iter();
-    let described = subjects.filter(|subject| subject.is_described_by(method));
-    described
+    plan.trial_subjects(method)
         .map(|subject| {
             let values = values_for_material_in(Precision::F32, subject, method);
             values.into_iter().collect()

@@ -10,6 +10,7 @@ use crate::generator::generate::{
     ExistingContents, GeneratedFile, GeneratedWithGraphs, KeptMethods, generate_with_graphs,
 };
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::source::Source;
 use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::verify::shipped::{Folder, ShippedPage, replace_with_today};
 use crate::language::methods::{self, Method};
@@ -49,6 +50,15 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
     } else {
         Vec::new()
     };
+    let of_films = |file: &PlannedFile| {
+        let mut functions = file.functions.iter();
+        functions.any(|emitted| emitted.method.class.is_of_films())
+    };
+    let films = if files.iter().any(of_films) {
+        usual_films(request)?
+    } else {
+        Vec::new()
+    };
     let pages: BTreeSet<&str> = (files.iter().flat_map(|file| &file.pages))
         .map(|page| page.path.as_str())
         .collect();
@@ -64,6 +74,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
         unasked,
         files,
         others,
+        films,
         subjects: meant.subjects,
         left_out: meant
             .left_out
@@ -184,6 +195,16 @@ fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     Ok(usual.subjects()?.materials())
 }
 
+/// Materials under films, for library functions that describe nothing else.
+fn usual_films(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
+    let names = ["anodised_titanium_purple", "oil_on_water"];
+    let films = Request {
+        materials: Materials::These(names.map(|name| Source::Named(name.to_owned())).to_vec()),
+        ..request.clone()
+    };
+    Ok(films.subjects()?.materials())
+}
+
 fn planned(made: GeneratedFile, page: ShippedPage) -> Result<PlannedFile, Error> {
     let target = targets::find(&made.artifact.target).ok_or_else(|| {
         RequestFault::refused(format!("there is no target `{}`", made.artifact.target))
@@ -205,6 +226,8 @@ pub struct VerifyPlan {
     pub subjects: Vec<MaterialInMedium>,
     /// The materials with whose values library functions are run, where they are not `subjects`.
     pub others: Vec<MaterialInMedium>,
+    /// Materials under films, for library functions that describe none of these.
+    pub films: Vec<MaterialInMedium>,
     /// Why some materials are left out.
     pub left_out: Vec<String>,
     /// Files of functions that the folder's manifest lists and that a run without names leaves out: those of other materials,
@@ -228,13 +251,18 @@ pub struct PlannedFile {
 }
 
 impl VerifyPlan {
-    /// The materials with whose values library functions are run.
-    pub fn trial_subjects(&self) -> &[MaterialInMedium] {
-        if self.others.is_empty() {
+    /// The materials with whose values a method's library functions are run.
+    pub fn trial_subjects(&self, method: &Method) -> impl Iterator<Item = &MaterialInMedium> {
+        let own = if self.others.is_empty() {
             &self.subjects
         } else {
             &self.others
-        }
+        };
+        let is_described = |subject: &&MaterialInMedium| subject.is_described_by(method);
+        let has_own = own.iter().any(|subject| subject.is_described_by(method));
+        let wants_films = method.class.is_of_films() && !has_own;
+        let films = if wants_films { &self.films[..] } else { &[] };
+        own.iter().chain(films).filter(is_described)
     }
 }
 

@@ -28,6 +28,11 @@ impl Class {
         }
     }
 
+    /// Whether it is of materials under films.
+    pub fn is_of_films(self) -> bool {
+        matches!(self, Class::Film | Class::OneFilm | Class::ClearFilm)
+    }
+
     /// The media in words.
     pub fn described(self) -> &'static str {
         match self {

@@ -117,7 +117,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let near_twice = (2.0 * near).named("y_twice", "");
     let cross_s = (near_twice * u).named("cross_s", "");
     let sum_s = (size + near2).named("sum_s", "");
-    let inner_s = ((sum_s - cross_s) / (sum_s + cross_s)).named("inner_s", "R23 of s");
+    let inner_s = (sum_s - cross_s).max(number(0.0).rgb()) / (sum_s + cross_s);
+    let inner_s = inner_s.named("inner_s", "R23 of s");
     let base4 = (re.squared() + im2).named("base4", "|m|^4");
     let ior2 = ior.squared().named("ior2", "");
     let mixed = (re * u + im * v).named("mixed", "");
@@ -125,7 +126,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let whole_p = (base4 * inside2).named("whole_p", "");
     let film_p = (ior2 * size).named("film_p", "");
     let sum_p = (whole_p + film_p).named("sum_p", "");
-    let inner_p = ((sum_p - cross_p) / (sum_p + cross_p)).named("inner_p", "R23 of p");
+    let inner_p = (sum_p - cross_p).max(number(0.0).rgb()) / (sum_p + cross_p);
+    let inner_p = inner_p.named("inner_p", "R23 of p; rounding must not make it negative");
     let turn_s = [size - near2, near_twice * v];
     let turn_p = [whole_p - film_p, near_twice * (im * u - re * v)];
 
