@@ -7,6 +7,7 @@ use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{Input, KnownFilm, KnownSurface};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
+use crate::physics::optics::Layer;
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
 
 /// A material with the numbers that formats take.
@@ -45,6 +46,9 @@ pub struct EngineFilm {
     /// The same: k.
     pub k: [f64; 3],
 }
+
+/// A film with less k than this absorbs next to nothing.
+const FAINT_K: f64 = 0.01;
 
 /// What lies below the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,7 +140,7 @@ fn coat(subject: &MaterialInMedium) -> Option<f64> {
     (index > 1.0).then_some(index)
 }
 
-/// The film on it, if there is one and no other.
+/// The film on it, if there is one and no other, of an index that formats take.
 fn film(subject: &MaterialInMedium) -> Option<EngineFilm> {
     let [_] = subject.material.films.as_slice() else {
         return None;
@@ -153,7 +157,8 @@ fn film(subject: &MaterialInMedium) -> Option<EngineFilm> {
         ..KnownSurface::of_index(bare.n, bare.k, subject.derivation.matching_cos)
     };
     let tint = Input::TINT.value(&base).expect("a surface gives it");
-    Some(EngineFilm {
+    // Formats take no film that is optically rarer than what lies outside.
+    (ior >= 1.0).then(|| EngineFilm {
         ior: rounded(ior),
         thickness_nm: rounded(thickness_nm),
         f0: bare.f0.map(|value| rounded(value.clamp(0.0, 1.0))),
@@ -203,6 +208,10 @@ fn remarks(
             .push("each channel is one wavelength: the colours are in no colour space".to_owned());
     } else {
         remarks.extend(viewing.integration.adaptation_remark().map(str::to_owned));
+    }
+    let absorbs = |film: &Layer| film.k >= FAINT_K;
+    if film(subject).is_some() && surface.films.iter().flatten().any(absorbs) {
+        remarks.push("the film absorbs, and no format has a film that does".to_owned());
     }
     remarks.extend(
         surface

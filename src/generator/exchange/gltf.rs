@@ -9,7 +9,8 @@
 //! A metal's F0 is `baseColorFactor`. A dielectric's is that of `ior`, times `specularColorFactor`, at most 1. Both use Schlick's
 //! approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number, and needs a volume. `metallicFactor` and
 //! `roughnessFactor` are 1 by default. A metal under one film is written twice: with the film's colours, and with the bare metal's
-//! colours under a film of the extension, whose thickness without a texture is `iridescenceThicknessMaximum`, in nanometres.
+//! colours under a film of the extension, whose thickness without a texture is `iridescenceThicknessMaximum`, in nanometres. The minimum, 0,
+//! is for a texture.
 
 use serde::Serialize;
 
@@ -106,12 +107,13 @@ fn iridescence(film: &EngineFilm) -> Vec<Field> {
     vec![
         Field::number("iridescenceFactor", 1.0),
         Field::number("iridescenceIor", film.ior),
+        Field::number("iridescenceThicknessMinimum", 0.0),
         Field::number("iridescenceThicknessMaximum", film.thickness_nm),
     ]
 }
 
 /// The extensions that hold a field. All other fields belong to `pbrMetallicRoughness`.
-const EXTENSIONS: [(&str, &str); 8] = [
+const EXTENSIONS: [(&str, &str); 9] = [
     ("ior", "KHR_materials_ior"),
     ("specularColorFactor", "KHR_materials_specular"),
     ("transmissionFactor", "KHR_materials_transmission"),
@@ -119,6 +121,7 @@ const EXTENSIONS: [(&str, &str); 8] = [
     ("dispersion", "KHR_materials_dispersion"),
     ("iridescenceFactor", "KHR_materials_iridescence"),
     ("iridescenceIor", "KHR_materials_iridescence"),
+    ("iridescenceThicknessMinimum", "KHR_materials_iridescence"),
     ("iridescenceThicknessMaximum", "KHR_materials_iridescence"),
 ];
 

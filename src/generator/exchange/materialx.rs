@@ -75,7 +75,12 @@ fn sheet(material: &EngineMaterial) -> Sheet {
                 Field::number("thinfilm_thickness", film.thickness_nm),
                 Field::number("thinfilm_ior", film.ior),
             ],
-            model: Model::airy(&film, film.n, film.k),
+            model: Model::airy(
+                "Airy's series of the film, with n and k of the base",
+                &film,
+                film.n,
+                film.k,
+            ),
         }));
         remarks.extend(of_conductor(material));
     }

@@ -90,8 +90,7 @@ impl Model {
     }
 
     /// Airy's series of a film on a base with this index per channel.
-    pub fn airy(film: &EngineFilm, n: [f64; 3], k: [f64; 3]) -> Model {
-        let words = "Airy's series of the film, with n and k of the base";
+    pub fn airy(words: &'static str, film: &EngineFilm, n: [f64; 3], k: [f64; 3]) -> Model {
         let (ior, nm) = ([film.ior; 3], [film.thickness_nm; 3]);
         let base = [("channel_n", n), ("channel_k", k)];
         let values = [&[("thickness_nm", nm), ("film_ior", ior)], &base[..]].concat();

@@ -29,7 +29,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     let (node, remark) = surface(material, "open_pbr_surface");
     let under = under_film(material);
     let both = under.as_ref().map(|_| {
-        "[open_pbr_surface] has the colours of the film, [thin_film] the film itself: take one"
+        "[open_pbr_surface] has the colours of the film, [thin_film] the film itself: take one. The nodes of MaterialX 1.39 halve what a metal reflects under a film"
             .to_owned()
     });
     let remarks = remark.into_iter().chain(both).chain(of_space(material));
@@ -52,9 +52,13 @@ fn under_film(material: &EngineMaterial) -> Option<Node> {
     Some(Node::new(
         "thin_film",
         fields,
-        Model::airy(&film, film.n, film.k),
+        Model::airy(OF_COLOURS, &film, film.n, film.k),
     ))
 }
+
+/// What a host computes of a film, as the specification asks for it.
+const OF_COLOURS: &str = "Airy's series of the film, on the n and k that both colours stand for";
+const OF_INDEX: &str = "Airy's series of the film";
 
 /// The fields of a film.
 fn thin_film(film: &EngineFilm) -> Vec<Field> {
@@ -111,7 +115,11 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
                 None => (fields, Model::dielectric(ior), None),
                 Some(film) => {
                     let fields = [fields, thin_film(&film)].concat();
-                    (fields, Model::airy(&film, [ior; 3], [0.0; 3]), None)
+                    (
+                        fields,
+                        Model::airy(OF_INDEX, &film, [ior; 3], [0.0; 3]),
+                        None,
+                    )
                 }
             }
         }

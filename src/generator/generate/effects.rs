@@ -46,6 +46,13 @@ pub fn wanted(
         Some([method]) if method.is_textured() => {
             return Err(RequestFault::textured_reflectance(method).into());
         }
+        Some([method]) if method.keeps_inputs() => {
+            let why = format!(
+                "method `{}` takes a film, and effects know bare media; name another --method",
+                method.name
+            );
+            return Err(RequestFault::refused(why).into());
+        }
         Some([method]) => Some(*method),
         Some(_) => {
             let why = "an effect takes R from one method; name one --method";

@@ -149,7 +149,7 @@ pub struct FunctionTexts {
 pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error> {
     let mut all: BTreeMap<String, EmittedFunction> = BTreeMap::new();
     for effect in effects::ALL {
-        for method in methods::ALL {
+        for method in methods::ALL.iter().filter(|method| !method.keeps_inputs()) {
             let request = EffectRequest {
                 effect,
                 method,

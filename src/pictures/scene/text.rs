@@ -280,7 +280,8 @@ mod tests {
 
     #[test]
     fn the_block_has_room_for_the_inputs_of_every_method() {
-        for method in methods::ALL {
+        // Effects and pictures take no method of a film.
+        for method in methods::ALL.iter().filter(|method| !method.keeps_inputs()) {
             assert!(method.inputs.len() <= INPUTS, "{}", method.name);
         }
     }

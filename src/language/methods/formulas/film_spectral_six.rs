@@ -14,6 +14,55 @@ use super::*;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
+    pub const WAVELENGTHS_1: Input = Input {
+        name: "wavelengths_nm_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.wavelength_nm)),
+        ..Input::WAVELENGTHS
+    }
+    .tried_once();
+
+    pub const FILM_N_1: Input = Input {
+        name: "film_n_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.film_n)),
+        ..Input::FILM_N
+    }
+    .tried_once();
+
+    pub const BASE_N_1: Input = Input {
+        name: "base_n_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.base[0])),
+        ..Input::BASE_N
+    }
+    .tried_once();
+
+    pub const BASE_K_1: Input = Input {
+        name: "base_k_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.base[1])),
+        ..Input::BASE_K
+    }
+    .tried_once();
+
+    pub const WEIGHTS_RED_1: Input = Input {
+        name: "weights_red_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.weights[0])),
+        ..Input::WEIGHTS_RED
+    }
+    .tried_once();
+
+    pub const WEIGHTS_GREEN_1: Input = Input {
+        name: "weights_green_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.weights[1])),
+        ..Input::WEIGHTS_GREEN
+    }
+    .tried_once();
+
+    pub const WEIGHTS_BLUE_1: Input = Input {
+        name: "weights_blue_1",
+        source: InputSource::Material(|known| known.film.three(0, |sample| sample.weights[2])),
+        ..Input::WEIGHTS_BLUE
+    }
+    .tried_once();
+
     pub const WAVELENGTHS_2: Input = Input {
         name: "wavelengths_nm_2",
         source: InputSource::Material(|known| known.film.three(3, |sample| sample.wavelength_nm)),
@@ -70,17 +119,17 @@ pub static METHOD: Method = Method {
     summary: "the exact law of one clear film at six wavelengths, thickness at run time",
     formula: &[
         "as film_spectral_three, over six wavelengths: F = 1 - sum of weight (T_s + T_p) / 2",
-        "the inputs that end with _2 are those of the other three wavelengths",
+        "the inputs that end with _1 are those of three wavelengths, with _2 of the other three",
     ],
     inputs: &[
         Input::THICKNESS,
-        Input::WAVELENGTHS,
-        Input::FILM_N,
-        Input::BASE_N,
-        Input::BASE_K,
-        Input::WEIGHTS_RED,
-        Input::WEIGHTS_GREEN,
-        Input::WEIGHTS_BLUE,
+        Input::WAVELENGTHS_1,
+        Input::FILM_N_1,
+        Input::BASE_N_1,
+        Input::BASE_K_1,
+        Input::WEIGHTS_RED_1,
+        Input::WEIGHTS_GREEN_1,
+        Input::WEIGHTS_BLUE_1,
         Input::WAVELENGTHS_2,
         Input::FILM_N_2,
         Input::BASE_N_2,

@@ -13,7 +13,8 @@
 //! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_materials_iridescence>. The base's F0 is limited to .9999
 //! in place of 1.0001 - F0, as three.js does it: the extension's text is not a number at F0 = .9999.
 //! Domain: F0 from 0 to 1, film_ior from .05 to 10. Error: a metal has no real index, so its fringes have the wrong phase: .29 and more.
-//! Of a film without thickness the bare base does not come back. The result may exceed 1.
+//! Of a film without thickness the bare base does not come back: three.js fades to it below .03 nm, the extension's text does not. The
+//! result may exceed 1.
 
 use super::*;
 
