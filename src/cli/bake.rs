@@ -132,6 +132,9 @@ fn target(word: &str) -> Result<Choice<&'static Target>, String> {
     parse(word).map_err(|unknown| unknown.to_string())
 }
 
+/// The least range of thicknesses, in nanometres.
+const LEAST_RANGE_NM: f64 = 0.1;
+
 /// Parses thicknesses with their unit, such as 0..800nm.
 fn thicknesses(word: &str) -> Result<Thicknesses, String> {
     let wanted = || {
@@ -147,11 +150,11 @@ fn thicknesses(word: &str) -> Result<Thicknesses, String> {
     let unit = to.trim_start_matches(|letter: char| letter.is_ascii_digit() || letter == '.');
     let from_nm = length_nm(from).or_else(|_| length_nm(&format!("{from}{unit}")));
     let from_nm = from_nm.map_err(|fault| fault.to_string())?;
-    if from_nm < to_nm {
+    if to_nm - from_nm >= LEAST_RANGE_NM {
         Ok(Thicknesses { from_nm, to_nm })
     } else {
         Err(format!(
-            "`{word}`: the first thickness must be less than the last"
+            "`{word}`: the last thickness must be larger than the first, by {LEAST_RANGE_NM} nm at least"
         ))
     }
 }

@@ -191,6 +191,7 @@ fn a_film_of_no_thickness_changes_no_bit() {
 #[test]
 fn code_errors_of_films_are_what_methods_promise() {
     let all = [films("sample"), films("outside")].concat();
+    let mut faults = Vec::new();
     for method in methods::ALL {
         let promised = method.claims.code_abs;
         if promised == 0.0 {
@@ -222,12 +223,14 @@ fn code_errors_of_films_are_what_methods_promise() {
                 }
             }
         }
-        let name = method.name;
-        assert!(
-            (0.5 * promised..=promised).contains(&most),
-            "{name}: measured {most:e}, `code_abs` is {promised:e}"
-        );
+        if !(0.5 * promised..=promised).contains(&most) {
+            let name = method.name;
+            faults.push(format!(
+                "{name}: measured {most:e}, `code_abs` is {promised:e}"
+            ));
+        }
     }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 /// The methods of the first table, with the words for their inputs.
@@ -492,7 +495,7 @@ fn a_table_by_thickness_is_baked() {
     assert!(text.contains("highp float thickness_nm"), "{text}");
     for (flag, says) in [
         ("0..800", "nm or um"),
-        ("800..0nm", "less than the last"),
+        ("800..0nm", "larger than the first"),
         ("0..1m", "nm or um"),
         ("0-800nm", "0..800nm"),
         ("0...130nm", "0..800nm"),
