@@ -8,7 +8,8 @@ use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::generator::{emit, fit, generate, lut};
 use fresnel_gen::lab::verify::nearest_half;
 use fresnel_gen::language::ir::{Checked, Texels, Ty, Value, evaluate};
-use fresnel_gen::language::{methods, targets};
+use fresnel_gen::language::methods::{self, InHalf, Method};
+use fresnel_gen::language::targets;
 use fresnel_gen::physics::num::{Half, Num, Precision};
 use language::{Program, Term};
 
