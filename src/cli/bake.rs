@@ -270,7 +270,8 @@ fn film_table(
     };
     let at = |half: usize| {
         let mut material = one.material.clone();
-        material.films[0].thickness_nm = thicknesses.at(half as f64 / 2.0);
+        // A film of no thickness would be integrated in wider steps than all others.
+        material.films[0].thickness_nm = thicknesses.at(half as f64 / 2.0).max(1e-6);
         of(&material)
     };
     let halves = (0..2 * THICKNESS_ROWS - 1).map(at);

@@ -536,6 +536,10 @@ fn formats_with_a_film_take_it() {
     let openpbr = of("anodised_titanium_purple", "openpbr");
     assert!(openpbr.contains("thin_film_thickness = 0.039"), "{openpbr}");
     assert!(of("soap", "openpbr").contains("thin_film_ior"));
+    // In a medium the index is relative to it, and the thickness counts in its waves.
+    let wet = of("anodised_titanium_purple --medium 1.5", "openpbr");
+    assert!(wet.contains("thin_film_thickness = 0.0585"), "{wet}");
+    assert!(wet.contains("thin_film_ior = 1.6238"), "{wet}");
     let materialx = of("anodised_titanium_purple", "materialx");
     assert!(
         materialx.contains("name=\"thinfilm_thickness\" type=\"float\" value=\"39.0\""),

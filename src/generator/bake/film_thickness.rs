@@ -215,7 +215,7 @@ fn about(
 
 fn error_words(error: FilmTableError) -> String {
     format!(
-        "Error of the filtered lookup, between texels and rows too, weights in steps of 1/256: at most {:.6} (at cos theta {:.4} and {:.2} nm).",
+        "Error of the filtered lookup at texels, rows and half-way between both, weights in steps of 1/256: at most {:.6} (at cos theta {:.4} and {:.2} nm).",
         error.max_abs, error.cos_theta, error.thickness_nm
     )
 }

@@ -35,7 +35,8 @@ pub struct EngineMaterial<'a> {
 pub struct EngineFilm {
     /// Its index at 550 nm.
     pub ior: f64,
-    /// Its thickness in nanometres.
+    /// Its thickness in nanometres, times the index of the medium outside: formats multiply it by the index that is relative to that
+    /// medium, and compare with wavelengths in air.
     pub thickness_nm: f64,
     /// Reflectance of the base at 0 degrees, clamped to [0, 1].
     pub f0: [f64; 3],
@@ -148,6 +149,7 @@ fn film(subject: &MaterialInMedium) -> Option<EngineFilm> {
     let KnownFilm {
         thickness_nm,
         ior,
+        outside,
         bare,
         ..
     } = *subject.film(0, known_film);
@@ -160,7 +162,7 @@ fn film(subject: &MaterialInMedium) -> Option<EngineFilm> {
     // Formats take no film that is optically rarer than what lies outside.
     (ior >= 1.0).then(|| EngineFilm {
         ior: rounded(ior),
-        thickness_nm: rounded(thickness_nm),
+        thickness_nm: rounded(outside * thickness_nm),
         f0: bare.f0.map(|value| rounded(value.clamp(0.0, 1.0))),
         tint: tint.map(rounded),
         n: bare.n.map(rounded),

@@ -50,9 +50,16 @@ const IOR_NM: f64 = 550.0;
 pub fn known_film(subject: &MaterialInMedium, count: usize) -> KnownFilm {
     let surface = &subject.reference.surface;
     let thickness_nm = subject.material.films[0].thickness_nm;
+    let here = place(surface, IOR_NM);
+    let at_550 = surface.films[here][0];
     let known = KnownFilm {
         thickness_nm,
-        ior: surface.films[place(surface, IOR_NM)][0].n,
+        ior: at_550.n,
+        outside: if thickness_nm > 0.0 {
+            at_550.waves * surface.integrator.wavelengths[here] / thickness_nm
+        } else {
+            1.0
+        },
         bare: bare(subject),
         samples: Vec::new(),
     };

@@ -135,7 +135,7 @@ impl MaterialInMedium {
             return self.has_films();
         }
         match method.class {
-            Class::OneFilm => return self.has_one_film(f64::INFINITY),
+            Class::OneFilm => return self.medium.is_none() && self.has_one_film(f64::INFINITY),
             Class::ClearFilm => return self.has_one_film(CLEAR_K),
             _ => {}
         }

@@ -388,6 +388,8 @@ pub struct KnownFilm {
     pub thickness_nm: f64,
     /// Its index at 550 nm, relative to the medium outside.
     pub ior: f64,
+    /// The index of the medium outside at 550 nm.
+    pub outside: f64,
     /// What lies below it.
     pub bare: BareBase,
     /// Both at a few wavelengths, whose weighted sum gives the channels; empty for a method that takes none.
@@ -435,6 +437,7 @@ impl KnownFilm {
         KnownFilm {
             thickness_nm: 0.0,
             ior: NO_FILM,
+            outside: 1.0,
             bare: BareBase {
                 f0: each_channel(|i| optics::normal_incidence(n[i], k[i])),
                 f82: each_channel(|i| optics::conductor(n[i], k[i], COS_82).unpolarised()),

@@ -11,7 +11,7 @@ pub enum Class {
     Any,
     /// Any material under films: no law of one index follows it.
     Film,
-    /// A material under one film.
+    /// A material under one film, in air: published functions know no other medium.
     OneFilm,
     /// A material under one film that absorbs next to nothing.
     ClearFilm,
@@ -40,7 +40,7 @@ impl Class {
             Class::Metal => "metals (k of n / 4 and more)",
             Class::Any => "all media",
             Class::Film => "materials under films",
-            Class::OneFilm => "materials under one film",
+            Class::OneFilm => "materials under one film in air",
             Class::ClearFilm => "materials under one clear film",
         }
     }
@@ -52,7 +52,7 @@ impl Class {
             Class::Metal => "metals only, with k of at least n / 4, and this has less",
             Class::Any => "all media",
             Class::Film => "materials under films only, and this has none",
-            Class::OneFilm => "materials under one film only, and this is none",
+            Class::OneFilm => "materials under one film in air only, and this is none",
             Class::ClearFilm => {
                 "materials under one film only, with k below 0.05, and this is none"
             }
