@@ -6,9 +6,9 @@
 // Arguments: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; c0 to c5,
 //     coefficients, -1000 to 1000
 // Domain: limited to [0, 1]
-// Model error for eta 1.3 to 2.5: at most 0.0012, worst at 34 degrees
-// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0042, worst at 37.7 degrees
-// Cost: 44 scalar operations, among them 1 root, 1 exponential or logarithm; fresnel_fitted_film_scalar 22;
+// Model error for eta 1.3 to 2.5: at most 0.0011, worst at 35.6 degrees
+// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0047, worst at 63 degrees
+// Cost: 39 scalar operations, among them 1 exponential or logarithm; fresnel_fitted_film_scalar 17;
 //     fresnel_fitted_film_average 33; fresnel_fitted_film_average_scalar 11
 // fresnel_fitted_film_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
@@ -27,18 +27,14 @@ highp vec3 fresnel_fitted_film(
     highp vec3 c5
 ) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
-    highp float l = c + 0.145;
-    highp float q = inversesqrt(l);
-    highp vec3 sum4 = c4 + q * c5;
-    highp float b = exp2(-7.7 * c); // small at normal incidence, 1 at grazing
-    highp vec3 sum3 = c3 + b * sum4;
-    highp float u = c * c - 0.785;
+    highp vec3 sum4 = c4 + c * c5;
+    highp vec3 sum3 = c3 + c * sum4;
+    highp float l = c + 0.09;
+    highp float g = log2(l);
+    highp float u = g + 1.58;
     highp vec3 sum2 = c2 + u * sum3;
-    highp float g = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    highp float h = g * q;
-    highp float w = h * h; // 0 at normal incidence
-    highp vec3 sum1 = c1 + w * sum2;
-    highp float s = u - 0.175;
+    highp vec3 sum1 = c1 + u * sum2;
+    highp float s = g * g - 0.75;
     highp vec3 sum0 = c0 + s * sum1;
     return clamp(sum0, 0.0, 1.0);
 }
@@ -53,18 +49,14 @@ highp float fresnel_fitted_film_scalar(
     highp float c5
 ) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
-    highp float l = c + 0.145;
-    highp float q = inversesqrt(l);
-    highp float sum4 = c4 + q * c5;
-    highp float b = exp2(-7.7 * c); // small at normal incidence, 1 at grazing
-    highp float sum3 = c3 + b * sum4;
-    highp float u = c * c - 0.785;
+    highp float sum4 = c4 + c * c5;
+    highp float sum3 = c3 + c * sum4;
+    highp float l = c + 0.09;
+    highp float g = log2(l);
+    highp float u = g + 1.58;
     highp float sum2 = c2 + u * sum3;
-    highp float g = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    highp float h = g * q;
-    highp float w = h * h; // 0 at normal incidence
-    highp float sum1 = c1 + w * sum2;
-    highp float s = u - 0.175;
+    highp float sum1 = c1 + u * sum2;
+    highp float s = g * g - 0.75;
     highp float sum0 = c0 + s * sum1;
     return clamp(sum0, 0.0, 1.0);
 }
@@ -77,7 +69,7 @@ highp vec3 fresnel_fitted_film_average(
     highp vec3 c4,
     highp vec3 c5
 ) {
-    return clamp(c0 + -0.46 * c1 + -0.29371607 * c2 + 0.19780602 * c3 + 0.06634635 * c4 + 0.12481616 * c5, 0.0, 1.0);
+    return clamp(c0 + -0.17913593 * c1 + -0.78257936 * c2 + -0.8446221 * c3 + -0.80940247 * c4 + -0.70328486 * c5, 0.0, 1.0);
 }
 
 highp float fresnel_fitted_film_average_scalar(
@@ -88,7 +80,7 @@ highp float fresnel_fitted_film_average_scalar(
     highp float c4,
     highp float c5
 ) {
-    return clamp(c0 + -0.46 * c1 + -0.29371607 * c2 + 0.19780602 * c3 + 0.06634635 * c4 + 0.12481616 * c5, 0.0, 1.0);
+    return clamp(c0 + -0.17913593 * c1 + -0.78257936 * c2 + -0.8446221 * c3 + -0.80940247 * c4 + -0.70328486 * c5, 0.0, 1.0);
 }
 
 #endif

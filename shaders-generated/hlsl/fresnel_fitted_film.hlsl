@@ -6,9 +6,9 @@
 // Arguments: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; c0 to c5,
 //     coefficients, -1000 to 1000
 // Domain: limited to [0, 1]
-// Model error for eta 1.3 to 2.5: at most 0.0012, worst at 34 degrees
-// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0042, worst at 37.7 degrees
-// Cost: 44 scalar operations, among them 1 root, 1 exponential or logarithm; fresnel_fitted_film_scalar 22;
+// Model error for eta 1.3 to 2.5: at most 0.0011, worst at 35.6 degrees
+// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0047, worst at 63 degrees
+// Cost: 39 scalar operations, among them 1 exponential or logarithm; fresnel_fitted_film_scalar 17;
 //     fresnel_fitted_film_average 33; fresnel_fitted_film_average_scalar 11
 // fresnel_fitted_film_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
@@ -20,18 +20,14 @@
 float3 fresnel_fitted_film(float cos_theta, float3 c0, float3 c1, float3 c2, float3 c3, float3 c4, float3 c5)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    float l = c + 0.145;
-    float q = rsqrt(l);
-    float3 sum4 = c4 + q * c5;
-    float b = exp2(-7.7 * c); // small at normal incidence, 1 at grazing
-    float3 sum3 = c3 + b * sum4;
-    float u = c * c - 0.785;
+    float3 sum4 = c4 + c * c5;
+    float3 sum3 = c3 + c * sum4;
+    float l = c + 0.09;
+    float g = log2(l);
+    float u = g + 1.58;
     float3 sum2 = c2 + u * sum3;
-    float g = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    float h = g * q;
-    float w = h * h; // 0 at normal incidence
-    float3 sum1 = c1 + w * sum2;
-    float s = u - 0.175;
+    float3 sum1 = c1 + u * sum2;
+    float s = g * g - 0.75;
     float3 sum0 = c0 + s * sum1;
     return saturate(sum0);
 }
@@ -39,30 +35,30 @@ float3 fresnel_fitted_film(float cos_theta, float3 c0, float3 c1, float3 c2, flo
 float fresnel_fitted_film_scalar(float cos_theta, float c0, float c1, float c2, float c3, float c4, float c5)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    float l = c + 0.145;
-    float q = rsqrt(l);
-    float sum4 = c4 + q * c5;
-    float b = exp2(-7.7 * c); // small at normal incidence, 1 at grazing
-    float sum3 = c3 + b * sum4;
-    float u = c * c - 0.785;
+    float sum4 = c4 + c * c5;
+    float sum3 = c3 + c * sum4;
+    float l = c + 0.09;
+    float g = log2(l);
+    float u = g + 1.58;
     float sum2 = c2 + u * sum3;
-    float g = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    float h = g * q;
-    float w = h * h; // 0 at normal incidence
-    float sum1 = c1 + w * sum2;
-    float s = u - 0.175;
+    float sum1 = c1 + u * sum2;
+    float s = g * g - 0.75;
     float sum0 = c0 + s * sum1;
     return saturate(sum0);
 }
 
 float3 fresnel_fitted_film_average(float3 c0, float3 c1, float3 c2, float3 c3, float3 c4, float3 c5)
 {
-    return saturate(c0 + -0.46 * c1 + -0.29371607 * c2 + 0.19780602 * c3 + 0.06634635 * c4 + 0.12481616 * c5);
+    return saturate(
+        c0 + -0.17913593 * c1 + -0.78257936 * c2 + -0.8446221 * c3 + -0.80940247 * c4 + -0.70328486 * c5
+    );
 }
 
 float fresnel_fitted_film_average_scalar(float c0, float c1, float c2, float c3, float c4, float c5)
 {
-    return saturate(c0 + -0.46 * c1 + -0.29371607 * c2 + 0.19780602 * c3 + 0.06634635 * c4 + 0.12481616 * c5);
+    return saturate(
+        c0 + -0.17913593 * c1 + -0.78257936 * c2 + -0.8446221 * c3 + -0.80940247 * c4 + -0.70328486 * c5
+    );
 }
 
 #endif

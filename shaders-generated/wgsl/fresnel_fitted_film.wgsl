@@ -6,9 +6,9 @@
 // Arguments: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; c0 to c5,
 //     coefficients, -1000 to 1000
 // Domain: limited to [0, 1]
-// Model error for eta 1.3 to 2.5: at most 0.0012, worst at 34 degrees
-// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0042, worst at 37.7 degrees
-// Cost: 44 scalar operations, among them 1 root, 1 exponential or logarithm; fresnel_fitted_film_scalar 22;
+// Model error for eta 1.3 to 2.5: at most 0.0011, worst at 35.6 degrees
+// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0047, worst at 63 degrees
+// Cost: 39 scalar operations, among them 1 exponential or logarithm; fresnel_fitted_film_scalar 17;
 //     fresnel_fitted_film_average 33; fresnel_fitted_film_average_scalar 11
 // fresnel_fitted_film_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
@@ -24,36 +24,28 @@ fn fresnel_fitted_film(
     c5: vec3<f32>
 ) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    let l = c + 0.145;
-    let q = inverseSqrt(l);
-    let sum4 = c4 + q * c5;
-    let b = exp2(-7.7 * c); // small at normal incidence, 1 at grazing
-    let sum3 = c3 + b * sum4;
-    let u = c * c - 0.785;
+    let sum4 = c4 + c * c5;
+    let sum3 = c3 + c * sum4;
+    let l = c + 0.09;
+    let g = log2(l);
+    let u = g + 1.58;
     let sum2 = c2 + u * sum3;
-    let g = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    let h = g * q;
-    let w = h * h; // 0 at normal incidence
-    let sum1 = c1 + w * sum2;
-    let s = u - 0.175;
+    let sum1 = c1 + u * sum2;
+    let s = g * g - 0.75;
     let sum0 = c0 + s * sum1;
     return saturate(sum0);
 }
 
 fn fresnel_fitted_film_scalar(cos_theta: f32, c0: f32, c1: f32, c2: f32, c3: f32, c4: f32, c5: f32) -> f32 {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    let l = c + 0.145;
-    let q = inverseSqrt(l);
-    let sum4 = c4 + q * c5;
-    let b = exp2(-7.7 * c); // small at normal incidence, 1 at grazing
-    let sum3 = c3 + b * sum4;
-    let u = c * c - 0.785;
+    let sum4 = c4 + c * c5;
+    let sum3 = c3 + c * sum4;
+    let l = c + 0.09;
+    let g = log2(l);
+    let u = g + 1.58;
     let sum2 = c2 + u * sum3;
-    let g = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    let h = g * q;
-    let w = h * h; // 0 at normal incidence
-    let sum1 = c1 + w * sum2;
-    let s = u - 0.175;
+    let sum1 = c1 + u * sum2;
+    let s = g * g - 0.75;
     let sum0 = c0 + s * sum1;
     return saturate(sum0);
 }
@@ -66,9 +58,13 @@ fn fresnel_fitted_film_average(
     c4: vec3<f32>,
     c5: vec3<f32>
 ) -> vec3<f32> {
-    return saturate(c0 + -0.46 * c1 + -0.29371607 * c2 + 0.19780602 * c3 + 0.06634635 * c4 + 0.12481616 * c5);
+    return saturate(
+        c0 + -0.17913593 * c1 + -0.78257936 * c2 + -0.8446221 * c3 + -0.80940247 * c4 + -0.70328486 * c5
+    );
 }
 
 fn fresnel_fitted_film_average_scalar(c0: f32, c1: f32, c2: f32, c3: f32, c4: f32, c5: f32) -> f32 {
-    return saturate(c0 + -0.46 * c1 + -0.29371607 * c2 + 0.19780602 * c3 + 0.06634635 * c4 + 0.12481616 * c5);
+    return saturate(
+        c0 + -0.17913593 * c1 + -0.78257936 * c2 + -0.8446221 * c3 + -0.80940247 * c4 + -0.70328486 * c5
+    );
 }

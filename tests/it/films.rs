@@ -223,7 +223,7 @@ fn code_errors_of_films_are_what_methods_promise() {
                 }
             }
         }
-        if !(0.5 * promised..=promised).contains(&most) {
+        if !(0.4 * promised..=promised).contains(&most) {
             let name = method.name;
             faults.push(format!(
                 "{name}: measured {most:e}, `code_abs` is {promised:e}"
@@ -443,7 +443,7 @@ fn a_function_takes_the_thickness() {
     );
     place.refused(
         "--material cold_mirror --method iridescence_khr -o -",
-        &["one film only"],
+        &["one film in air only"],
     );
 }
 
@@ -539,7 +539,7 @@ fn formats_with_a_film_take_it() {
     // In a medium the index is relative to it, and the thickness counts in its waves.
     let wet = of("anodised_titanium_purple --medium 1.5", "openpbr");
     assert!(wet.contains("thin_film_thickness = 0.0585"), "{wet}");
-    assert!(wet.contains("thin_film_ior = 1.6238"), "{wet}");
+    assert!(wet.contains("thin_film_ior = 1.6239"), "{wet}");
     let materialx = of("anodised_titanium_purple", "materialx");
     assert!(
         materialx.contains("name=\"thinfilm_thickness\" type=\"float\" value=\"39.0\""),

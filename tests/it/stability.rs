@@ -20,7 +20,7 @@ static HALF: LazyLock<Vec<StabilityRow>> = LazyLock::new(|| scanned(Precision::F
 fn scanned(precision: Precision) -> Vec<StabilityRow> {
     let is_written = |method: &&&'static Method| {
         let refused = precision.is_half() && method.half.library_refusal().is_some();
-        !method.is_textured() && !refused
+        !method.is_textured() && !refused && !method.keeps_inputs()
     };
     let mut rows = Vec::new();
     for method in methods::ALL.iter().filter(is_written) {

@@ -25,7 +25,7 @@ pub fn half_promise(method: &Method) -> String {
 
 /// What a method promises in a precision, one line each.
 pub fn promises(precision: Precision, method: &Method) -> Vec<String> {
-    let mut lines: Vec<String> = model_promises(method).collect();
+    let mut lines = model_promises(method);
     if precision.is_half() {
         lines.push(half_promise(method));
         return lines;
@@ -49,14 +49,18 @@ pub fn promises(precision: Precision, method: &Method) -> Vec<String> {
 }
 
 /// What a method promises of its model error, one line for each set of media.
-pub(super) fn model_promises(method: &Method) -> impl Iterator<Item = String> {
-    method.claims.model.iter().map(|claim| {
+pub(super) fn model_promises(method: &Method) -> Vec<String> {
+    if method.claims.model.is_empty() && method.class.is_of_films() {
+        return vec!["Model error: the head of a material's function has it".to_owned()];
+    }
+    let claims = method.claims.model.iter().map(|claim| {
         let error = match claim.max_abs {
             0.0 => "none, it is the exact law".to_owned(),
             most => format!("at most {most}, worst at {} degrees", claim.at_degrees),
         };
         format!("Model error for {}: {error}", claim.over.text())
-    })
+    });
+    claims.collect()
 }
 
 /// What a method promises to artists, if colours outside its range may be far off.

@@ -7,8 +7,10 @@
 use crate::language::ir::{Checked, Node, NodeId, Op, Param, Payload, Ty};
 use crate::language::targets::{Form, Spelling, filled, precedence};
 
-/// Longer lines are broken, and their comments then stand above.
+/// Longer lines are broken at their outermost operation, and their comments then stand above.
 const WIDTH: usize = 110;
+/// Lines that are longer still, with four spaces before them, are broken wherever they are least nested.
+const MOST: usize = 126;
 
 /// The lines of a function's body, without indentation.
 pub fn body(function: &Checked, spelling: &Spelling) -> Vec<String> {
@@ -84,7 +86,43 @@ fn push(lines: &mut Vec<String>, statement: Vec<String>, why: &str, comment: &st
         }
         _ => lines.push(format!("{comment} {why}")),
     }
-    lines.extend(statement);
+    lines.extend(statement.into_iter().flat_map(wrapped));
+}
+
+/// A line in parts that are short enough: each ends behind a comma, or before an operator, where brackets are least deep.
+fn wrapped(line: String) -> Vec<String> {
+    let indent = " ".repeat(4 + line.len() - line.trim_start().len());
+    let (mut lines, mut rest) = (Vec::new(), line);
+    while rest.len() > MOST {
+        let Some(at) = place_to_break(&rest) else {
+            break;
+        };
+        lines.push(rest[..at].to_owned());
+        rest = format!("{indent}{}", &rest[at + 1..]);
+    }
+    lines.push(rest);
+    lines
+}
+
+/// The place of the space at which a line is broken.
+fn place_to_break(line: &str) -> Option<usize> {
+    let letters = line.as_bytes();
+    let (mut depth, mut best) = (0, None);
+    for at in 1..WIDTH {
+        match letters[at] {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            b' ' => {
+                let is_operator = b"+-*/?:".contains(&letters[at + 1]) && letters[at + 2] == b' ';
+                let is_place = is_operator || letters[at - 1] == b',';
+                if is_place && at > WIDTH / 3 && best.is_none_or(|(least, _)| depth <= least) {
+                    best = Some((depth, at));
+                }
+            }
+            _ => {}
+        }
+    }
+    best.map(|(_, at)| at)
 }
 
 /// Text and how tightly it binds.

@@ -206,7 +206,11 @@ impl RanFunction<'_> {
             RunResult::Half(half) => (absolute(half.allowed, text), (&half.error).into()),
             RunResult::Single { outcome, bound } => {
                 let allowed = match (bound, &self.emitted.code) {
-                    (Some(_), Measured::Yes(CodeBound::Absolute(most))) => absolute(*most, text),
+                    (Some(_), Measured::Yes(CodeBound::Absolute(most)))
+                        if self.emitted.form.coefficient().is_some() =>
+                    {
+                        absolute(*most, text)
+                    }
                     _ => AllowedError::Ulp {
                         ulp: bound.and_then(finite),
                         text,

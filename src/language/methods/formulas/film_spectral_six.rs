@@ -150,6 +150,10 @@ pub static METHOD: Method = Method {
         let rgb = x.cosine().builder();
         rgb.compose(channel(0), channel(1), channel(2)).saturate()
     },
+    claims: Claims {
+        code_abs: 1e-5,
+        ..three::METHOD.claims
+    },
     wavelengths: 6,
     ..three::METHOD
 };

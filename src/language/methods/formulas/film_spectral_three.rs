@@ -157,7 +157,7 @@ pub static METHOD: Method = Method {
             Claim::exact(MediaSet::Dielectrics),
             Claim::exact(MediaSet::Metals),
         ],
-        code_abs: 1e-5,
+        code_abs: 1.5e-5,
         ..Claims::NONE
     },
     half: InHalf::Refused("half precision keeps no phase"),

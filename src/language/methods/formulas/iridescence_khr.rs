@@ -67,7 +67,7 @@ pub static METHOD: Method = Method {
     domain: "a real index stands for the base, so metals have the wrong phase; a film without thickness does not give the bare base",
     contract: Contract::Exempt("it may exceed 1"),
     claims: Claims {
-        code_abs: 1e-4,
+        code_abs: 1.7e-6,
         ..Claims::NONE
     },
     half: InHalf::Refused("half precision keeps no phase"),
