@@ -53,7 +53,8 @@ highp vec3 fresnel_film_spectral_three(
         y2.b < 0.0 ? cosh_phase.b : cos_phase.b
     );
     // S
-    highp vec3 sine = vec3(y2.r < 0.0 ? sinh_phase.r : sin_phase.r, y2.g < 0.0 ? sinh_phase.g : sin_phase.g, y2.b < 0.0 ? sinh_phase.b : sin_phase.b) *
+    highp vec3 sine = vec3(y2.r < 0.0 ? sinh_phase.r : sin_phase.r, y2.g < 0.0 ? sinh_phase.g : sin_phase.g,
+        y2.b < 0.0 ? sinh_phase.b : sin_phase.b) *
         rest;
     highp vec3 left = vec3(y2.r < 0.0 ? fade.r : 1.0, y2.g < 0.0 ? fade.g : 1.0, y2.b < 0.0 ? fade.b : 1.0);
     highp vec3 re = (base_n - base_k) * (base_n + base_k); // m^2
@@ -87,10 +88,12 @@ highp vec3 fresnel_film_spectral_three(
     highp vec3 base4 = re * re + im2; // |m|^4
     highp vec3 film4 = film2 * film2;
     highp vec3 a_p = 2.0 * (a * re + b * im) * weight_c;
-    highp vec3 d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
+    highp vec3 d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs
+        * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
         a_p;
     highp vec3 entered = (a_s * d_p + a_p * d_s) / max(d_s * d_p, 1.0e-30); // (T_s + T_p) / 2
-    return clamp(vec3(1.0 - dot(weights_red, entered), 1.0 - dot(weights_green, entered), 1.0 - dot(weights_blue, entered)), 0.0, 1.0);
+    return clamp(vec3(1.0 - dot(weights_red, entered), 1.0 - dot(weights_green, entered), 1.0
+        - dot(weights_blue, entered)), 0.0, 1.0);
 }
 
 #endif

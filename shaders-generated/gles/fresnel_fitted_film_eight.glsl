@@ -75,7 +75,8 @@ highp vec3 fresnel_fitted_film_eight_average(
     highp vec3 c6,
     highp vec3 c7
 ) {
-    return clamp(c0 + -0.51893187 * c1 + -0.21297999 * c2 + 0.18130161 * c3 + 0.07339684 * c4 + -0.0661041 * c5 + -0.025975117 * c6 + 0.02511054 * c7, 0.0, 1.0);
+    return clamp(c0 + -0.51893187 * c1 + -0.21297999 * c2 + 0.18130161 * c3 + 0.07339684 * c4 + -0.0661041 * c5
+        + -0.025975117 * c6 + 0.02511054 * c7, 0.0, 1.0);
 }
 
 highp float fresnel_fitted_film_eight_average_scalar(
@@ -88,7 +89,8 @@ highp float fresnel_fitted_film_eight_average_scalar(
     highp float c6,
     highp float c7
 ) {
-    return clamp(c0 + -0.51893187 * c1 + -0.21297999 * c2 + 0.18130161 * c3 + 0.07339684 * c4 + -0.0661041 * c5 + -0.025975117 * c6 + 0.02511054 * c7, 0.0, 1.0);
+    return clamp(c0 + -0.51893187 * c1 + -0.21297999 * c2 + 0.18130161 * c3 + 0.07339684 * c4 + -0.0661041 * c5
+        + -0.025975117 * c6 + 0.02511054 * c7, 0.0, 1.0);
 }
 
 #endif

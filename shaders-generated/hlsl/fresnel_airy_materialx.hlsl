@@ -9,6 +9,7 @@
 //     relative to the medium outside, 0.001 to 100; channel_k, extinction coefficient of the base without its
 //     film, one a channel, relative to the same, 0 to 100
 // Domain: a film of an index below 1 is taken as 1; a film that absorbs is taken as clear
+// Model error: the head of a material's function has it
 // Cost: 490 scalar operations, among them 23 roots, 15 divisions, 8 exponentials or logarithms, 16 sines or
 //     cosines
 // Source: as mx_fresnel_airy of MaterialX has it, without arctangents; else Belcour, Barla, 2017,
@@ -106,9 +107,19 @@ float3 fresnel_airy_materialx(
     float3 cos2_of_p = 2.0 * (cos_of_p * cos_of_p) - 1.0;
     float3 sin2_of_p = 2.0 * cos_of_p * sin_of_p;
     float3 mean = 0.5 *
-        (outer_s + all_of_s + 2.0 * (first_of_s * (cos_x_1 * cos_of_s - sin_x_1 * sin_of_s + float3(second_cos_1 * cos_of_s.r - second_sin_1 * sin_of_s.r, 0.0, 0.0)) + first_of_s * step_of_s * (cos_x_2 * cos2_of_s - sin_x_2 * sin2_of_s + float3(second_cos_2 * cos2_of_s.r - second_sin_2 * sin2_of_s.r, 0.0, 0.0))) + (outer_p + all_of_p + 2.0 * (first_of_p * (cos_x_1 * cos_of_p - sin_x_1 * sin_of_p + float3(second_cos_1 * cos_of_p.r - second_sin_1 * sin_of_p.r, 0.0, 0.0)) + first_of_p * step_of_p * (cos_x_2 * cos2_of_p - sin_x_2 * sin2_of_p + float3(second_cos_2 * cos2_of_p.r - second_sin_2 * sin2_of_p.r, 0.0, 0.0)))));
+        (outer_s + all_of_s + 2.0 * (first_of_s
+            * (cos_x_1 * cos_of_s - sin_x_1 * sin_of_s
+            + float3(second_cos_1 * cos_of_s.r - second_sin_1 * sin_of_s.r, 0.0, 0.0)) + first_of_s * step_of_s
+            * (cos_x_2 * cos2_of_s - sin_x_2 * sin2_of_s
+            + float3(second_cos_2 * cos2_of_s.r - second_sin_2 * sin2_of_s.r, 0.0, 0.0)))
+            + (outer_p + all_of_p + 2.0 * (first_of_p
+            * (cos_x_1 * cos_of_p - sin_x_1 * sin_of_p
+            + float3(second_cos_1 * cos_of_p.r - second_sin_1 * sin_of_p.r, 0.0, 0.0)) + first_of_p * step_of_p
+            * (cos_x_2 * cos2_of_p - sin_x_2 * sin2_of_p
+            + float3(second_cos_2 * cos2_of_p.r - second_sin_2 * sin2_of_p.r, 0.0, 0.0)))));
     return saturate(
-        float3(dot(mean, float3(2.3706744, -0.9000405, -0.4706338)), dot(mean, float3(-0.513885, 1.4253036, 0.0885814)), dot(mean, float3(0.0052982, -0.0146949, 1.0093968)))
+        float3(dot(mean, float3(2.3706744, -0.9000405, -0.4706338)),
+            dot(mean, float3(-0.513885, 1.4253036, 0.0885814)), dot(mean, float3(0.0052982, -0.0146949, 1.0093968)))
     );
 }
 

@@ -68,7 +68,8 @@ float3 fresnel_film_spectral_six(
         y2.b < 0.0 ? cosh_phase.b : cos_phase.b
     );
     // S
-    float3 sine = float3(y2.r < 0.0 ? sinh_phase.r : sin_phase.r, y2.g < 0.0 ? sinh_phase.g : sin_phase.g, y2.b < 0.0 ? sinh_phase.b : sin_phase.b) *
+    float3 sine = float3(y2.r < 0.0 ? sinh_phase.r : sin_phase.r, y2.g < 0.0 ? sinh_phase.g : sin_phase.g,
+        y2.b < 0.0 ? sinh_phase.b : sin_phase.b) *
         rest;
     float3 left = float3(y2.r < 0.0 ? fade.r : 1.0, y2.g < 0.0 ? fade.g : 1.0, y2.b < 0.0 ? fade.b : 1.0);
     float3 re = (base_n_1 - base_k_1) * (base_n_1 + base_k_1); // m^2
@@ -102,7 +103,8 @@ float3 fresnel_film_spectral_six(
     float3 base4 = re * re + im2; // |m|^4
     float3 film4 = film2 * film2;
     float3 a_p = 2.0 * (a * re + b * im) * weight_c;
-    float3 d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
+    float3 d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs
+        * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
         a_p;
     float3 entered = (a_s * d_p + a_p * d_s) / max(d_s * d_p, 1.0e-30); // (T_s + T_p) / 2
     float3 film2_2 = film_n_2 * film_n_2;
@@ -124,7 +126,8 @@ float3 fresnel_film_spectral_six(
         y2_2.b < 0.0 ? cosh_phase_2.b : cos_phase_2.b
     );
     // S
-    float3 sine_2 = float3(y2_2.r < 0.0 ? sinh_phase_2.r : sin_phase_2.r, y2_2.g < 0.0 ? sinh_phase_2.g : sin_phase_2.g, y2_2.b < 0.0 ? sinh_phase_2.b : sin_phase_2.b) *
+    float3 sine_2 = float3(y2_2.r < 0.0 ? sinh_phase_2.r : sin_phase_2.r, y2_2.g < 0.0 ? sinh_phase_2.g
+        : sin_phase_2.g, y2_2.b < 0.0 ? sinh_phase_2.b : sin_phase_2.b) *
         rest_2;
     float3 left_2 = float3(
         y2_2.r < 0.0 ? fade_2.r : 1.0,
@@ -161,11 +164,14 @@ float3 fresnel_film_spectral_six(
     float3 base4_2 = re_2 * re_2 + im2_2; // |m|^4
     float3 film4_2 = film2_2 * film2_2;
     float3 a_p_2 = 2.0 * (a_2 * re_2 + b_2 * im_2) * weight_c_2;
-    float3 d_p_2 = cosine2_2 * (base4_2 * c2 + q_2) + sine2_2 * (film4_2 * c2q_2 + base4_2 / film4_2 * y4_2) + twice_cs_2 * (b_2 * re_2 - a_2 * im_2) * (film2_2 * c2 - 1.0 / film2_2 * y2_2) +
+    float3 d_p_2 = cosine2_2 * (base4_2 * c2 + q_2) + sine2_2 * (film4_2 * c2q_2 + base4_2 / film4_2 * y4_2)
+        + twice_cs_2 * (b_2 * re_2 - a_2 * im_2) * (film2_2 * c2 - 1.0 / film2_2 * y2_2) +
         a_p_2;
     float3 entered_2 = (a_s_2 * d_p_2 + a_p_2 * d_s_2) / max(d_s_2 * d_p_2, 1.0e-30); // (T_s + T_p) / 2
     return saturate(
-        float3(1.0 - (dot(weights_red_1, entered) + dot(weights_red_2, entered_2)), 1.0 - (dot(weights_green_1, entered) + dot(weights_green_2, entered_2)), 1.0 - (dot(weights_blue_1, entered) + dot(weights_blue_2, entered_2)))
+        float3(1.0 - (dot(weights_red_1, entered) + dot(weights_red_2, entered_2)), 1.0
+            - (dot(weights_green_1, entered) + dot(weights_green_2, entered_2)), 1.0
+            - (dot(weights_blue_1, entered) + dot(weights_blue_2, entered_2)))
     );
 }
 

@@ -54,7 +54,8 @@ float3 fresnel_film_spectral_three(
         y2.b < 0.0 ? cosh_phase.b : cos_phase.b
     );
     // S
-    float3 sine = float3(y2.r < 0.0 ? sinh_phase.r : sin_phase.r, y2.g < 0.0 ? sinh_phase.g : sin_phase.g, y2.b < 0.0 ? sinh_phase.b : sin_phase.b) *
+    float3 sine = float3(y2.r < 0.0 ? sinh_phase.r : sin_phase.r, y2.g < 0.0 ? sinh_phase.g : sin_phase.g,
+        y2.b < 0.0 ? sinh_phase.b : sin_phase.b) *
         rest;
     float3 left = float3(y2.r < 0.0 ? fade.r : 1.0, y2.g < 0.0 ? fade.g : 1.0, y2.b < 0.0 ? fade.b : 1.0);
     float3 re = (base_n - base_k) * (base_n + base_k); // m^2
@@ -88,7 +89,8 @@ float3 fresnel_film_spectral_three(
     float3 base4 = re * re + im2; // |m|^4
     float3 film4 = film2 * film2;
     float3 a_p = 2.0 * (a * re + b * im) * weight_c;
-    float3 d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
+    float3 d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs
+        * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
         a_p;
     float3 entered = (a_s * d_p + a_p * d_s) / max(d_s * d_p, 1.0e-30); // (T_s + T_p) / 2
     return saturate(

@@ -10,6 +10,7 @@
 // Domain: a real index stands for the base, so metals have the wrong phase; a film without thickness does not give
 //     the bare base
 // Kept for comparison, exempt from the contract of the others. It fails: it may exceed 1
+// Model error: the head of a material's function has it
 // Cost: 236 scalar operations, among them 7 roots, 11 divisions, 8 exponentials or logarithms, 8 sines or cosines
 // Source: as KHR_materials_iridescence has it, with f0 limited to .9999 as in three.js; else Belcour, Barla, 2017,
 //     https://doi.org/10.1145/3072959.3073620
@@ -54,7 +55,8 @@ float3 fresnel_iridescence_khr(float cos_theta, float thickness_nm, float film_i
     float path_2 = 2.0 * path;
     float3 turned_2 = 2.0 * turned;
     float square_2 = path_2 * path_2;
-    float3 waves_2 = float3(0.84659, 1.0002218, 1.0011225) * cos(float3(0.010562034, 0.011280202, 0.013875786) * path_2 + turned_2) *
+    float3 waves_2 = float3(0.84659, 1.0002218, 1.0011225)
+        * cos(float3(0.010562034, 0.011280202, 0.013875786) * path_2 + turned_2) *
         exp2(float3(-2.4649123e-7, -5.299464e-7, -3.7659424e-7) * square_2);
     float3 xyz_2 = float3(
         waves_2.r + 0.1538683 * cos(0.014073707 * path_2 + turned_2.r) * exp2(-2.5790507e-7 * square_2),
@@ -62,7 +64,11 @@ float3 fresnel_iridescence_khr(float cos_theta, float thickness_nm, float film_i
         waves_2.b
     );
     float3 whole = max(
-        outer + sum + 2.0 * first * float3(dot(xyz_1, float3(3.2404542, -1.5371385, -0.4985314)), dot(xyz_1, float3(-0.969266, 1.8760108, 0.041556)), dot(xyz_1, float3(0.0556434, -0.2040259, 1.0572252))) + 2.0 * (first * factor) * float3(dot(xyz_2, float3(3.2404542, -1.5371385, -0.4985314)), dot(xyz_2, float3(-0.969266, 1.8760108, 0.041556)), dot(xyz_2, float3(0.0556434, -0.2040259, 1.0572252))),
+        outer + sum + 2.0 * first * float3(dot(xyz_1, float3(3.2404542, -1.5371385, -0.4985314)),
+            dot(xyz_1, float3(-0.969266, 1.8760108, 0.041556)),
+            dot(xyz_1, float3(0.0556434, -0.2040259, 1.0572252))) + 2.0 * (first * factor)
+            * float3(dot(xyz_2, float3(3.2404542, -1.5371385, -0.4985314)),
+            dot(xyz_2, float3(-0.969266, 1.8760108, 0.041556)), dot(xyz_2, float3(0.0556434, -0.2040259, 1.0572252))),
         (0.0).xxx
     );
     return float3(inside2 < 0.0 ? 1.0 : whole.r, inside2 < 0.0 ? 1.0 : whole.g, inside2 < 0.0 ? 1.0 : whole.b);

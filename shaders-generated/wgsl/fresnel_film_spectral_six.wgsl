@@ -64,7 +64,8 @@ fn fresnel_film_spectral_six(
         select(cos_phase.b, cosh_phase.b, y2.b < 0.0)
     );
     // S
-    let sine = vec3<f32>(select(sin_phase.r, sinh_phase.r, y2.r < 0.0), select(sin_phase.g, sinh_phase.g, y2.g < 0.0), select(sin_phase.b, sinh_phase.b, y2.b < 0.0)) *
+    let sine = vec3<f32>(select(sin_phase.r, sinh_phase.r, y2.r < 0.0),
+        select(sin_phase.g, sinh_phase.g, y2.g < 0.0), select(sin_phase.b, sinh_phase.b, y2.b < 0.0)) *
         rest;
     let left = vec3<f32>(
         select(1.0, fade.r, y2.r < 0.0),
@@ -102,7 +103,8 @@ fn fresnel_film_spectral_six(
     let base4 = re * re + im2; // |m|^4
     let film4 = film2 * film2;
     let a_p = 2.0 * (a * re + b * im) * weight_c;
-    let d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
+    let d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs
+        * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
         a_p;
     let entered = (a_s * d_p + a_p * d_s) / max(d_s * d_p, vec3<f32>(1.0e-30)); // (T_s + T_p) / 2
     let film2_2 = film_n_2 * film_n_2;
@@ -124,7 +126,8 @@ fn fresnel_film_spectral_six(
         select(cos_phase_2.b, cosh_phase_2.b, y2_2.b < 0.0)
     );
     // S
-    let sine_2 = vec3<f32>(select(sin_phase_2.r, sinh_phase_2.r, y2_2.r < 0.0), select(sin_phase_2.g, sinh_phase_2.g, y2_2.g < 0.0), select(sin_phase_2.b, sinh_phase_2.b, y2_2.b < 0.0)) *
+    let sine_2 = vec3<f32>(select(sin_phase_2.r, sinh_phase_2.r, y2_2.r < 0.0),
+        select(sin_phase_2.g, sinh_phase_2.g, y2_2.g < 0.0), select(sin_phase_2.b, sinh_phase_2.b, y2_2.b < 0.0)) *
         rest_2;
     let left_2 = vec3<f32>(
         select(1.0, fade_2.r, y2_2.r < 0.0),
@@ -161,10 +164,13 @@ fn fresnel_film_spectral_six(
     let base4_2 = re_2 * re_2 + im2_2; // |m|^4
     let film4_2 = film2_2 * film2_2;
     let a_p_2 = 2.0 * (a_2 * re_2 + b_2 * im_2) * weight_c_2;
-    let d_p_2 = cosine2_2 * (base4_2 * c2 + q_2) + sine2_2 * (film4_2 * c2q_2 + base4_2 / film4_2 * y4_2) + twice_cs_2 * (b_2 * re_2 - a_2 * im_2) * (film2_2 * c2 - 1.0 / film2_2 * y2_2) +
+    let d_p_2 = cosine2_2 * (base4_2 * c2 + q_2) + sine2_2 * (film4_2 * c2q_2 + base4_2 / film4_2 * y4_2)
+        + twice_cs_2 * (b_2 * re_2 - a_2 * im_2) * (film2_2 * c2 - 1.0 / film2_2 * y2_2) +
         a_p_2;
     let entered_2 = (a_s_2 * d_p_2 + a_p_2 * d_s_2) / max(d_s_2 * d_p_2, vec3<f32>(1.0e-30)); // (T_s + T_p) / 2
     return saturate(
-        vec3<f32>(1.0 - (dot(weights_red_1, entered) + dot(weights_red_2, entered_2)), 1.0 - (dot(weights_green_1, entered) + dot(weights_green_2, entered_2)), 1.0 - (dot(weights_blue_1, entered) + dot(weights_blue_2, entered_2)))
+        vec3<f32>(1.0 - (dot(weights_red_1, entered) + dot(weights_red_2, entered_2)), 1.0
+            - (dot(weights_green_1, entered) + dot(weights_green_2, entered_2)), 1.0
+            - (dot(weights_blue_1, entered) + dot(weights_blue_2, entered_2)))
     );
 }

@@ -50,7 +50,8 @@ fn fresnel_film_spectral_three(
         select(cos_phase.b, cosh_phase.b, y2.b < 0.0)
     );
     // S
-    let sine = vec3<f32>(select(sin_phase.r, sinh_phase.r, y2.r < 0.0), select(sin_phase.g, sinh_phase.g, y2.g < 0.0), select(sin_phase.b, sinh_phase.b, y2.b < 0.0)) *
+    let sine = vec3<f32>(select(sin_phase.r, sinh_phase.r, y2.r < 0.0),
+        select(sin_phase.g, sinh_phase.g, y2.g < 0.0), select(sin_phase.b, sinh_phase.b, y2.b < 0.0)) *
         rest;
     let left = vec3<f32>(
         select(1.0, fade.r, y2.r < 0.0),
@@ -88,7 +89,8 @@ fn fresnel_film_spectral_three(
     let base4 = re * re + im2; // |m|^4
     let film4 = film2 * film2;
     let a_p = 2.0 * (a * re + b * im) * weight_c;
-    let d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
+    let d_p = cosine2 * (base4 * c2 + q) + sine2 * (film4 * c2q + base4 / film4 * y4) + twice_cs
+        * (b * re - a * im) * (film2 * c2 - 1.0 / film2 * y2) +
         a_p;
     let entered = (a_s * d_p + a_p * d_s) / max(d_s * d_p, vec3<f32>(1.0e-30)); // (T_s + T_p) / 2
     return saturate(

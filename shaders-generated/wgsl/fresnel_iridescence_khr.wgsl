@@ -10,6 +10,7 @@
 // Domain: a real index stands for the base, so metals have the wrong phase; a film without thickness does not give
 //     the bare base
 // Kept for comparison, exempt from the contract of the others. It fails: it may exceed 1
+// Model error: the head of a material's function has it
 // Cost: 236 scalar operations, among them 7 roots, 11 divisions, 8 exponentials or logarithms, 8 sines or cosines
 // Source: as KHR_materials_iridescence has it, with f0 limited to .9999 as in three.js; else Belcour, Barla, 2017,
 //     https://doi.org/10.1145/3072959.3073620
@@ -35,12 +36,14 @@ fn fresnel_iridescence_khr(cos_theta: f32, thickness_nm: f32, film_ior: f32, bas
     let sum = through * through * inner / (1.0 - product); // R_s
     // what both faces add to the phase
     let turned = select(3.1415927, 0.0, film_ior < 1.0) +
-        vec3<f32>(select(0.0, 3.1415927, base.r < film_ior), select(0.0, 3.1415927, base.g < film_ior), select(0.0, 3.1415927, base.b < film_ior));
+        vec3<f32>(select(0.0, 3.1415927, base.r < film_ior), select(0.0, 3.1415927, base.g < film_ior),
+            select(0.0, 3.1415927, base.b < film_ior));
     let path = 2.0 * film_ior * thickness_nm * inside; // D
     let factor = sqrt(product);
     let first = (sum - through) * factor; // C_1
     let square_1 = path * path;
-    let waves_1 = vec3<f32>(0.84659, 1.0002218, 1.0011225) * cos(vec3<f32>(0.010562034, 0.011280202, 0.013875786) * path + turned) *
+    let waves_1 = vec3<f32>(0.84659, 1.0002218, 1.0011225)
+        * cos(vec3<f32>(0.010562034, 0.011280202, 0.013875786) * path + turned) *
         exp2(vec3<f32>(-2.4649123e-7, -5.299464e-7, -3.7659424e-7) * square_1);
     let xyz_1 = vec3<f32>(
         waves_1.r + 0.1538683 * cos(0.014073707 * path + turned.r) * exp2(-2.5790507e-7 * square_1),
@@ -50,7 +53,8 @@ fn fresnel_iridescence_khr(cos_theta: f32, thickness_nm: f32, film_ior: f32, bas
     let path_2 = 2.0 * path;
     let turned_2 = 2.0 * turned;
     let square_2 = path_2 * path_2;
-    let waves_2 = vec3<f32>(0.84659, 1.0002218, 1.0011225) * cos(vec3<f32>(0.010562034, 0.011280202, 0.013875786) * path_2 + turned_2) *
+    let waves_2 = vec3<f32>(0.84659, 1.0002218, 1.0011225)
+        * cos(vec3<f32>(0.010562034, 0.011280202, 0.013875786) * path_2 + turned_2) *
         exp2(vec3<f32>(-2.4649123e-7, -5.299464e-7, -3.7659424e-7) * square_2);
     let xyz_2 = vec3<f32>(
         waves_2.r + 0.1538683 * cos(0.014073707 * path_2 + turned_2.r) * exp2(-2.5790507e-7 * square_2),
@@ -58,7 +62,11 @@ fn fresnel_iridescence_khr(cos_theta: f32, thickness_nm: f32, film_ior: f32, bas
         waves_2.b
     );
     let whole = max(
-        outer + sum + 2.0 * first * vec3<f32>(dot(xyz_1, vec3<f32>(3.2404542, -1.5371385, -0.4985314)), dot(xyz_1, vec3<f32>(-0.969266, 1.8760108, 0.041556)), dot(xyz_1, vec3<f32>(0.0556434, -0.2040259, 1.0572252))) + 2.0 * (first * factor) * vec3<f32>(dot(xyz_2, vec3<f32>(3.2404542, -1.5371385, -0.4985314)), dot(xyz_2, vec3<f32>(-0.969266, 1.8760108, 0.041556)), dot(xyz_2, vec3<f32>(0.0556434, -0.2040259, 1.0572252))),
+        outer + sum + 2.0 * first * vec3<f32>(dot(xyz_1, vec3<f32>(3.2404542, -1.5371385, -0.4985314)),
+            dot(xyz_1, vec3<f32>(-0.969266, 1.8760108, 0.041556)),
+            dot(xyz_1, vec3<f32>(0.0556434, -0.2040259, 1.0572252))) + 2.0 * (first * factor)
+            * vec3<f32>(dot(xyz_2, vec3<f32>(3.2404542, -1.5371385, -0.4985314)),
+            dot(xyz_2, vec3<f32>(-0.969266, 1.8760108, 0.041556)), dot(xyz_2, vec3<f32>(0.0556434, -0.2040259, 1.0572252))),
         vec3<f32>(0.0)
     );
     return vec3<f32>(

@@ -125,7 +125,7 @@ fn methods_of(
 ) -> (Vec<&'static Method>, Vec<String>) {
     let numeric = methods::ALL.iter().copied();
     let is_one =
-        |method: &&'static Method| !method.is_textured() && !(is_library && method.keeps_inputs());
+        |method: &&'static Method| !(method.is_textured() || is_library && method.keeps_inputs());
     let numeric = numeric.filter(is_one);
     let chosen = Choice::chosen(words, numeric, |method| method.name);
     let refusal = |method: &Method| {

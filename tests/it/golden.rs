@@ -220,7 +220,13 @@ fn heads_say_all_that_they_must() {
             "{}: no cost",
             artifact.path
         );
-        let error = text.contains("it is the exact law") || text.contains(" degrees");
+        // Of a film it depends on the film.
+        let told = [
+            "it is the exact law",
+            " degrees",
+            "the head of a material's function has it",
+        ];
+        let error = told.iter().any(|words| text.contains(words));
         assert!(error, "{}: no angle of the worst error", artifact.path);
         for formula in methods::find(artifact.method.as_deref().unwrap_or(""))
             .map_or(&[][..], |method| method.formula)

@@ -301,6 +301,10 @@ const USED: [(&str, bool); 52] = [
         "bake --material gold --budget 0.01 --wavelengths 600,550,450 --out-dir c",
         true,
     ),
+    (
+        "bake --material gold --film 1.38:100nm --film-thickness 1..100nm --size 8 --out-dir c",
+        true,
+    ),
     ("bake --dfg --method fitted --size 8 --out-dir c", true),
     ("bake --dfg --layout unreal --out-dir c", true),
     ("fit --f0 1,.71,.29 --f82 .98,.91,.66 --json -", true),
