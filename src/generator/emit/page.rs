@@ -60,7 +60,7 @@ impl<'a> FunctionView<'a> {
         FunctionView {
             doc,
             head: print::shown_head(&emitted.function, &emitted.name, spelling),
-            body: print::body(&emitted.function, spelling),
+            body: print::shown_body(&emitted.function, spelling),
             entry: entry_point(index, emitted),
             call: call(target, emitted),
         }

@@ -33,6 +33,19 @@ pub fn body(function: &Checked, spelling: &Spelling) -> Vec<String> {
     lines
 }
 
+/// The same as a page shows it, with its longest lines broken.
+pub fn shown_body(function: &Checked, spelling: &Spelling) -> Vec<String> {
+    let lines = body(function, spelling).into_iter();
+    let shown = |line: String| {
+        if line.starts_with(spelling.comment) {
+            vec![line]
+        } else {
+            wrapped(line)
+        }
+    };
+    lines.flat_map(shown).collect()
+}
+
 /// The signature of a function: name, arguments, result.
 pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
     let param = |param: &Param| {
@@ -86,7 +99,7 @@ fn push(lines: &mut Vec<String>, statement: Vec<String>, why: &str, comment: &st
         }
         _ => lines.push(format!("{comment} {why}")),
     }
-    lines.extend(statement.into_iter().flat_map(wrapped));
+    lines.extend(statement);
 }
 
 /// A line in parts that are short enough: each ends behind a comma, or before an operator, where brackets are least deep.
