@@ -75,6 +75,9 @@ const CIE_RGB: [[f64; 3]; 3] = [
     [0.005_298_2, -0.014_694_9, 1.009_396_8],
 ];
 
+/// The least radicand: compilers may compute a root as x / sqrt(x), which is no number at 0.
+const LEAST: f64 = 1e-37;
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let c = x.cosine();
     let number = |value: f64| c.builder().number(value);
@@ -104,13 +107,16 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let im = (2.0 * n * k).named("im", "");
     let im2 = im.squared().named("im2", "");
     let across = (re - s2).named("across", "");
-    let size = (across.squared() + im2).sqrt().named("size", "u^2 + v^2");
+    let size = (across.squared() + im2)
+        .at_least(LEAST)
+        .sqrt()
+        .named("size", "u^2 + v^2");
     let u = (0.5 * (size + across))
-        .max(number(0.0).rgb())
+        .at_least(LEAST)
         .sqrt()
         .named("u", "");
     let v = (0.5 * (size - across))
-        .max(number(0.0).rgb())
+        .at_least(LEAST)
         .sqrt()
         .named("v", "");
     let near2 = near.squared().named("y2", "");
@@ -151,7 +157,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
             through.squared() * inner / (1.0 - product).at_least(1e-6),
             "all",
         );
-        let step = named(product.sqrt(), "step");
+        let step = named(product.at_least(LEAST).sqrt(), "step");
         let first = named((all - through) * step, "first");
         let twice = [
             named(2.0 * cos.squared() - 1.0, "cos2"),

@@ -92,7 +92,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let outer = schlick(squared_ratio(ior, one), c, "outer_m").named("outer", "R12");
     let through = (1.0 - outer).named("through", "T");
 
-    let root = x.get(Input::BASE_F0).max(number(0.0).rgb());
+    let root = x.get(Input::BASE_F0).at_least(1e-37);
     let root = root.min(number(MOST_F0).rgb()).sqrt().named("root", "");
     let base = ((1.0 + root) / (1.0 - root)).named("base", "the base's index");
     let inner = schlick(squared_ratio(base, ior), inside, "inner_m").named("inner", "R23");
