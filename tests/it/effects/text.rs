@@ -2,7 +2,7 @@
 
 use fresnel_gen::generator::emit::{self, EffectRequest, Naming};
 use fresnel_gen::language::effects;
-use fresnel_gen::language::methods;
+use fresnel_gen::language::methods::{self, Method};
 use fresnel_gen::language::targets;
 
 /// WGSL and SPIR-V are parsed and validated by naga; the other languages have validators of their own.

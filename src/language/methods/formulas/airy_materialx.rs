@@ -63,6 +63,9 @@ pub static METHOD: Method = Method {
         code_abs: 1.6e-4,
         ..Claims::NONE
     },
+    contract: Contract::Exempt(
+        "beside 90 degrees single precision loses a film of nearly the medium's index",
+    ),
     half: InHalf::Refused("half precision keeps no phase"),
     build,
     ..Method::BASE

@@ -225,8 +225,12 @@ pub(super) fn entered<'b>(x: &Inputs<'b>, inputs: &[Input]) -> Expr<'b> {
     let re = name((n - k) * (n + k), "re", "m^2");
     let im = name(2.0 * n * k, "im", "");
     let im2 = name(im.squared(), "im2", "");
-    let s2 = (1.0 - c2).named("s2", "");
-    let across = name(re - s2, "across", "m^2 - s^2");
+    let above = (n - 1.0) * (n + 1.0) - k.squared();
+    let across = name(
+        above + c2,
+        "across",
+        "m^2 - s^2, with all digits beside n = 1",
+    );
     let q = (across.squared() + im2).at_least(1e-37).sqrt();
     let q = name(q, "q", "a^2 + b^2");
     let larger2 = (0.5 * q + 0.5 * across.abs()).at_least(LEAST_BASE);
