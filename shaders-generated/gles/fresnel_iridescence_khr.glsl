@@ -33,7 +33,7 @@ highp vec3 fresnel_iridescence_khr(
     highp float outer_m2 = outer_m * outer_m;
     highp float outer = outer_m_f0 + (1.0 - outer_m_f0) * (outer_m2 * outer_m2 * outer_m); // R12
     highp float through = 1.0 - outer; // T
-    highp vec3 root = sqrt(min(max(base_f0, 0.0), 0.9999));
+    highp vec3 root = sqrt(min(max(base_f0, 1.0e-37), 0.9999));
     highp vec3 base = (1.0 + root) / (1.0 - root); // the base's index
     highp vec3 inner_ratio = (base - film_ior) / (base + film_ior);
     highp vec3 inner_m_f0 = inner_ratio * inner_ratio;

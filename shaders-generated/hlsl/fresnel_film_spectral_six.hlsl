@@ -20,7 +20,7 @@
 //     taken as clear
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
-// Cost: 642 scalar operations, among them 18 roots, 24 divisions, 6 exponentials or logarithms, 12 sines or
+// Cost: 671 scalar operations, among them 18 roots, 24 divisions, 6 exponentials or logarithms, 12 sines or
 //     cosines
 // Source: the form is fresnel-gen's; what enters the base of a clear film as one real quotient: Born, Wolf, 1999,
 //     https://doi.org/10.1017/CBO9781139644181
@@ -75,8 +75,8 @@ float3 fresnel_film_spectral_six(
     float3 re = (base_n_1 - base_k_1) * (base_n_1 + base_k_1); // m^2
     float3 im = 2.0 * base_n_1 * base_k_1;
     float3 im2 = im * im;
-    float s2 = 1.0 - c2;
-    float3 across = re - s2; // m^2 - s^2
+    // m^2 - s^2, with all digits beside n = 1
+    float3 across = (base_n_1 - 1.0) * (base_n_1 + 1.0) - base_k_1 * base_k_1 + c2;
     float3 q = sqrt(max(across * across + im2, 1.0e-37)); // a^2 + b^2
     float3 larger2 = max(0.5 * q + 0.5 * abs(across), 1.0e-12);
     float3 root = rsqrt(larger2);
@@ -137,7 +137,8 @@ float3 fresnel_film_spectral_six(
     float3 re_2 = (base_n_2 - base_k_2) * (base_n_2 + base_k_2); // m^2
     float3 im_2 = 2.0 * base_n_2 * base_k_2;
     float3 im2_2 = im_2 * im_2;
-    float3 across_2 = re_2 - s2; // m^2 - s^2
+    // m^2 - s^2, with all digits beside n = 1
+    float3 across_2 = (base_n_2 - 1.0) * (base_n_2 + 1.0) - base_k_2 * base_k_2 + c2;
     float3 q_2 = sqrt(max(across_2 * across_2 + im2_2, 1.0e-37)); // a^2 + b^2
     float3 larger2_2 = max(0.5 * q_2 + 0.5 * abs(across_2), 1.0e-12);
     float3 root_2 = rsqrt(larger2_2);

@@ -14,7 +14,7 @@
 //     taken as clear
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
-// Cost: 324 scalar operations, among them 9 roots, 12 divisions, 3 exponentials or logarithms, 6 sines or cosines
+// Cost: 338 scalar operations, among them 9 roots, 12 divisions, 3 exponentials or logarithms, 6 sines or cosines
 // Source: the form is fresnel-gen's; what enters the base of a clear film as one real quotient: Born, Wolf, 1999,
 //     https://doi.org/10.1017/CBO9781139644181
 
@@ -61,8 +61,8 @@ float3 fresnel_film_spectral_three(
     float3 re = (base_n - base_k) * (base_n + base_k); // m^2
     float3 im = 2.0 * base_n * base_k;
     float3 im2 = im * im;
-    float s2 = 1.0 - c2;
-    float3 across = re - s2; // m^2 - s^2
+    // m^2 - s^2, with all digits beside n = 1
+    float3 across = (base_n - 1.0) * (base_n + 1.0) - base_k * base_k + c2;
     float3 q = sqrt(max(across * across + im2, 1.0e-37)); // a^2 + b^2
     float3 larger2 = max(0.5 * q + 0.5 * abs(across), 1.0e-12);
     float3 root = rsqrt(larger2);

@@ -29,7 +29,7 @@ float3 fresnel_iridescence_khr(float cos_theta, float thickness_nm, float film_i
     float outer_m2 = outer_m * outer_m;
     float outer = outer_m_f0 + (1.0 - outer_m_f0) * (outer_m2 * outer_m2 * outer_m); // R12
     float through = 1.0 - outer; // T
-    float3 root = sqrt(min(max(base_f0, 0.0), 0.9999));
+    float3 root = sqrt(min(max(base_f0, 1.0e-37), 0.9999));
     float3 base = (1.0 + root) / (1.0 - root); // the base's index
     float3 inner_ratio = (base - film_ior) / (base + film_ior);
     float3 inner_m_f0 = inner_ratio * inner_ratio;

@@ -25,7 +25,7 @@ fn fresnel_iridescence_khr(cos_theta: f32, thickness_nm: f32, film_ior: f32, bas
     let outer_m2 = outer_m * outer_m;
     let outer = outer_m_f0 + (1.0 - outer_m_f0) * (outer_m2 * outer_m2 * outer_m); // R12
     let through = 1.0 - outer; // T
-    let root = sqrt(min(max(base_f0, vec3<f32>(0.0)), vec3<f32>(0.9999)));
+    let root = sqrt(min(max(base_f0, vec3<f32>(1.0e-37)), vec3<f32>(0.9999)));
     let base = (1.0 + root) / (1.0 - root); // the base's index
     let inner_ratio = (base - film_ior) / (base + film_ior);
     let inner_m_f0 = inner_ratio * inner_ratio;
