@@ -5,7 +5,7 @@
 //! [`film_spectral_three`](crate::language::methods::formulas::film_spectral_three). Twice as many wavelengths follow the spectrum of a
 //! thicker film.
 //!
-//! Source: M. Born, E. Wolf, "Principles of Optics", 7th edition, Cambridge University Press, 1999, section 1.6,
+//! Source: ours, of the matrix in M. Born, E. Wolf, "Principles of Optics", 7th edition, Cambridge University Press, 1999, section 1.6,
 //! <https://doi.org/10.1017/CBO9781139644181>, as there.
 //! Domain: as there. Error: the head of each function says it.
 

@@ -17,9 +17,8 @@
 //! The wavelengths and their weights follow from observer, light and space. They are fitted to the material, over thicknesses from
 //! 0 to that of its film.
 //!
-//! Source: M. Born, E. Wolf, "Principles of Optics", 7th edition, Cambridge University Press, 1999, section 1.6,
-//! <https://doi.org/10.1017/CBO9781139644181>, for the matrix; the form is ours. Three wavelengths in place of the spectrum are the
-//! thesis's idea.
+//! Source: ours, of the matrix in M. Born, E. Wolf, "Principles of Optics", 7th edition, Cambridge University Press, 1999, section 1.6,
+//! <https://doi.org/10.1017/CBO9781139644181>. Three wavelengths in place of the spectrum are the thesis's idea.
 //! Domain: film_n from .05 to 10, base n to 100 and k to 100; thickness_nm from 0 to 1e4. A film that absorbs is taken as clear.
 //! Error: the head of each function says it. Of a phase of 100 single precision keeps 1e-5.
 
