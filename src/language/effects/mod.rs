@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn every_function_is_well_formed_with_every_method() {
         for function in ALL.iter().flat_map(|effect| effect.functions) {
-            for by in methods::ALL {
+            for by in methods::ALL.iter().filter(|by| !by.keeps_inputs()) {
                 let fault = function.built(by).err();
                 assert_eq!(fault, None, "{} by {}", function.name, by.name);
             }

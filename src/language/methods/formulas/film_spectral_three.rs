@@ -57,7 +57,7 @@ const fn of_samples(
 ) -> Input {
     Input::rgb(name, meaning, range, InputSource::Material(of))
         .tried(tried)
-        .scanned(tried)
+        .scanned(tried.split_at(1).0)
 }
 
 #[allow(missing_docs)] // each says what it is
