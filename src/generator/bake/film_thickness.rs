@@ -50,7 +50,12 @@ pub struct FilmTableRequest {
 impl FilmTableRequest {
     /// The command that reports this again, without the output path.
     pub fn command_line(&self) -> CommandLine {
-        let command = self.own.command_line();
+        self.command_for(&self.own)
+    }
+
+    /// The same for other formats and languages.
+    fn command_for(&self, own: &BakeRequest) -> CommandLine {
+        let command = own.command_line();
         command.list("film-thickness", [self.thicknesses.word()])
     }
 
@@ -192,9 +197,7 @@ fn about(
         targets: targets.to_vec(),
         ..request.own.clone()
     };
-    let command = own
-        .command_line()
-        .list("film-thickness", [request.thicknesses.word()]);
+    let command = request.command_for(&own);
     let subject = &request.own.subjects[0];
     let mut lines = vec![
         format!("{MARK}: fresnel-gen {}", String::from(command)),

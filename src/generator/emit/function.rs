@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::code_bound::{Bounds, CodeBound, FILTERED};
 use super::error::Error;
-use super::specialised::{Missed, Specialised, missed, of_cosine, specialise, specialised_graph};
+use super::specialised::{Missed, Specialised, missed, specialise, specialised_graph, whole};
 use crate::generator::fit::{Measured, ModelError, known_film, model_error, thickness_error};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction};
@@ -225,7 +225,7 @@ pub fn specialised_function(
         plain_for,
     } = specialised_graph(method, subject, naming.precision, bounds)?;
     let meant = match naming.precision {
-        _ if method.keeps_inputs() => of_cosine(method, subject, Precision::F32, bounds)?,
+        _ if method.keeps_inputs() => whole(method, subject, &constants)?,
         Precision::F32 => function.clone(),
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };

@@ -76,8 +76,17 @@ pub fn of_cosine(
     if !method.keeps_inputs() {
         return Ok(made.function);
     }
-    let whole = method.at(&made.constants);
-    whole.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
+    whole(method, subject, &made.constants)
+}
+
+/// The function of the cosine alone with these constants, those that the material keeps as arguments among them.
+pub(super) fn whole(
+    method: &Method,
+    subject: &MaterialInMedium,
+    constants: &Values,
+) -> Result<Checked, Error> {
+    let function = method.at(constants);
+    function.map_err(|fault| Error::specialise(method, subject, fault.to_string()))
 }
 
 /// The stable form with these constants.

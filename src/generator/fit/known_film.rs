@@ -73,7 +73,7 @@ pub fn known_film(subject: &MaterialInMedium, count: usize) -> KnownFilm {
             ..known
         };
     }
-    let rows = rows(surface, &DEGREES, 1);
+    let rows = reflected_rows(surface, &DEGREES, 1);
     let start: &[f64] = if count == 3 { &THREE_NM } else { &SIX_NM };
     let squares = Squares::new(&rows, surface);
     let found = squares.nearest(start.iter().map(|nm| place(surface, *nm)).collect());
@@ -137,7 +137,7 @@ struct Row {
 }
 
 /// At these angles, and so many times as many thicknesses as least squares want.
-fn rows(surface: &Surface, degrees: &[f64], times: usize) -> Vec<Row> {
+fn reflected_rows(surface: &Surface, degrees: &[f64], times: usize) -> Vec<Row> {
     let optical = |(films, nm): (&Vec<Layer>, &f64)| films[0].n * films[0].waves * nm;
     let both = surface.films.iter().zip(&surface.integrator.wavelengths);
     let most = both.map(optical).fold(0.0, f64::max);
@@ -288,7 +288,7 @@ pub fn thickness_error(subject: &MaterialInMedium, film: &KnownFilm) -> f64 {
     let degrees: Vec<f64> = (0..=ANGLES)
         .map(|i| SEEN_DEGREES * i as f64 / ANGLES as f64)
         .collect();
-    let rows = rows(surface, &degrees, FINER);
+    let rows = reflected_rows(surface, &degrees, FINER);
     let off = |row: &Row| {
         let each = each_channel(|channel| {
             let parts = places.iter().zip(&film.samples);

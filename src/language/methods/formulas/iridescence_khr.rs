@@ -18,7 +18,7 @@
 
 use super::*;
 
-use crate::language::ir::Ty;
+use crate::language::ir::{Builder, Ty};
 
 /// Fringes as a series.
 pub(super) const BELCOUR_BARLA_2017: Citation = Citation {
@@ -161,16 +161,19 @@ fn gaussian(height: f64, width: f64) -> (f64, f64) {
     (high, -width * TURN * TURN * std::f64::consts::LOG2_E)
 }
 
+/// The same of X, Y and Z.
+fn gaussians(builder: &Builder) -> (Expr<'_>, Expr<'_>) {
+    let rows = each_channel(|i| gaussian(HEIGHTS[i], WIDTHS[i]));
+    let high = builder.colour(rows.map(|row| row.0));
+    (high, builder.colour(rows.map(|row| row.1)))
+}
+
 /// S in X, Y and Z: the fringes of this path, a scalar in nanometres, that an observer sees; `turned` is a phase in each.
 fn observed<'b>(path: Expr<'b>, turned: Expr<'b>, m: f64) -> Expr<'b> {
     let builder = path.builder();
     let square = path.squared().named(&format!("square_{m}"), "");
     let turned = turned.named(&format!("turned_{m}"), "");
-    let rows = each_channel(|i| gaussian(HEIGHTS[i], WIDTHS[i]));
-    let (high, falls) = (
-        builder.colour(rows.map(|row| row.0)),
-        builder.colour(rows.map(|row| row.1)),
-    );
+    let (high, falls) = gaussians(builder);
     let place = builder.colour(PLACES.map(|place| place * TURN));
     let waves = high * (place * path + turned).cos() * (falls * square).exp2();
     let waves = waves.named(&format!("waves_{m}"), "");
@@ -194,11 +197,7 @@ pub(super) struct Waves<'b> {
 pub(super) fn observer(path: Expr<'_>, m: f64) -> Waves<'_> {
     let builder = path.builder();
     let square = path.squared().named(&format!("square_{m}"), "");
-    let rows = each_channel(|i| gaussian(HEIGHTS[i], WIDTHS[i]));
-    let (high, falls) = (
-        builder.colour(rows.map(|row| row.0)),
-        builder.colour(rows.map(|row| row.1)),
-    );
+    let (high, falls) = gaussians(builder);
     let own = (high * (falls * square).exp2()).named(&format!("high_{m}"), "");
     let angle = builder.colour(PLACES.map(|place| place * TURN)) * path;
     let angle = angle.named(&format!("angle_{m}"), "");
