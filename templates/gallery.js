@@ -76,7 +76,7 @@ function program_text(row, calls, part) {
 // What is chosen.
 
 const row = () => named(data.rows, $("effect").value);
-const is_transparent = one => one.exact === "dielectric_exact";
+const is_transparent = one => one.transparent;
 const own_index = one => data.own.findIndex(own => own.transparent === is_transparent(one));
 const calls_of = (one, method) => one.calls.find(calls => calls.method === method);
 const grid_value = ([first, step], place) => first + step * place;
@@ -113,6 +113,7 @@ function block(one, pass, method) {
   numbers.set(k, layout.index + 4);
   numbers.set(absorption, layout.absorption);
   inputs_of(one, method).forEach((value, i) => numbers.set(value, layout.inputs + 4 * i));
+  if (one.film) numbers[layout.film] = Number($("film").value);
   if (one.roughness) numbers[layout.roughness] = Number($("roughness").value);
   if (one.half) numbers.set([2 * one.half / stage.panel / data.samples, 2 * one.half / stage.panel], layout.pixel);
   return numbers;
@@ -180,7 +181,7 @@ async function measure() {
   const [chosen, exact] = [await player.read(drawn.chosen), await player.read(drawn.exact)];
   if (stage.drawn !== drawn) return;
   const { mean, most } = apart(chosen, exact);
-  say(`${subject()} by ${$("method").value}, drawn by ${player.name}. Difference from the exact law, in linear light: mean ${figure(mean)}, largest ${figure(most)}.`);
+  say(`${subject()} by ${$("method").value}, drawn by ${player.name}. Difference from ${row().exact_is}, in linear light: mean ${figure(mean)}, largest ${figure(most)}.`);
 }
 
 const subject = () => `${row().name}, ${material()?.name ?? "an index of your own"}`;
@@ -255,10 +256,13 @@ function fill_row() {
   const one = row(), orbit = data.orbits[one.orbit], own = data.own[own_index(one)];
   const suited = data.materials.filter(other => one.materials.includes(other.name));
   const first = named(suited, one.material) ?? suited[0];
-  fill($("material"), [{ value: OWN, text: "index of the sliders" }, ...suited.map(({ name, summary }) => ({ value: name, text: `${name}: ${summary}` }))], first?.name ?? OWN);
+  const sliders = one.film ? [] : [{ value: OWN, text: "index of the sliders" }];
+  fill($("material"), [...sliders, ...suited.map(({ name, summary }) => ({ value: name, text: `${name}: ${summary}` }))], first?.name ?? OWN);
   range("n", own.n[2], 0);
   range("k", own.k[2], 0);
-  $("k-part").hidden = is_transparent(one);
+  $("n-part").hidden = one.film;
+  $("k-part").hidden = one.film || is_transparent(one);
+  $("film-part").hidden = !one.film;
   $("roughness-part").hidden = !one.roughness;
   if (one.roughness) $("roughness").value = one.roughness;
   $("exposure").value = one.exposure;
@@ -279,6 +283,7 @@ function fill_methods(wish) {
 function follow_material() {
   const chosen = material(), own = data.own[own_index(row())];
   const nearest = ([first, step, count], value) => Math.min(Math.max(Math.round((value - first) / step), 0), count - 1);
+  if (row().film) Object.assign($("film"), { max: chosen.film_nm, step: chosen.film_nm / 100 }).value = chosen.film_nm;
   if (chosen) {
     $("n").value = nearest(own.n, chosen.n[1]);
     $("k").value = nearest(own.k, chosen.k[1]);
@@ -293,6 +298,7 @@ function tell_values() {
   };
   value("n", figure(chosen ? chosen.n[1] : grid_value(own.n, Number($("n").value))) + (chosen ? " (green)" : ""));
   value("k", figure(chosen ? chosen.k[1] : grid_value(own.k, Number($("k").value))) + (chosen ? " (green)" : ""));
+  value("film", figure(Number($("film").value)));
   value("roughness", $("roughness").value);
   value("magnification", String(2 ** Number($("magnification").value)));
   value("exposure", $("exposure").value);
@@ -300,9 +306,9 @@ function tell_values() {
   value("elevation", String(orbit.elevations[Number($("elevation").value)]));
   const method = $("method").value, factor = 2 ** Number($("magnification").value);
   $("left").textContent = method;
-  $("middle").textContent = `${one.exact}, the exact law`;
+  $("middle").textContent = `${one.exact}, ${one.exact_is}`;
   $("right").textContent = `difference × ${factor}`;
-  $("panels").setAttribute("aria-label", `${subject()}. Three panels: by ${method}; by the exact law, ${one.exact}; their difference, times ${factor}.`);
+  $("panels").setAttribute("aria-label", `${subject()}. Three panels: by ${method}; by ${one.exact_is}, ${one.exact}; their difference, times ${factor}.`);
 }
 
 function rows_of(body, rows) {

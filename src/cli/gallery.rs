@@ -11,8 +11,7 @@ use crate::cli::places::{folder_or_current, replaced, try_files};
 use crate::generator::command_line::CommandLine;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::request::Request;
-use crate::pictures::gallery::gallery;
-use crate::pictures::gallery::gallery_page;
+use crate::pictures::gallery::{films, gallery, gallery_page, is_shown};
 
 /// The flags of `gallery`.
 #[derive(Args, Debug)]
@@ -55,19 +54,22 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
         ..Request::default()
     };
     let found = request.subjects()?;
-    if let Some((filmed, _)) = found
-        .ready
-        .iter()
-        .find(|(material, _)| material.has_films())
-    {
+    let mut remarks = found.left_out_lines();
+    let mut subjects = found.materials();
+    if let Some(hidden) = subjects.iter().find(|one| !is_shown(one)) {
         return Err(Error::usage(format!(
-            "the material `{}` is under films, and a gallery shows bare materials",
-            filmed.name
+            "the material `{}` is under films that no effect shows; those show one clear film",
+            hidden.name
         )));
     }
-    let mut remarks = found.left_out_lines();
+    let named: Vec<String> = subjects.iter().map(|one| one.name.clone()).collect();
+    subjects.extend(
+        films()
+            .into_iter()
+            .filter(|film| !named.contains(&film.name)),
+    );
     let space = request.viewing.integration.space;
-    let gallery = gallery(&found.materials(), space, progress);
+    let gallery = gallery(&subjects, space, progress);
     let gallery = gallery.map_err(|fault| Error::usage(fault.to_string()))?;
     let command: String = flags.command_line().into();
     let page = gallery_page(&gallery, &command).map_err(Error::usage)?;

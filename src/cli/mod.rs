@@ -180,6 +180,7 @@ impl Cli {
             Command::Gallery(flags) => named.inputs.extend(flags.materials.paths().map(Path::new)),
             Command::Render(flags) => {
                 let material = flags.material.iter().filter_map(MaterialName::path);
+                let material = material.chain(flags.films.paths());
                 named.inputs.extend(material.map(Path::new));
                 named.inputs.extend(flags.environment.as_deref());
                 named.write(flags.report.json.iter().chain(&flags.output));

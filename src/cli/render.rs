@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
-use crate::cli::flags::material::MaterialName;
+use crate::cli::flags::material::{FilmFlags, MaterialName};
 use crate::cli::flags::output::{ReportFlags, file_only};
 use crate::cli::output::{Output, Progress, report_beside};
 use crate::cli::places::try_files;
@@ -15,18 +15,20 @@ use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
+use crate::generator::fit::values_for_material;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
+use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::generator::request::Source;
-use crate::generator::request::source::{self, load};
+use crate::generator::request::source::{self, Loaded, load};
 use crate::lab::gpu::{Device, Wanted};
 use crate::physics::foreign;
-use crate::physics::materials::{Material, MaterialKind, Surface, ViewingConditions};
+use crate::physics::materials::{Index, Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Space, srgb_byte};
 use crate::pictures::plot::shade_bytes;
 use crate::pictures::png::rgb_png;
 use crate::pictures::scene::{
     self, Difference, Display, Environment, OpticalMaterial, Picture, PictureRequest, RenderRow,
-    RenderedRow, TONE_CURVES, ToneCurve,
+    RenderedRow, RowText, TONE_CURVES, ToneCurve,
 };
 
 /// The flags of `render`.
@@ -56,6 +58,9 @@ pub struct RenderFlags {
     /// What the body is made of: a name, or the path of a material file [default: the picture's own]
     #[arg(long, value_name = "NAME", value_parser = MaterialName::parse)]
     pub material: Option<MaterialName>,
+    /// The film where it is thickest.
+    #[command(flatten)]
+    pub films: FilmFlags,
     /// What is around it: a picture twice as wide as high, HDR, EXR, PNG or JPEG [default: a sky of ours]
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
@@ -86,6 +91,7 @@ impl RenderFlags {
             .list("exposure", number(self.exposure))
             .list("tone-curve", (curve != "none").then_some(curve))
             .list("material", &self.material)
+            .each("film", &self.films.film)
             .list("environment", environment)
             .switch("ldr", self.ldr)
     }
@@ -119,8 +125,16 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     }
     let named = flags.report.json.iter().chain([&file]);
     try_files(&named.map(|file| file.as_path()).collect::<Vec<_>>())?;
-    let material = material(flags)?;
-    let surface = Surface::new(&material, None, &ViewingConditions::default())?;
+    let subject = subject(flags)?;
+    let row = flags.name;
+    let surface = &subject.reference.surface;
+    let material = match row.film {
+        Some(_) => OpticalMaterial::under_a_film(surface, subject.material.films[0].thickness_nm),
+        None => OpticalMaterial::of_surface(surface),
+    };
+    let values = row
+        .film
+        .map(|_| values_for_material(&subject, RowText::usual(row).method));
     let environment = environment(flags.environment.as_deref())?;
     let device = Device::open(&Wanted::default()).map_err(lacking)?;
     let display = Display {
@@ -128,9 +142,10 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
         curve: flags.tone_curve,
     };
     let request = PictureRequest {
-        row: flags.name,
-        material: &OpticalMaterial::of_surface(&surface),
-        material_name: &material.name,
+        row,
+        material: &material,
+        material_name: &subject.name,
+        values: values.as_ref(),
         environment: &environment,
         is_ldr: flags.ldr,
         size: flags.size,
@@ -188,28 +203,74 @@ fn is_exr(file: &Path) -> Result<bool, Error> {
     }
 }
 
-/// The body's material.
-fn material(flags: &RenderFlags) -> Result<Material, Error> {
+/// The body's material, in air.
+fn subject(flags: &RenderFlags) -> Result<MaterialInMedium, Error> {
+    let row = flags.name;
     let source = match &flags.material {
-        Some(name) => name.source()?,
-        None => Source::Named(flags.name.material.to_owned()),
+        Some(name) => flags.films.on(name.source()?)?,
+        None if flags.films.film.is_empty() => row.source(),
+        None => flags.films.on(Source::Named(row.material.to_owned()))?,
     };
-    let material = load(&source)?.material;
-    if let Some(films) = material.films_in_words() {
+    let Loaded {
+        argument, material, ..
+    } = load(&source)?;
+    check_material(row, &material)?;
+    let viewing = ViewingConditions::default();
+    let typed = (argument, material);
+    let subject = MaterialInMedium::new(typed, None, &viewing, Derivation::default())?;
+    if row.film.is_some() {
+        check_film(row, &subject)?;
+    }
+    Ok(subject)
+}
+
+/// Refuses what a row cannot show.
+fn check_material(row: &'static RenderRow, material: &Material) -> Result<(), Error> {
+    if let (None, Some(films)) = (row.film, material.films_in_words()) {
         return Err(Error::usage(format!(
-            "the material `{}` is under films ({films}), and an effect is drawn of a bare material",
-            material.name
+            "the material `{}` is under films ({films}), and {} is drawn of a bare material; thin_film and soap_film show films",
+            material.name, row.name
         )));
     }
-    if flags.name.is_transparent() && material.kind != MaterialKind::Dielectric {
+    if row.film.is_none() && row.is_transparent() && material.kind != MaterialKind::Dielectric {
         return Err(Error::usage(format!(
             "the material `{}` is a {}; {} wants a dielectric",
             material.name,
             material.kind.name(),
-            flags.name.name
+            row.name
         )));
     }
-    Ok(material)
+    Ok(())
+}
+
+/// Refuses what is not under one clear film, and for a film that hangs free what lies on anything but air.
+fn check_film(row: &'static RenderRow, subject: &MaterialInMedium) -> Result<(), Error> {
+    let name = &subject.name;
+    if !subject.is_described_by(RowText::usual(row).method) {
+        let why = format!(
+            "{} shows one clear film, and `{name}` is not under one; name its thickest place, such as --material {} --film {}",
+            row.name,
+            row.material,
+            row.film.unwrap_or_default()
+        );
+        return Err(Error::usage(why));
+    }
+    let air = Index { n: 1.0, k: 0.0 };
+    if row.is_transparent()
+        && subject
+            .reference
+            .surface
+            .indices
+            .iter()
+            .any(|one| *one != air)
+    {
+        let why = format!(
+            "{} shows a film that hangs free, and `{name}` lies on something; take thin_film for it, or --material air",
+            row.name
+        );
+        return Err(Error::usage(why));
+    }
+    Ok(())
 }
 
 fn environment(file: Option<&Path>) -> Result<Environment, Error> {
@@ -236,7 +297,13 @@ pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
         1 => size,
         samples => format!("{size} of {samples} samples"),
     };
-    let body = format!("{} of {}, n {:.4}", row.body, row.material, row.n);
+    let body = match row.film_nm {
+        Some(nm) => format!(
+            "{} of {}, 0 nm at its top to {nm} nm at its bottom",
+            row.body, row.material
+        ),
+        None => format!("{} of {}, n {:.4}", row.body, row.material, row.n),
+    };
     let mut lines = vec![
         ("effect", row.effect.to_owned()),
         ("body", body),

@@ -14,8 +14,9 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
+use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::Request;
-use crate::lab::stability::{Finding, StabilityRow, Study, maps};
+use crate::lab::stability::{Finding, Map, StabilityRow, Study, film_map, maps};
 use crate::language::methods::{self, Method};
 use crate::physics::num::Precision;
 use crate::pictures::stability_map::{heat_map, percent, stability_page, worst};
@@ -25,8 +26,8 @@ use crate::pictures::table;
 #[derive(Args, Debug)]
 #[command(
     mut_arg("material", |arg| arg.help("Scan the functions specialised to these instead: names, paths of material files, or all")),
-    mut_arg("out_dir", |arg| arg.help("Draw maps of the errors and a page that shows them into this folder").conflicts_with("material")),
-    after_help = "Examples:\n  fresnel-gen stability\n  fresnel-gen stability --method schlick,conductor_textbook --out-dir stability\n  fresnel-gen stability --material gold --json -"
+    mut_arg("out_dir", |arg| arg.help("Draw maps of the errors and a page that shows them into this folder; of a material, over the thickness of its film")),
+    after_help = "Examples:\n  fresnel-gen stability\n  fresnel-gen stability --method schlick,conductor_textbook --out-dir stability\n  fresnel-gen stability --material gold --json -\n  fresnel-gen stability --material titanium --film titanium_dioxide:400nm --method iridescence_khr --out-dir films"
 )]
 pub struct StabilityFlags {
     /// Method, see `fresnel-gen methods` [default: all]
@@ -89,14 +90,24 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         .map(|folder| folder.join(index(precision)));
     try_places(flags.report.json(), page.as_deref())?;
     try_places_of_ours(page.as_slice(), flags.pictures.overwrite)?;
-    let rows = if is_library {
-        study.library_rows(progress)
+    let subjects = if is_library {
+        Vec::new()
     } else {
         let request = Request {
             materials: flags.materials.materials()?,
             ..Request::default()
         };
-        study.specialised_rows(&request.subjects()?.materials(), progress)?
+        request.subjects()?.materials()
+    };
+    let mapped = mapped(&study, &subjects);
+    if flags.pictures.folder().is_some() && !is_library && mapped.is_empty() {
+        let why = "maps of a material are over the thickness of its film; name one film with --film, and with --method a method that takes its thickness";
+        return Err(Error::usage(why));
+    }
+    let rows = if is_library {
+        study.library_rows(progress)
+    } else {
+        study.specialised_rows(&subjects, progress)?
     };
     if rows.is_empty() {
         return Err(RequestFault::NothingToDo {
@@ -107,7 +118,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     }
     let json = Report::new(flags.command_line(), rows.clone());
     let (drawn, said) = match flags.pictures.folder() {
-        Some(folder) => drawn(flags, &study, &rows, folder, progress)?,
+        Some(folder) => drawn(flags, &study, &mapped, &rows, folder, progress)?,
         None => (Vec::new(), None),
     };
     let mut output = report_beside(stability_text(&rows), &json, flags.report.json(), drawn)?;
@@ -161,21 +172,48 @@ fn methods_of(
     (written, left_out)
 }
 
+/// The materials under a film with each method that takes its thickness.
+fn mapped<'a>(
+    study: &Study,
+    subjects: &'a [MaterialInMedium],
+) -> Vec<(&'a MaterialInMedium, &'static Method)> {
+    let of = |subject: &'a MaterialInMedium| {
+        let methods = study.methods.iter().copied();
+        let takes = move |method: &&'static Method| {
+            method.keeps_inputs() && subject.is_described_by(method)
+        };
+        methods.filter(takes).map(move |method| (subject, method))
+    };
+    subjects.iter().flat_map(of).collect()
+}
+
 /// The maps and the page as files to be written, and the remarks on them.
 fn drawn(
     flags: &StabilityFlags,
     study: &Study,
+    mapped: &[(&MaterialInMedium, &'static Method)],
     rows: &[StabilityRow],
     folder: &Path,
     progress: Progress,
 ) -> Result<(Vec<OutputFile>, Option<String>), Error> {
     let Study { methods, precision } = study;
     let mut pictures = Vec::new();
-    for (i, method) in methods.iter().enumerate() {
+    let picture = |method: &'static Method, map: &Map| png(&heat_map(method.name, map), SCALE);
+    for (i, (subject, method)) in mapped.iter().enumerate() {
+        progress(i as u64, mapped.len() as u64, "maps");
+        let map = film_map(method, subject, *precision)?;
+        let over = format!("{}_{}", map.axis.name, subject.name);
+        pictures.push((method.name, over, picture(method, &map)?));
+    }
+    let bare = methods.iter().filter(|_| mapped.is_empty());
+    for (i, method) in bare.enumerate() {
         progress(i as u64, methods.len() as u64, "maps");
         for map in maps(method, *precision) {
-            let picture = png(&heat_map(method.name, &map), SCALE)?;
-            pictures.push((method.name, map.axis.name, picture));
+            pictures.push((
+                method.name,
+                map.axis.name.to_owned(),
+                picture(method, &map)?,
+            ));
         }
     }
     let command = String::from(flags.command_line());
@@ -188,7 +226,7 @@ fn drawn(
     );
     let overwrite = flags.pictures.overwrite;
     let suffix = precision.suffix();
-    let map = |(method, over, bytes): (&str, &str, Vec<u8>)| {
+    let map = |(method, over, bytes): (&str, String, Vec<u8>)| {
         let path = folder.join(format!("{method}_{over}{suffix}.png"));
         OutputFile::of_report(path, bytes, overwrite)
     };

@@ -1,4 +1,4 @@
-//! Maps of where functions fail, over angle and index, and their page.
+//! Maps of where functions fail, over angle and index or a film's thickness, and their page.
 //!
 //! A map is a picture: the formula's error on the left, its rounding error on the right, each with a colour bar.
 //!
@@ -16,7 +16,7 @@ use crate::language::methods::Method;
 use crate::pictures::html;
 use crate::pictures::plot::{
     Area, Axes, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, labelled, log_ticks, plain_label,
-    power_label, shade,
+    power_label, shade, ticks,
 };
 
 const WIDTH: f64 = 920.0;
@@ -173,7 +173,11 @@ fn axes(map: &Map, left: f64) -> Axes {
     Axes {
         area,
         x: Scale::linear(ends(degrees), [area.left + half[0], area.right - half[0]]),
-        y: Scale::log(ends(values), [area.bottom - half[1], area.top + half[1]]),
+        y: if values[0] > 0.0 {
+            Scale::log(ends(values), [area.bottom - half[1], area.top + half[1]])
+        } else {
+            Scale::linear(ends(values), [area.bottom - half[1], area.top + half[1]])
+        },
     }
 }
 
@@ -189,6 +193,9 @@ fn angles() -> Vec<Tick> {
 /// The ticks of the values: six per decade, or one where there are many decades.
 fn values(map: &Map) -> Vec<Tick> {
     let [low, high] = ends(&map.axis.values);
+    if low == 0.0 {
+        return labelled(ticks(low, high, 6), plain_label);
+    }
     if high / low > 1e4 {
         return labelled(log_ticks(low, high, &[1.0]), power);
     }
@@ -228,7 +235,7 @@ struct Picture {
 /// The page's template cannot be filled.
 pub fn stability_page(
     rows: &[StabilityRow],
-    pictures: &[(&'static str, &'static str, Vec<u8>)],
+    pictures: &[(&'static str, String, Vec<u8>)],
     command: &str,
 ) -> Result<String, String> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
@@ -250,7 +257,7 @@ pub fn stability_page(
 fn section(
     method: &'static Method,
     rows: &[StabilityRow],
-    pictures: &[(&'static str, &'static str, Vec<u8>)],
+    pictures: &[(&'static str, String, Vec<u8>)],
 ) -> MethodSection {
     let own = rows.iter().filter(|row| row.method.name == method.name);
     let findings: Vec<&Finding> = own.filter_map(|row| row.finding.as_ref()).collect();
@@ -259,7 +266,7 @@ fn section(
         findings.map(|finding| sentence(finding)).collect()
     };
     let own = pictures.iter().filter(|(of, _, _)| *of == method.name);
-    let picture = |(_, over, png): &(&str, &str, Vec<u8>)| Picture {
+    let picture = |(_, over, png): &(&str, String, Vec<u8>)| Picture {
         about: format!("Errors of {} over angle and {over}", method.name),
         data: BASE64_STANDARD.encode(png),
     };

@@ -6,6 +6,7 @@ use super::code_bound::CodeBound;
 use super::comment;
 use super::error::Error;
 use super::function::{EffectPart, EmittedFunction, FunctionForm, Naming, check_names};
+use super::header::COSINE;
 use super::header::{MARK, licence_line};
 use super::page::{self, Documented, PageRequest, comments, guard};
 use crate::generator::fit::{Measured, values_for_material};
@@ -320,16 +321,18 @@ fn header(request: &EffectRequest, command: &str) -> Vec<String> {
 
 /// What a function returns, what each argument means, and how accurate the function is.
 fn documentation(emitted: &EmittedFunction) -> Vec<String> {
-    let part = emitted.effect.expect("a function of an effect");
+    let part = emitted.effect.map(|part| part.function);
     let meaning = |param: &Param| -> &str {
-        let own = part.function.arguments.iter();
+        let own = part.iter().flat_map(|part| part.arguments);
         let own = own.map(|argument| (argument.name, argument.meaning));
+        let own = own.chain(part.is_none().then_some(("cos_theta", COSINE)));
         let inputs = emitted.method.inputs.iter();
         let mut all = own.chain(inputs.map(|input| (input.name, input.meaning)));
         let found = all.find(|(name, _)| *name == param.name);
         found.map_or("", |(_, meaning)| meaning)
     };
-    let mut lines = vec![format!("{}: {}", emitted.name, part.function.gives)];
+    let gives = part.map_or(emitted.method.summary, |part| part.gives);
+    let mut lines = vec![format!("{}: {gives}", emitted.name)];
     let params = emitted.function.params.iter();
     lines.extend(params.map(|param| format!("  {}: {}", param.name, meaning(param))));
     let error = match &emitted.code {

@@ -1,10 +1,13 @@
-//! Maps: the error of a method over the angle and an index.
+//! Maps: the error of a method over the angle and an index, or over the angle and the thickness of a film.
 
 use super::failure::{Failure, ResultPoint};
 use super::scan::{Scan, ScannedFunction};
-use super::space::{ScanAxis, ScanSpace, law, logarithmic};
-use crate::language::methods::{Class, Method};
-use crate::physics::num::Precision;
+use super::space::{ScanAxis, ScanPoint, ScanSpace, law, logarithmic};
+use crate::generator::emit::{self, Bounds, specialised_graph};
+use crate::generator::reference::{MaterialInMedium, reference_reflectance};
+use crate::language::methods::{Class, Light, Method};
+use crate::physics::materials::Surface;
+use crate::physics::num::{Precision, in_parallel};
 use crate::physics::optics::cosine;
 
 /// Errors over angle and index.
@@ -15,7 +18,7 @@ pub struct Map {
     /// The precision that functions compute in.
     pub precision: Precision,
     /// The quantity that is held constant, in words.
-    pub held: &'static str,
+    pub held: String,
     /// The angles, in degrees.
     pub degrees: Vec<f64>,
     /// A cell for each angle, for each value of the axis.
@@ -62,12 +65,7 @@ pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
     all
 }
 
-fn map(
-    method: &'static Method,
-    precision: Precision,
-    axes: Vec<ScanAxis>,
-    held: &'static str,
-) -> Map {
+fn map(method: &'static Method, precision: Precision, axes: Vec<ScanAxis>, held: &str) -> Map {
     let rounded = |axis: ScanAxis| axis.each_rounded(precision);
     let code = ScannedFunction::library(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
@@ -92,8 +90,102 @@ fn map(
         cells: (0..space.count()).flat_map(row).collect(),
         axis: space.axes.last().expect("a map has an axis").clone(),
         precision,
-        held,
+        held: held.to_owned(),
         degrees,
+    }
+}
+
+/// The map of a method over the thickness of a material's one film, from 0 to its own: the worst of three channels, held against the
+/// spectrum.
+///
+/// # Errors
+/// The method cannot be specialised to the material.
+pub fn film_map(
+    method: &'static Method,
+    subject: &MaterialInMedium,
+    precision: Precision,
+) -> Result<Map, emit::Error> {
+    let thickest = subject.material.films[0].thickness_nm;
+    let share = |row: u32| f64::from(row) / f64::from(ROWS - 1);
+    let values = (0..ROWS).map(|row| precision.rounded(thickest * share(row)));
+    let axis = ScanAxis {
+        name: "thickness_nm",
+        values: values.collect(),
+    };
+    let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
+    let function = |precision| {
+        let made = specialised_graph(method, subject, precision, &Bounds::recorded())?;
+        Ok::<_, emit::Error>(made.function)
+    };
+    let code = ScannedFunction {
+        function: function(precision)?,
+        meaning: function(Precision::F32)?,
+        precision,
+    };
+    let cosines = ScanAxis {
+        name: "cos_theta",
+        values: degrees.iter().copied().map(cosine).collect(),
+    };
+    let cosines = cosines.each_rounded(precision);
+    let surface = &subject.reference.surface;
+    let row = |row: usize| -> Vec<Cell> {
+        let thickness_nm = axis.values[row];
+        let share = if thickest > 0.0 {
+            thickness_nm / thickest
+        } else {
+            0.0
+        };
+        let films = surface.films.iter();
+        let surface = Surface {
+            films: films.map(|films| vec![films[0].of_share(share)]).collect(),
+            ..surface.clone()
+        };
+        let space = ScanSpace {
+            is_media: true,
+            axes: Vec::new(),
+            cosines: cosines.clone(),
+        };
+        let point = ScanPoint {
+            arguments: vec![thickness_nm],
+            medium: None,
+            limit: 1.0,
+        };
+        let law =
+            |channel: usize, c| reference_reflectance(&surface, Light::Unpolarised, c)[channel];
+        let channel = |channel| {
+            let scan = Scan {
+                code: &code,
+                channel,
+                space: &space,
+                point: &|_| point.clone(),
+                law: &|_, c| Some(law(channel, c)),
+            };
+            scan.curve(0)
+        };
+        let [red, green, blue] = [0, 1, 2].map(channel);
+        let worst = |at: usize| {
+            let [red, green, blue] = [&red, &green, &blue].map(|points| cell(&points[at]));
+            red.worse(green).worse(blue)
+        };
+        (0..degrees.len()).map(worst).collect()
+    };
+    Ok(Map {
+        cells: in_parallel(axis.values.len(), &row, &mut |_, _| {}).concat(),
+        held: format!("{}; thickness in nm", subject.name),
+        axis,
+        precision,
+        degrees,
+    })
+}
+
+impl Cell {
+    /// The worse of two in each respect.
+    fn worse(self, other: Cell) -> Cell {
+        Cell {
+            error: self.error.max(other.error),
+            digits: self.digits.max(other.digits),
+            is_broken: self.is_broken || other.is_broken,
+        }
     }
 }
 

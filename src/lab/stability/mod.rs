@@ -12,7 +12,7 @@ mod space;
 mod study;
 
 pub use failure::Failure;
-pub use map::{Cell, Map, maps};
+pub use map::{Cell, Map, film_map, maps};
 pub use region::short;
 pub use scan::{Finding, scan};
 pub use space::ScanAxis;

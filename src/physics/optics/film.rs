@@ -34,6 +34,14 @@ pub struct Layer {
     pub waves: f64,
 }
 
+impl Layer {
+    /// The layer with this share of its thickness.
+    pub fn of_share(self, share: f64) -> Layer {
+        let waves = share * self.waves;
+        Layer { waves, ..self }
+    }
+}
+
 /// Reflectance of layers, outermost first, on the surface of m = n + ik.
 ///
 /// ```

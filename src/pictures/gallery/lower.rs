@@ -49,6 +49,10 @@ fn reflectance(incident: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     return incident * normal + frame.inputs[0].xyz;
 }
 
+fn film_reflectance(cos_theta: f32, thickness_nm: f32) -> vec3<f32> {
+    return cos_theta * thickness_nm * frame.inputs[0].xyz;
+}
+
 fn transmittance_out(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32) -> f32 {
     return dot(direction, normal_out) + eta + frame.inputs[0].x;
 }
@@ -57,7 +61,12 @@ fn specular(n_dot_v: f32, n_dot_l: f32, n_dot_h: f32, v_dot_h: f32, alpha: f32) 
     return n_dot_v * n_dot_l * n_dot_h * v_dot_h * alpha * frame.inputs[0].xyz;
 }
 ";
-const CALLS: [&str; 3] = ["reflectance", "transmittance_out", "specular"];
+const CALLS: [&str; 4] = [
+    "reflectance",
+    "film_reflectance",
+    "transmittance_out",
+    "specular",
+];
 
 /// The entry point of a module in GLSL ES, without the functions of these names and without the calls. Off screen, the rows of a
 /// picture are counted from the top, as in WebGPU.

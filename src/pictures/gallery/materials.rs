@@ -27,6 +27,8 @@ pub struct MaterialNumbers {
     pub k: [f32; 3],
     /// Its absorption coefficient for red, green and blue, per metre.
     pub absorption: [f32; 3],
+    /// The thickness of the film on it, in nanometres.
+    pub film_nm: Option<f64>,
     /// The values of each method's inputs, in the order of the inputs.
     pub inputs: BTreeMap<&'static str, Vec<[f32; 3]>>,
     /// The errors of each method by each metric.
@@ -63,11 +65,11 @@ pub struct OwnIndex {
     pub inputs: BTreeMap<&'static str, (usize, Packed)>,
 }
 
-/// The methods that the gallery shows: those for unpolarised light without a table, of any bare medium.
+/// The methods that the gallery shows: those for unpolarised light without a table. Those of films of one thickness serve no row.
 pub fn shown_methods() -> impl Iterator<Item = &'static Method> {
     let all = crate::language::methods::ALL.iter().copied();
     all.filter(|method| {
-        method.light == Light::Unpolarised && !method.is_textured() && !method.keeps_inputs()
+        method.light == Light::Unpolarised && !method.is_textured() && method.class != Class::Film
     })
 }
 
@@ -102,7 +104,7 @@ pub fn numbers(subjects: &[MaterialInMedium], data: &ChartData) -> Vec<MaterialN
 
 fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
     let optical = OpticalMaterial::of_surface(&subject.reference.surface);
-    let set = data.sets.iter().find(|set| set.name == subject.argument);
+    let set = data.sets.iter().find(|set| set.name == subject.label());
     let (mut inputs, mut errors) = (BTreeMap::new(), BTreeMap::new());
     for method in shown_methods().filter(|method| subject.is_described_by(method)) {
         let found = values_for_material(subject, method);
@@ -116,6 +118,7 @@ fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
         n: optical.n.as_vec3().to_array(),
         k: optical.k.as_vec3().to_array(),
         absorption: optical.absorption().as_vec3().to_array(),
+        film_nm: subject.material.films.first().map(|film| film.thickness_nm),
         inputs,
         errors,
     }
@@ -139,7 +142,7 @@ pub fn own_indices() -> Vec<OwnIndex> {
 
 fn own_index(transparent: bool, n: [f64; 3], k: [f64; 3]) -> OwnIndex {
     let describes = |method: &&Method| match transparent {
-        true => method.class != Class::Metal,
+        true => !method.keeps_inputs() && method.class != Class::Metal,
         false => method.class == Class::Any && !method.is_fitted(),
     };
     let methods: Vec<&Method> = shown_methods().filter(describes).collect();

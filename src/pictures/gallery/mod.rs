@@ -22,7 +22,7 @@ use crate::lab::chart::{ERRORS, chart_data};
 use crate::physics::spectra::Space;
 use crate::pictures::html;
 use crate::pictures::scene::{
-    self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
+    self, ABSORPTION_AT, FILM_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
 };
 use lower::LoweringFault;
 use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
@@ -32,7 +32,7 @@ use passes::ShowPrograms;
 
 pub use packed::{CUBE, as_stored, reduced_tables};
 pub use passes::FunctionTexts;
-pub use row::{GalleryRow, methods_of, rows};
+pub use row::{GalleryRow, films, is_shown, methods_of, own_subject, rows};
 
 /// The data of the page.
 #[derive(Debug, Serialize)]
@@ -74,6 +74,7 @@ pub struct Gallery {
 pub struct Layout {
     index: usize,
     absorption: usize,
+    film: usize,
     inputs: usize,
     roughness: usize,
     pixel: usize,
@@ -124,6 +125,7 @@ pub fn gallery(
         layout: Layout {
             index: INDEX_AT,
             absorption: ABSORPTION_AT,
+            film: FILM_AT,
             inputs: INPUTS_AT,
             roughness: ABSORPTION_AT + 3,
             pixel: PIXEL_AT,

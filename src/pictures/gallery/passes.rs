@@ -8,7 +8,9 @@ use serde::Serialize;
 use super::lower::{GlesProgram, LoweringFault, lowered};
 use super::orbit::Orbit;
 use super::packed::SKY;
-use crate::generator::emit::{self, EffectRequest, EmittedFunction, Naming, effect_function_text};
+use crate::generator::emit::{
+    self, EffectRequest, EmittedFunction, Naming, effect_function_text, library_functions,
+};
 use crate::lab::gpu::Depth;
 use crate::language::{effects, methods, targets};
 use crate::pictures::scene::{BACK, DrawnSurface, PHOTONS, PassRow, RenderRow, Slot, TRIANGLES};
@@ -148,6 +150,13 @@ pub struct FunctionTexts {
 /// A function cannot be written: a bug.
 pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error> {
     let mut all: BTreeMap<String, EmittedFunction> = BTreeMap::new();
+    for method in methods::ALL.iter().filter(|method| method.keeps_inputs()) {
+        for emitted in library_functions(method, &Naming::default())? {
+            if names.contains(&emitted.name) {
+                all.insert(emitted.name.clone(), emitted);
+            }
+        }
+    }
     for effect in effects::ALL {
         for method in methods::ALL.iter().filter(|method| !method.keeps_inputs()) {
             let request = EffectRequest {

@@ -11,10 +11,11 @@ use super::orbit::Orbit;
 use super::passes::{GalleryPass, passes_of};
 use crate::generator::emit::effect_function_text;
 use crate::generator::reference::MaterialInMedium;
+use crate::generator::request::{Materials, Request, Source};
 use crate::language::effects::Reflectance;
 use crate::language::methods::{Class, Method};
 use crate::language::targets;
-use crate::physics::materials::MaterialKind;
+use crate::physics::materials::{self, MaterialKind};
 use crate::pictures::scene::{self, FRAME, GLES_CALLS, PassRow, RenderRow, RowText, WGSL_CALLS};
 
 /// A row of the gallery.
@@ -26,12 +27,18 @@ pub struct GalleryRow {
     pub summary: &'static str,
     /// Where it must be wrong, in one line.
     pub wrong: &'static str,
-    /// The exact law for its kind of body.
+    /// The exact law for its kind of body, or the method that stands for it.
     pub exact: &'static str,
+    /// What that is, in words.
+    pub exact_is: &'static str,
+    /// Whether light passes through the body.
+    pub transparent: bool,
+    /// Whether a film lies on it, whose thickness the reader chooses.
+    pub film: bool,
     /// Its own method.
     pub method: &'static str,
     /// Its own material.
-    pub material: &'static str,
+    pub material: String,
     /// The materials that it can be drawn with, by name.
     pub materials: Vec<String>,
     /// Whether the index depends on the wavelength.
@@ -83,10 +90,11 @@ pub struct ProgramPair {
 }
 
 /// The methods that a row may be drawn by.
-pub fn methods_of(row: &RenderRow) -> Vec<&'static Method> {
-    let describes = |method: &&Method| match row.is_transparent() {
-        true => method.class != Class::Metal,
-        false => method.class == Class::Any,
+pub fn methods_of(row: &'static RenderRow) -> Vec<&'static Method> {
+    let describes = |method: &&Method| match (row.film, row.is_transparent()) {
+        (Some(_), _) => method.keeps_inputs(),
+        (None, true) => !method.keeps_inputs() && method.class != Class::Metal,
+        (None, false) => method.class == Class::Any,
     };
     shown_methods().filter(describes).collect()
 }
@@ -103,10 +111,7 @@ impl GalleryRow {
     ) -> Result<GalleryRow, LoweringFault> {
         let orbit = Orbit::of(row, orbits);
         let passes = passes_of(row, &orbits[orbit]);
-        let takes = |subject: &&MaterialInMedium| {
-            row.is_transparent() == (subject.material.kind == MaterialKind::Dielectric)
-        };
-        let materials = subjects.iter().filter(takes);
+        let materials = subjects.iter().filter(|subject| takes(row, subject));
         // Each method has its own version of a function that needs R. The usual one stands in the programs only where a pass calls it.
         let (mut text, mut names, mut functions) = (String::new(), Vec::new(), Vec::new());
         for function in RowText::usual(row).common_functions()? {
@@ -133,13 +138,22 @@ impl GalleryRow {
             name: row.name,
             summary: row.summary,
             wrong: row.wrong,
-            exact: if row.is_transparent() {
-                "dielectric_exact"
-            } else {
-                "conductor_exact"
+            exact: match (row.film, row.is_transparent()) {
+                (Some(_), _) => "film_spectral_six",
+                (None, true) => "dielectric_exact",
+                (None, false) => "conductor_exact",
             },
+            exact_is: match row.film {
+                Some(_) => "the exact law at six wavelengths",
+                None => "the exact law",
+            },
+            transparent: row.is_transparent(),
+            film: row.film.is_some(),
             method: row.method,
-            material: row.material,
+            material: match row.film {
+                Some(_) => own_subject(row).name,
+                None => row.material.to_owned(),
+            },
             materials: materials.map(|one| one.name.clone()).collect(),
             disperses: row.disperses,
             programs: programs?,
@@ -161,6 +175,47 @@ impl GalleryRow {
         let called = self.calls.iter().flat_map(|calls| &calls.functions);
         called.chain(&self.functions).cloned().collect()
     }
+}
+
+/// Whether a row can show a material. A film that hangs free lies on nothing.
+fn takes(row: &'static RenderRow, subject: &MaterialInMedium) -> bool {
+    let is_dielectric = subject.material.kind == MaterialKind::Dielectric;
+    if row.film.is_none() {
+        return !subject.has_films() && row.is_transparent() == is_dielectric;
+    }
+    let is_free = subject.effective.channels.n == [1.0; 3];
+    row.is_transparent() == is_free && subject.is_described_by(RowText::usual(row).method)
+}
+
+/// Whether a row shows this material.
+pub fn is_shown(subject: &MaterialInMedium) -> bool {
+    rows().iter().any(|row| takes(row, subject))
+}
+
+/// The films of a page: those of rows, and each stack that has a name, as far as a row shows it.
+pub fn films() -> Vec<MaterialInMedium> {
+    let rows = rows().into_iter().filter(|row| row.film.is_some());
+    let stacks = materials::stacks().into_iter();
+    let stacks = stacks.map(|name| Source::Named(name.to_owned()));
+    let mut films = subjects(rows.map(RenderRow::source).chain(stacks).collect());
+    films.retain(is_shown);
+    films
+}
+
+/// A row's own material under its own film.
+pub fn own_subject(row: &RenderRow) -> MaterialInMedium {
+    subjects(vec![row.source()]).remove(0)
+}
+
+fn subjects(sources: Vec<Source>) -> Vec<MaterialInMedium> {
+    let request = Request {
+        materials: Materials::These(sources),
+        ..Request::default()
+    };
+    let found = request
+        .subjects()
+        .expect("what this program names is known");
+    found.materials()
 }
 
 /// The initial roughness.

@@ -12,8 +12,10 @@ use super::text::INPUTS;
 pub const INDEX_AT: usize = 36;
 /// Where absorption begins.
 pub const ABSORPTION_AT: usize = 88;
+/// Where the film's thickness stands, in nanometres.
+pub const FILM_AT: usize = 92;
 /// Where the method's inputs begin.
-pub const INPUTS_AT: usize = 92;
+pub const INPUTS_AT: usize = 96;
 
 /// The block of a pass, from its view, the eye's camera, the pixels a side of the picture, the body's size and material, and the
 /// inputs of the method.
@@ -39,6 +41,7 @@ pub fn frame(
         numbers.extend(matrix(view.camera(eye, side).view_projection));
     }
     numbers.extend(four(material.absorption(), 0.0));
+    numbers.extend([material.film_nm as f32, 0.0, 0.0, 0.0]);
     numbers.extend(inputs.concat());
     numbers
 }
@@ -230,6 +233,7 @@ mod tests {
         let camera = Camera::around(DVec3::new(1.0, 2.0, 3.0), 1.0);
         let mut material = OpticalMaterial::of_index(1.5);
         material.k = DVec3::splat(0.25);
+        material.film_nm = 150.0;
         let block = frame(
             (View::Eye, &camera, 100),
             1.0,
@@ -242,6 +246,7 @@ mod tests {
         );
         let absorption = material.absorption().to_array().map(|value| value as f32);
         assert_eq!(block[ABSORPTION_AT..ABSORPTION_AT + 3], absorption);
+        assert_eq!(block[FILM_AT], 150.0);
         assert_eq!(block[INPUTS_AT..], [7.0; 4 * INPUTS]);
     }
 

@@ -28,7 +28,8 @@ pub use caustics::{
 pub use draw::{Scenery, draw};
 pub use environment::{Environment, sky};
 pub use frame::{
-    ABSORPTION_AT, BACK, Camera, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
+    ABSORPTION_AT, BACK, Camera, FILM_AT, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS,
+    PIXEL_AT, frame,
 };
 pub use light::{Around, Paths};
 pub use light_file::is_deep;

@@ -18,6 +18,7 @@ use super::text::RowText;
 use super::trace::{Things, trace};
 use crate::lab::fault::Fault;
 use crate::lab::gpu::Device;
+use crate::language::methods::Values;
 use crate::physics::spectra::{Space, ciede2000, xyz_to_lab};
 
 /// What is asked of a picture.
@@ -29,6 +30,8 @@ pub struct PictureRequest<'a> {
     pub material: &'a OpticalMaterial,
     /// The material's name.
     pub material_name: &'a str,
+    /// The values of the method's inputs where they are not those of an index: under a film.
+    pub values: Option<&'a Values>,
     /// The surroundings.
     pub environment: &'a Environment,
     /// Whether the effect is drawn with the environment clamped to white, as in an 8-bit picture.
@@ -63,6 +66,8 @@ pub struct RenderedRow {
     pub material: String,
     /// The index that the passes take for green.
     pub n: f64,
+    /// The thickness of the film in nanometres where it is thickest, at the body's bottom.
+    pub film_nm: Option<f64>,
     /// Pixels a side.
     pub size: u32,
     /// Samples in a pixel.
@@ -136,7 +141,11 @@ pub fn render(
     let clamped = request.is_ldr.then(|| request.environment.clamped());
     let environment = clamped.as_ref().unwrap_or(request.environment);
     let text = RowText::usual(row);
-    let by = (&text, text.inputs_for(things.material));
+    let inputs = match request.values {
+        Some(values) => text.inputs(values),
+        None => text.inputs_for(things.material),
+    };
+    let by = (&text, inputs);
     let samples = draw(device, by, &Scenery::of(things, environment), &camera, side)?;
     let mut hear = |done, whole| progress(done, whole, "tracing rays");
     let paths = [row.true_paths, row.own_paths];
@@ -225,6 +234,7 @@ fn rendered_row(
         body: row.body.name(),
         material: request.material_name.to_owned(),
         n: request.material.n.y,
+        film_nm: row.film.map(|_| request.material.film_nm),
         size: request.size,
         samples: SAMPLES * SAMPLES,
         metric: METRIC,

@@ -3,7 +3,9 @@
 use super::body::Body;
 use super::light::Paths;
 use super::texels::Slot;
+use crate::generator::request::Source;
 use crate::lab::gpu::Depth;
+use crate::physics::materials::film_of_word;
 
 /// The sky behind everything.
 pub const SKY: PassRow = PassRow {
@@ -94,6 +96,7 @@ const BALL: RenderRow = RenderRow {
     passes: &[SKY, FRONT],
     body: Body::Ball,
     material: "bk7",
+    film: None,
     disperses: false,
     own_paths: Paths::TwoSurfaces,
     true_paths: Paths::All,
@@ -249,6 +252,34 @@ pub static ALL: &[RenderRow] = &[
         ..METAL
     },
     RenderRow {
+        name: "thin_film",
+        summary: "A ball of titanium, anodised: no oxide at its top, 150 nm at its bottom",
+        method: "film_spectral_three",
+        text: concat!(
+            include_str!("passes/film.wgsl"),
+            include_str!("passes/thin_film.wgsl")
+        ),
+        material: "titanium",
+        film: Some("titanium_dioxide:150nm"),
+        wrong: "three wavelengths stand for the spectrum",
+        ..METAL
+    },
+    RenderRow {
+        name: "soap_film",
+        summary: "A soap bubble that has drained: no water at its top, 800 nm at its bottom",
+        method: "film_spectral_six",
+        text: concat!(
+            include_str!("passes/film.wgsl"),
+            include_str!("passes/soap_film.wgsl")
+        ),
+        material: "air",
+        film: Some("water:800nm"),
+        disperses: true,
+        own_paths: Paths::All,
+        wrong: "light that is reflected inside more than once, near the rim; six wavelengths stand for the spectrum",
+        ..BALL
+    },
+    RenderRow {
         name: "water",
         summary: "A pool with waves: a mirrored and clipped picture, and a masked one of what lies below",
         effects: &["interface", "interior", "water", "normal_mapping"],
@@ -300,6 +331,8 @@ pub struct RenderRow {
     pub body: Body,
     /// The material's name in the catalogue.
     pub material: &'static str,
+    /// The film on it, as `--film` names it: gone at the body's top, of this thickness at its bottom.
+    pub film: Option<&'static str>,
     /// Whether the index depends on the wavelength.
     pub disperses: bool,
     /// The paths that the effect follows.
@@ -394,6 +427,16 @@ impl RenderRow {
     /// Whether the environment is visible.
     pub fn is_under_the_sky(&self) -> bool {
         !self.in_room && self.receiver.is_none()
+    }
+
+    /// Its own material, under its film.
+    pub fn source(&self) -> Source {
+        let named = |name: &str| Source::Named(name.to_owned());
+        let film = self.film.map(|word| {
+            let (name, thickness_nm) = film_of_word(word).expect("a row's film has a thickness");
+            (named(name), thickness_nm)
+        });
+        named(self.material).under_films(film.into_iter().collect())
     }
 
     /// Whether light passes through the body.

@@ -1,12 +1,13 @@
 //! The shader text of a row: the functions that users import, the calls of its method, the frame, and the row's own passes.
 //!
-//! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs. The
-//! values of the inputs stand in the frame's block, so one text serves every material.
+//! Passes know no method. They call `reflectance` and `transmittance_out`, or `film_reflectance` under a film, whose text is made here
+//! from the method's inputs. The values of the inputs stand in the frame's block, so one text serves every material.
 
 use super::material::OpticalMaterial;
 use super::table::RenderRow;
 use crate::generator::emit::{
     self, EffectRequest, EmittedFunction, FunctionForm, Naming, effect_function_text,
+    library_functions,
 };
 use crate::generator::fit::values;
 use crate::generator::reference::Derivation;
@@ -17,7 +18,7 @@ use crate::language::targets;
 use crate::physics::materials::Channels;
 
 /// The most inputs that the frame's block has room for.
-pub const INPUTS: usize = 8;
+pub const INPUTS: usize = 16;
 
 /// The declarations that every pass sees.
 pub const FRAME: &str = include_str!("passes/frame.wgsl");
@@ -96,6 +97,9 @@ impl RowText {
     /// # Errors
     /// A graph breaks a rule: a bug.
     pub fn called_functions(&self) -> Result<Vec<EmittedFunction>, emit::Error> {
+        if self.row.film.is_some() {
+            return library_functions(self.method, &Naming::default());
+        }
         let mut called = vec![self.surface_function("interface")?];
         if self.leaves_a_body() {
             called.push(self.exit_function()?);
@@ -149,6 +153,9 @@ impl RowText {
     /// A graph breaks a rule: a bug.
     pub fn calls(&self, syntax: &CallSyntax) -> Result<String, emit::Error> {
         let CallSyntax { scalar, vector, .. } = *syntax;
+        if self.row.film.is_some() {
+            return self.film_call(syntax);
+        }
         let rays = [("incident", vector), ("normal", vector)];
         let head = syntax.head("reflectance", &rays, vector);
         let call = self.call(syntax, "interface", &rays)?;
@@ -171,6 +178,25 @@ impl RowText {
             text += &format!("\n{head} {{\n    return {call};\n}}\n");
         }
         Ok(text)
+    }
+
+    /// The text of `film_reflectance`: the method's library function with the pixel's cosine and thickness.
+    fn film_call(&self, syntax: &CallSyntax) -> Result<String, emit::Error> {
+        let scalar = syntax.scalar;
+        let takes = [("cos_theta", scalar), ("thickness_nm", scalar)];
+        let head = syntax.head("film_reflectance", &takes, syntax.vector);
+        let input = |(place, input): (usize, &Input)| match input.is_kept() {
+            true => input.name.to_owned(),
+            false => self.argument(syntax.frame, place, input),
+        };
+        let inputs = self.method.inputs.iter().enumerate().map(input);
+        let arguments: Vec<String> = ["cos_theta".to_owned()].into_iter().chain(inputs).collect();
+        let function = &self.called_functions()?[0].name;
+        Ok(format!(
+            "\n// R by {}\n{head} {{\n    return {function}({});\n}}\n",
+            self.method.name,
+            arguments.join(", ")
+        ))
     }
 
     /// The call of an effect's function that needs R: its own arguments, then the method's inputs. Where it returns one value, that
@@ -202,7 +228,7 @@ impl RowText {
         let part = match input.ty {
             Ty::Scalar => "x",
             _ if self.is_scalar() => "y",
-            _ if self.row.is_transparent() => "yyy",
+            _ if self.row.is_transparent() && self.row.film.is_none() => "yyy",
             _ => "xyz",
         };
         format!("{frame}.inputs[{place}].{part}")
@@ -280,8 +306,7 @@ mod tests {
 
     #[test]
     fn the_block_has_room_for_the_inputs_of_every_method() {
-        // Effects and pictures take no method of a film.
-        for method in methods::ALL.iter().filter(|method| !method.keeps_inputs()) {
+        for method in methods::ALL {
             assert!(method.inputs.len() <= INPUTS, "{}", method.name);
         }
     }

@@ -6,12 +6,11 @@ use glam::DVec3;
 use super::body::Body;
 use super::frame::Camera;
 use super::light::{Around, Paths, Traced, mirrored, refracted};
-use super::material::OpticalMaterial;
+use super::material::{OpticalMaterial, SpectralSample};
 use super::pool::POOL;
 use super::room::Relief;
 use super::window::WINDOW;
 use crate::physics::num::in_parallel;
-use crate::physics::optics;
 
 /// The contents of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +72,7 @@ impl Scene<'_> {
         let (distance, normal) = crossing.entry;
         let place = eye + distance * direction;
         let normal = self.dented(normal);
+        let share = self.film_share(place);
         let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
         let up = mirrored(direction, normal);
         let mirrored = self.things.around.radiance(place, up);
@@ -82,12 +82,12 @@ impl Scene<'_> {
         };
         let middle = self.things.material.samples.len() / 2;
         for (i, ray) in self.things.material.samples.iter().enumerate() {
-            let r = optics::conductor(ray.index.n, ray.index.k, cosine).unpolarised();
+            let r = ray.reflectance(cosine, share);
             let mut colours = [r * mirrored; 2];
             if self.paths != [Paths::Mirror; 2] {
                 let bent = refracted(direction, normal, ray.index.n);
                 let (inside, is_total) = bent.map_or(([DVec3::ZERO; 2], false), |inside| {
-                    self.inside(place, inside, ray.index.n)
+                    self.inside(place, inside, ray)
                 });
                 colours[0] += (1.0 - r) * inside[0];
                 colours[1] += (1.0 - r) * inside[1];
@@ -99,6 +99,11 @@ impl Scene<'_> {
         seen
     }
 
+    /// The share of the film's thickness at a place on the body.
+    fn film_share(&self, place: DVec3) -> f64 {
+        OpticalMaterial::share_at(place.y / self.things.body.radius())
+    }
+
     /// The normal, tilted by the dents.
     fn dented(&self, normal: DVec3) -> DVec3 {
         let relief = self.things.relief;
@@ -106,10 +111,10 @@ impl Scene<'_> {
     }
 
     /// The radiance along a ray inside by both kinds of paths, and whether it is first reflected totally.
-    fn inside(&self, place: DVec3, direction: DVec3, n: f64) -> ([DVec3; 2], bool) {
+    fn inside(&self, place: DVec3, direction: DVec3, ray: &SpectralSample) -> ([DVec3; 2], bool) {
         let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
         let (two, all, is_total) = if self.paths.iter().any(goes_on) {
-            self.beyond(place, direction, n)
+            self.beyond(place, direction, ray)
         } else {
             (DVec3::ZERO, DVec3::ZERO, false)
         };
@@ -124,7 +129,13 @@ impl Scene<'_> {
 
     /// The radiance through the second surface alone, the radiance by all paths, and whether the ray is reflected totally at the
     /// second surface.
-    fn beyond(&self, mut place: DVec3, mut direction: DVec3, n: f64) -> (DVec3, DVec3, bool) {
+    fn beyond(
+        &self,
+        mut place: DVec3,
+        mut direction: DVec3,
+        ray: &SpectralSample,
+    ) -> (DVec3, DVec3, bool) {
+        let n = ray.index.n;
         let (mut two, mut all, mut left, mut is_total) = (DVec3::ZERO, DVec3::ZERO, 1.0, false);
         for turn in 0..MOST_REFLECTIONS {
             let Some(crossing) = self.things.body.crossing(place, direction) else {
@@ -134,7 +145,7 @@ impl Scene<'_> {
             let normal = self.dented(smooth);
             place += distance * direction;
             let cosine = direction.dot(normal).clamp(0.0, 1.0);
-            let r = optics::dielectric(1.0 / n, cosine).unpolarised();
+            let r = ray.reflectance_inside(cosine, self.film_share(place));
             let out = refracted(direction, -normal, 1.0 / n);
             let bounced = mirrored(direction, normal);
             // Where a dent would send the ray out of the body, the smooth surface keeps it inside.

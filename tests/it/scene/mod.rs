@@ -79,6 +79,7 @@ fn pictured_row(
         row,
         material: glass,
         material_name: "a test",
+        values: None,
         environment,
         is_ldr,
         size,

@@ -17,8 +17,10 @@ struct Frame {
     mirrored: mat4x4<f32>,
     // of the body's material, of red, green and blue, per unit of length; w: its roughness
     absorption: vec4<f32>,
+    // x: the film's thickness in nanometres where it is thickest
+    film: vec4<f32>,
     // of the method, in its order
-    inputs: array<vec4<f32>, 8>,
+    inputs: array<vec4<f32>, 16>,
 }
 
 struct Surface {
