@@ -10,7 +10,7 @@ use super::physics::films::filmed;
 use super::readme::replaced;
 use fresnel_gen::generator::fit::{model_error, values_for_material};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
-use fresnel_gen::lab::chart::{ChartData, FunctionOrigin, chart_data};
+use fresnel_gen::lab::chart::{ChartData, ChartView, FunctionOrigin, chart_data};
 use fresnel_gen::lab::cost::{CostFigures, FunctionId, records};
 use fresnel_gen::lab::verify::cosines;
 use fresnel_gen::language::ir::{Value, evaluate};
@@ -22,6 +22,7 @@ use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::num::statistics::quantile;
 use fresnel_gen::physics::optics::cosine;
 use fresnel_gen::physics::spectra::{Gamut, Space, Step, xyz_to_lab};
+use fresnel_gen::pictures::frontier::chart_svg;
 use glam::DVec3;
 
 fn surface(material: &Material, step: Step) -> Surface {
@@ -317,18 +318,17 @@ fn cost(method: &'static Method) -> String {
     )
 }
 
-fn films_table() -> String {
-    let both = ["sample", "outside"].map(|set| {
+/// The films of the sample and those outside, each with its chart.
+fn charted() -> [(Vec<MaterialInMedium>, ChartData); 2] {
+    ["sample", "outside"].map(|set| {
         let subjects = films(set);
-        let data = chart_data(
-            &subjects,
-            Space::Srgb,
-            None,
-            String::new(),
-            &mut |_, _, _| (),
-        );
+        let (command, mut quiet) = (String::new(), |_: u64, _: u64, _: &str| ());
+        let data = chart_data(&subjects, Space::Srgb, None, command, &mut quiet);
         (subjects, data)
-    });
+    })
+}
+
+fn films_table(both: &[(Vec<MaterialInMedium>, ChartData); 2]) -> String {
     let mut table = "| function | cost on RDNA 2 | films | median | 90th percentile | worst | films that had no part in a choice: number, median, 90th |\n\
                      |---|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
@@ -377,11 +377,27 @@ fn stacks_table() -> String {
     table
 }
 
+/// The chart that the page begins with: the median of the films against the cost on RDNA 2.
+fn films_chart(data: &ChartData) -> String {
+    let set = data.sets.iter().find(|set| set.name == "films-median");
+    let cost = data.costs.iter().find(|cost| cost.name == "rdna2");
+    let view = ChartView {
+        data,
+        set: set.unwrap(),
+        cost: cost.unwrap(),
+        error: 0,
+    };
+    chart_svg(&view).unwrap()
+}
+
 #[test]
 fn the_page_says_what_is_measured() {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/films.md"));
     let text = fs::read_to_string(path).unwrap();
-    let text = replaced(&text, "films", &films_table());
+    let both = charted();
+    let chart = path.with_extension("svg");
+    bless::check(&chart, films_chart(&both[0].1).as_bytes());
+    let text = replaced(&text, "films", &films_table(&both));
     let text = replaced(&text, "stacks", &stacks_table());
     bless::check(path, text.as_bytes());
 }

@@ -6,9 +6,12 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
+use crate::physics::films::filmed;
 use crate::tables::stability::stability_document;
-use fresnel_gen::lab::stability::{Failure, StabilityRow, scan};
+use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
+use fresnel_gen::lab::stability::{Cell, Failure, Map, StabilityRow, film_map, scan};
 use fresnel_gen::language::methods::{self, Class, Contract, MediaSet, Method};
+use fresnel_gen::physics::materials::ViewingConditions;
 use fresnel_gen::physics::num::Precision;
 use fresnel_gen::physics::records;
 
@@ -58,6 +61,89 @@ fn the_maps_of_the_document_are_what_is_drawn() {
         let map = maps.iter().find(|map| map.axis.name == over).unwrap();
         let picture = png(&heat_map(method, map), 1.0).unwrap();
         super::bless::check(&at(&format!("docs/{method}_{over}.png")), &picture);
+    }
+}
+
+/// The maps of films in `docs/films.md`: the method, the material and its film, and the picture.
+const FILM_MAPS: [(&str, &str, &str, &str); 3] = [
+    (
+        "iridescence_khr",
+        "titanium_dioxide:400nm",
+        "titanium",
+        "iridescence_khr_on_titanium",
+    ),
+    (
+        "iridescence_khr",
+        "1.38:400nm",
+        "bk7",
+        "iridescence_khr_on_glass",
+    ),
+    (
+        "film_spectral_six",
+        "titanium_dioxide:400nm",
+        "titanium",
+        "film_spectral_six_on_titanium",
+    ),
+];
+
+fn film_maps() -> [Map; 3] {
+    FILM_MAPS.map(|(method, film, base, _)| {
+        let material = filmed(film, base);
+        let typed = (material.name.clone(), material);
+        let viewing = ViewingConditions::default();
+        let subject = MaterialInMedium::new(typed, None, &viewing, Derivation::default()).unwrap();
+        film_map(methods::find(method).unwrap(), &subject, Precision::F32).unwrap()
+    })
+}
+
+/// KHR_materials_iridescence has one real index for a metal, so it is wrong there at nearly every thickness, and beyond 1 near grazing.
+/// On glass it leaves the law where Schlick's approximation does. The sum over six wavelengths is a reflectance everywhere.
+#[test]
+fn maps_over_thickness_show_where_films_fail() {
+    use fresnel_gen::physics::num::statistics::quantile;
+    let [on_titanium, on_glass, six] = film_maps();
+    let errors = |map: &Map, degrees: [usize; 2]| -> Vec<f64> {
+        let is_there = |(i, _): &(usize, &Cell)| (degrees[0]..=degrees[1]).contains(&(i % 91));
+        let cells = map.cells.iter().enumerate().filter(is_there);
+        cells.map(|(_, cell)| cell.error).collect()
+    };
+    let most = |map: &Map, degrees| errors(map, degrees).into_iter().fold(0.0, f64::max);
+    assert!(quantile(&errors(&on_titanium, [0, 60]), 0.5) > 0.1);
+    let broken = |map: &Map| -> Vec<usize> {
+        let cells = map.cells.iter().enumerate();
+        cells
+            .filter(|(_, cell)| cell.is_broken)
+            .map(|(i, _)| i % 91)
+            .collect()
+    };
+    let beyond = broken(&on_titanium);
+    assert!(
+        beyond.len() > 50 && beyond.iter().all(|degree| *degree > 70),
+        "{beyond:?}"
+    );
+    let (head_on, grazing) = (most(&on_glass, [0, 0]), most(&on_glass, [75, 85]));
+    println!("on glass {head_on:.4} head-on, {grazing:.4} from 75 to 85 degrees");
+    assert!(
+        head_on < 0.005 && (0.05..0.1).contains(&grazing),
+        "{head_on} {grazing}"
+    );
+    let (whole, bare) = (
+        most(&six, [0, 85]),
+        six.cells[..86].iter().map(|cell| cell.error),
+    );
+    let bare = bare.fold(0.0, f64::max);
+    println!("six wavelengths {whole:.4}, without a film {bare:.4}");
+    assert!(broken(&six).is_empty());
+    assert!(whole < 0.1 && bare < 0.01, "{whole} {bare}");
+}
+
+#[test]
+fn the_maps_of_films_are_what_is_drawn() {
+    use fresnel_gen::pictures::png::png;
+    use fresnel_gen::pictures::stability_map::heat_map;
+    for (map, (method, .., file)) in film_maps().iter().zip(FILM_MAPS) {
+        let picture = png(&heat_map(method, map), 1.0).unwrap();
+        super::bless::check(&at(&format!("docs/{file}.png")), &picture);
     }
 }
 

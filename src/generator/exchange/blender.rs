@@ -5,8 +5,12 @@
 //! F82-tint with Base Color as F0 and Specular Tint as the tint, a dielectric is the exact law of IOR. Metallic BSDF (4.3 and
 //! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE uses lookup tables for
 //! both, so its F only approximates that of Cycles: for dielectrics it is Schlick's. Roughness is .5 by default.
+//!
+//! Thin Film Thickness (nm) and Thin Film IOR belong to dielectrics of the Principled BSDF from 4.2 on, and from 5.0 on to metals and to the
+//! Metallic BSDF too, whose Physical Conductor takes n and k. Before 5.0 a metal has the film's colours.
 
-use super::engine_material::{Body, EngineMaterial};
+use super::cycles_film::{CyclesBase, CyclesFilm};
+use super::engine_material::{Body, EngineFilm, EngineMaterial};
 use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet, capped_tint};
@@ -15,20 +19,26 @@ use crate::physics::spectra::Space;
 /// The names of the nodes in reports, with how Python finds or makes them.
 const PRINCIPLED: &str = "Principled BSDF";
 const METALLIC: &str = "Metallic BSDF";
+/// The same of a metal under a film.
+const FILMED: &str = "Principled BSDF with Thin Film";
+const FILMED_CONDUCTOR: &str = "Metallic BSDF with Thin Film";
 
 /// The record of this format.
 pub static FORMAT: Format = Format {
     name: "blender",
     summary: "Python for Blender 4.3 and later: inputs of Principled BSDF and Metallic BSDF",
     spaces: &Space::ALL,
-    has_film: false,
+    has_film: true,
     sheet,
     text,
 };
 
 fn sheet(material: &EngineMaterial) -> Sheet {
     match material.body {
-        Body::Conductor => metal(material),
+        Body::Conductor => match material.film {
+            Some(film) => filmed_metal(material, &film),
+            None => metal(material),
+        },
         Body::Dielectric { ior, is_clear, .. } => {
             let mut fields = vec![
                 Field::number("Metallic", 0.0),
@@ -40,7 +50,15 @@ fn sheet(material: &EngineMaterial) -> Sheet {
                 fields.push(Field::colour("Base Color", [1.0; 3]));
                 fields.push(Field::number("Transmission Weight", 1.0));
             }
-            let node = Node::new(PRINCIPLED, fields, Model::dielectric(ior));
+            let model = match material.film {
+                None => Model::dielectric(ior),
+                Some(film) => {
+                    fields.extend(thin_film(&film));
+                    let words = "Airy's series of the film, as Cycles has it";
+                    Model::cycles_film(words, on(&film, CyclesBase::Dielectric(ior)))
+                }
+            };
+            let node = Node::new(PRINCIPLED, fields, model);
             Sheet {
                 nodes: vec![node],
                 remarks: Vec::new(),
@@ -78,20 +96,99 @@ fn metal(material: &EngineMaterial) -> Sheet {
     }
 }
 
+/// A metal under a film: with the film's colours, with the film on the bare metal's colours, and with the film on its n and k.
+fn filmed_metal(material: &EngineMaterial, film: &EngineFilm) -> Sheet {
+    let mut sheet = metal(material);
+    sheet.nodes.retain(|node| node.name == PRINCIPLED);
+    let tint = film.tint.map(|tint| tint.min(1.0));
+    let coloured = vec![
+        Field::colour("Base Color", film.f0),
+        Field::number("Metallic", 1.0),
+        Field::number("Roughness", 0.0),
+        Field::colour("Specular Tint", tint),
+    ];
+    let conductor = vec![
+        Field::channels("IOR", film.n),
+        Field::channels("Extinction", film.k),
+        Field::number("Roughness", 0.0),
+    ];
+    let tinted = on(film, CyclesBase::Tinted(film.f0, tint));
+    let exact = on(film, CyclesBase::Conductor(film.n, film.k));
+    let node = |name, fields: Vec<Field>, words, cycles| {
+        let fields = [fields, thin_film(film).to_vec()].concat();
+        Node::new(name, fields, Model::cycles_film(words, cycles))
+    };
+    sheet.nodes.extend([
+        node(
+            FILMED,
+            coloured,
+            "Airy's series of the film on F82-tint, as Cycles has it",
+            tinted,
+        ),
+        node(
+            FILMED_CONDUCTOR,
+            conductor,
+            "Airy's series of the film on n and k, as Cycles has it",
+            exact,
+        ),
+    ]);
+    sheet.remarks.push(
+        "films on metals want Blender 5.0: before it the script sets the film's colours".to_owned(),
+    );
+    sheet
+}
+
+fn on(film: &EngineFilm, base: CyclesBase) -> CyclesFilm {
+    CyclesFilm {
+        ior: film.ior,
+        thickness_nm: film.thickness_nm,
+        base,
+    }
+}
+
+fn thin_film(film: &EngineFilm) -> [Field; 2] {
+    [
+        Field::number("Thin Film Thickness", film.thickness_nm),
+        Field::number("Thin Film IOR", film.ior),
+    ]
+}
+
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let mut text = format::comments("#", &FORMAT, material, notes);
     text += &format!(
         "import bpy\n\nmaterial = bpy.data.materials.new(\"{}\")\nmaterial.use_fake_user = True  # it is saved, though no object has it yet\nif not material.node_tree:\n    material.use_nodes = True\nnodes = material.node_tree.nodes\n",
         material.subject.name
     );
+    let has_both = sheet.nodes.iter().any(|node| node.name == FILMED);
     for node in &sheet.nodes {
-        text += match node.name {
-            METALLIC => {
-                "\n# Connect its BSDF to the Surface of the output in place of the Principled BSDF.\nnode = nodes.new(\"ShaderNodeBsdfMetallic\")\nnode.fresnel_type = \"F82\"\n"
-            }
-            _ => "\nnode = next(node for node in nodes if node.type == \"BSDF_PRINCIPLED\")\n",
+        // Of a metal under a film the version decides.
+        let (head, indent) = match (node.name, has_both) {
+            (_, false) => ("", ""),
+            (PRINCIPLED, true) => ("\nif bpy.app.version < (5, 0, 0):", "    "),
+            (FILMED, true) => ("\nelse:", "    "),
+            (_, true) => ("", "    "),
         };
-        text.extend(node.fields.iter().map(line));
+        text += head;
+        let found: &[&str] = match node.name {
+            METALLIC | FILMED_CONDUCTOR => &[
+                "",
+                "# Connect its BSDF to the Surface of the output in place of the Principled BSDF.",
+                "node = nodes.new(\"ShaderNodeBsdfMetallic\")",
+                match node.name {
+                    METALLIC => "node.fresnel_type = \"F82\"",
+                    _ => "node.fresnel_type = \"PHYSICAL_CONDUCTOR\"",
+                },
+            ],
+            _ => &[
+                "",
+                "node = next(node for node in nodes if node.type == \"BSDF_PRINCIPLED\")",
+            ],
+        };
+        let fields = node.fields.iter().map(line);
+        for line in found.iter().map(|line| (*line).to_owned()).chain(fields) {
+            let indent = if line.is_empty() { "" } else { indent };
+            text += &format!("{indent}{line}\n");
+        }
     }
     text
 }
@@ -103,5 +200,5 @@ fn line(field: &Field) -> String {
         FieldValue::Channels(_) | FieldValue::Both(_) => format!("({numbers})"),
         FieldValue::Number(_) | FieldValue::Whole(_) => numbers,
     };
-    format!("node.inputs[\"{}\"].default_value = {value}\n", field.name)
+    format!("node.inputs[\"{}\"].default_value = {value}", field.name)
 }

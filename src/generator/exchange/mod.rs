@@ -5,11 +5,13 @@
 //!
 //! To add a format, write its file with a `pub static FORMAT: Format`, and run `tests/lists`.
 
+mod cycles_film;
 mod engine_material;
 mod format;
 mod model;
 mod sheet;
 
+pub use cycles_film::{CyclesBase, CyclesFilm};
 pub use engine_material::{EngineMaterial, ExchangeFault};
 pub use format::Format;
 

@@ -2,20 +2,28 @@
 
 use serde::Serialize;
 
+use super::cycles_film::CyclesFilm;
 use super::engine_material::{EngineFilm, EngineMaterial};
 use crate::generator::fit::{error_of, rounded_up, values_at};
-use crate::language::ir::Checked;
+use crate::language::ir::{Column, Value};
 use crate::language::methods::{self, Method, Values};
+use crate::physics::num::each_channel;
 
-/// One of our methods with the numbers that a format gives to it.
+/// What a node of a format computes.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// What the format computes, in words.
     pub words: &'static str,
-    /// The method that is the same formula.
-    pub method: &'static Method,
-    /// The values of its inputs. A scalar input uses the first number.
-    pub values: Values,
+    /// Its formula, with the numbers that the format gives to it.
+    formula: Formula,
+}
+
+#[derive(Clone, Debug)]
+enum Formula {
+    /// That of one of our methods, with the values of its inputs. A scalar input uses the first number.
+    Method(&'static Method, Values),
+    /// A film as Cycles has it.
+    CyclesFilm(CyclesFilm),
 }
 
 /// The error of a node against the spectrum.
@@ -47,10 +55,18 @@ pub struct CoatedError {
 impl Model {
     fn new(words: &'static str, method: &str, values: &[(&str, [f64; 3])]) -> Model {
         let values = values.iter().map(|(name, value)| ((*name).into(), *value));
+        let method = methods::find(method).expect("a test finds every model");
         Model {
             words,
-            method: methods::find(method).expect("a test finds every model"),
-            values: values.collect(),
+            formula: Formula::Method(method, values.collect()),
+        }
+    }
+
+    /// A film as Cycles has it.
+    pub fn cycles_film(words: &'static str, film: CyclesFilm) -> Model {
+        Model {
+            words,
+            formula: Formula::CyclesFilm(film),
         }
     }
 
@@ -99,9 +115,7 @@ impl Model {
 
     /// Its largest error for a material, and the angle in degrees.
     pub fn error(&self, material: &EngineMaterial) -> (f64, f64) {
-        let function = self.function();
-        let run = |cosines: &[f64]| values_at(&function, self.method.inputs, &self.values, cosines);
-        let error = error_of(&material.subject.reference, &run);
+        let error = error_of(&material.subject.reference, &self.curve());
         (error.max_abs, libm::acos(error.worst_cos).to_degrees())
     }
 
@@ -113,7 +127,7 @@ impl Model {
             .map(|part| steepest * part as f64 / PARTS as f64)
             .collect();
         let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
-        let given = values_at(&self.function(), self.method.inputs, &self.values, &cosines);
+        let given = self.curve()(&cosines);
         let off = |part: usize| {
             let (given, want) = (given.at(part), material.subject.reference.at(cosines[part]));
             (0..3)
@@ -132,9 +146,20 @@ impl Model {
         }
     }
 
-    fn function(&self) -> Checked {
-        let function = self.method.function(false);
-        function.expect("a test builds every method")
+    /// What it computes at cosines.
+    fn curve(&self) -> Box<dyn Fn(&[f64]) -> Value<f64> + '_> {
+        match &self.formula {
+            Formula::Method(method, values) => {
+                let function = method.function(false);
+                let function = function.expect("a test builds every method");
+                Box::new(move |cosines| values_at(&function, method.inputs, values, cosines))
+            }
+            Formula::CyclesFilm(film) => Box::new(|cosines| {
+                let all: Vec<[f64; 3]> = cosines.iter().map(|c| film.at(*c)).collect();
+                let channel = |i: usize| Column::Each(all.iter().map(|rgb| rgb[i]).collect());
+                Value::Rgb(each_channel(channel))
+            }),
+        }
     }
 }
 

@@ -171,7 +171,7 @@ pub fn film_map(
     };
     Ok(Map {
         cells: in_parallel(axis.values.len(), &row, &mut |_, _| {}).concat(),
-        held: format!("{}; thickness in nm", subject.name),
+        held: subject.name.clone(),
         axis,
         precision,
         degrees,

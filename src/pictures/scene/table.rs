@@ -254,6 +254,7 @@ pub static ALL: &[RenderRow] = &[
     RenderRow {
         name: "thin_film",
         summary: "A ball of titanium, anodised: no oxide at its top, 150 nm at its bottom",
+        effects: &["interface"],
         method: "film_spectral_three",
         text: concat!(
             include_str!("passes/film.wgsl"),
@@ -267,6 +268,7 @@ pub static ALL: &[RenderRow] = &[
     RenderRow {
         name: "soap_film",
         summary: "A soap bubble that has drained: no water at its top, 800 nm at its bottom",
+        effects: &["interface"],
         method: "film_spectral_six",
         text: concat!(
             include_str!("passes/film.wgsl"),

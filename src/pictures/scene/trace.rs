@@ -80,21 +80,24 @@ impl Scene<'_> {
             is_body: true,
             ..Traced::default()
         };
-        let middle = self.things.material.samples.len() / 2;
-        for (i, ray) in self.things.material.samples.iter().enumerate() {
-            let r = ray.reflectance(cosine, share);
-            let mut colours = [r * mirrored; 2];
+        let samples = &self.things.material.samples;
+        let middle = samples[samples.len() / 2].index.n;
+        // Rays of one index take one way.
+        for rays in samples.chunk_by(|one, next| one.index.n == next.index.n) {
+            let r = |ray: &SpectralSample| ray.reflectance(cosine, share);
+            let mirrored_share: DVec3 = rays.iter().map(|ray| ray.weight * r(ray)).sum();
+            let mut colours = [mirrored_share * mirrored; 2];
             if self.paths != [Paths::Mirror; 2] {
-                let bent = refracted(direction, normal, ray.index.n);
-                let (inside, is_total) = bent.map_or(([DVec3::ZERO; 2], false), |inside| {
-                    self.inside(place, inside, ray)
-                });
-                colours[0] += (1.0 - r) * inside[0];
-                colours[1] += (1.0 - r) * inside[1];
-                seen.is_total |= i == middle && is_total;
+                let n = rays[0].index.n;
+                if let Some(inside) = refracted(direction, normal, n) {
+                    let entered = rays.iter().map(|ray| ray.weight * (1.0 - r(ray))).collect();
+                    let (inside, is_total) = self.inside(place, inside, rays, entered);
+                    colours = [0, 1].map(|path| colours[path] + inside[path]);
+                    seen.is_total |= n == middle && is_total;
+                }
             }
-            seen.colour += ray.weight * colours[0];
-            seen.own += ray.weight * colours[1];
+            seen.colour += colours[0];
+            seen.own += colours[1];
         }
         seen
     }
@@ -110,33 +113,42 @@ impl Scene<'_> {
         relief.map_or(normal, |relief| relief.on_ball(normal))
     }
 
-    /// The radiance along a ray inside by both kinds of paths, and whether it is first reflected totally.
-    fn inside(&self, place: DVec3, direction: DVec3, ray: &SpectralSample) -> ([DVec3; 2], bool) {
+    /// The radiance along rays of one index inside, of which these shares entered, by both kinds of paths, and whether they are first
+    /// reflected totally.
+    fn inside(
+        &self,
+        place: DVec3,
+        direction: DVec3,
+        rays: &[SpectralSample],
+        entered: Vec<DVec3>,
+    ) -> ([DVec3; 2], bool) {
+        let whole: DVec3 = entered.iter().sum();
         let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
         let (two, all, is_total) = if self.paths.iter().any(goes_on) {
-            self.beyond(place, direction, ray)
+            self.beyond(place, direction, rays, entered)
         } else {
             (DVec3::ZERO, DVec3::ZERO, false)
         };
         let by = |paths: Paths| match paths {
             Paths::All => all,
             Paths::TwoSurfaces => two,
-            Paths::OneSurface => self.things.around.radiance(place, direction),
+            Paths::OneSurface => whole * self.things.around.radiance(place, direction),
             Paths::Mirror => DVec3::ZERO,
         };
         (self.paths.map(by), is_total)
     }
 
-    /// The radiance through the second surface alone, the radiance by all paths, and whether the ray is reflected totally at the
-    /// second surface.
+    /// The radiance through the second surface alone, the radiance by all paths, and whether the rays are reflected totally at the
+    /// second surface. `left` is the share of each ray that is still inside.
     fn beyond(
         &self,
         mut place: DVec3,
         mut direction: DVec3,
-        ray: &SpectralSample,
+        rays: &[SpectralSample],
+        mut left: Vec<DVec3>,
     ) -> (DVec3, DVec3, bool) {
-        let n = ray.index.n;
-        let (mut two, mut all, mut left, mut is_total) = (DVec3::ZERO, DVec3::ZERO, 1.0, false);
+        let n = rays[0].index.n;
+        let (mut two, mut all, mut is_total) = (DVec3::ZERO, DVec3::ZERO, false);
         for turn in 0..MOST_REFLECTIONS {
             let Some(crossing) = self.things.body.crossing(place, direction) else {
                 break;
@@ -145,7 +157,7 @@ impl Scene<'_> {
             let normal = self.dented(smooth);
             place += distance * direction;
             let cosine = direction.dot(normal).clamp(0.0, 1.0);
-            let r = ray.reflectance_inside(cosine, self.film_share(place));
+            let share = self.film_share(place);
             let out = refracted(direction, -normal, 1.0 / n);
             let bounced = mirrored(direction, normal);
             // Where a dent would send the ray out of the body, the smooth surface keeps it inside.
@@ -154,18 +166,23 @@ impl Scene<'_> {
             } else {
                 mirrored(direction, smooth)
             };
+            let whole: DVec3 = left.iter().sum();
+            for (left, ray) in left.iter_mut().zip(rays) {
+                *left *= ray.reflectance_inside(cosine, share);
+            }
+            let kept: DVec3 = left.iter().sum();
             if let Some(out) = out {
-                all += left * (1.0 - r) * self.things.around.radiance(place, out);
+                all += (whole - kept) * self.things.around.radiance(place, out);
             }
             if turn == 0 {
                 is_total = out.is_none();
                 two = match out {
                     Some(_) => all,
-                    None => self.things.around.radiance(place, direction),
+                    None => whole * self.things.around.radiance(place, direction),
                 };
             }
-            left *= r;
-            if left < LEAST || !self.paths.contains(&Paths::All) {
+            let rest: DVec3 = left.iter().map(|left| left.abs()).sum();
+            if rest.max_element() < LEAST || !self.paths.contains(&Paths::All) {
                 break;
             }
         }

@@ -67,6 +67,15 @@
     await seen("rough");
     await step("roughness");
     await seen("rougher");
+    await choose("effect", "thin_film");
+    await seen("film");
+    await choose("film", String(Number($("film").max) / 3));
+    await seen("thinner");
+    await choose("method", "iridescence_khr");
+    await seen("by_khr");
+    await choose("material", "silica_on_silicon");
+    await seen("on_silicon");
+    await choose("effect", "ggx_specular");
     told.before = $("right").textContent;
     await step("magnification");
     told.after = $("right").textContent;

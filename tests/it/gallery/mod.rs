@@ -12,6 +12,7 @@ use crate::cli::Place;
 use fresnel_gen::Materials;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::generator::request::{Request, Source};
+use fresnel_gen::pictures::gallery::films;
 
 /// The materials of the page that tests look at: those of the rows, and one more metal.
 const MATERIALS: [&str; 7] = [
@@ -43,8 +44,6 @@ fn subjects() -> Vec<MaterialInMedium> {
         materials: Materials::These(named.into()),
         ..Request::default()
     };
-    request
-        .subjects()
-        .expect("they are of the catalogue")
-        .materials()
+    let found = request.subjects().expect("they are of the catalogue");
+    [found.materials(), films()].concat()
 }

@@ -8,7 +8,7 @@ use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::generator::reference::MaterialInMedium;
 use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{Device, Wanted};
-use fresnel_gen::pictures::gallery::{CUBE, as_stored, reduced_tables};
+use fresnel_gen::pictures::gallery::{CUBE, as_stored, own_subject, reduced_tables};
 use fresnel_gen::pictures::scene::{
     self, Around, Body, Camera, Environment, OpticalMaterial, RenderRow, RowText, Scenery, Things,
     Window,
@@ -64,9 +64,13 @@ impl Held {
 
     /// What is wrong with a picture of a row.
     pub fn fault(&mut self, row: &'static RenderRow, pixels: &[DVec3]) -> Option<String> {
-        let subject = self.subjects.iter().find(|one| one.name == row.material);
+        let own = own_subject(row).name;
+        let subject = self.subjects.iter().find(|one| one.name == own);
         let subject = subject.expect("a row's material is on the page");
-        let glass = OpticalMaterial::of_surface(&subject.reference.surface);
+        let surface = &subject.reference.surface;
+        let film = subject.material.films.first();
+        let film_nm = film.map_or(0.0, |film| film.thickness_nm);
+        let glass = OpticalMaterial::under_a_film(surface, film_nm);
         if let Some([below, half]) = row.receiver {
             let window = Window {
                 below,

@@ -173,7 +173,7 @@ fn empty(over: &'static str, precision: Precision) -> Map {
         cells: vec![dark; degrees.len() * axis.values.len()],
         axis,
         precision,
-        held: "",
+        held: String::new(),
         degrees,
     }
 }

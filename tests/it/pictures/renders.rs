@@ -81,6 +81,38 @@ pub static FACTS: &[Fact] = &[
         },
     },
     Fact {
+        pictures: "*renders/thin_film.png",
+        says: "the oxide grows downwards: the ball is yellowish above, then purple, and blue in its middle",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let [red, _, blue] = read.mean(panel, [100, 160, 58, 70]);
+                assert!(red > blue, "{red} {blue}");
+                let [red, green, blue] = read.mean(panel, [40, 80, 76, 84]);
+                assert!(red > green && blue > green, "{red} {green} {blue}");
+                let [red, _, blue] = read.mean(panel, [110, 150, 95, 115]);
+                assert!(blue > red + 40.0, "{red} {blue}");
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/soap_film.png",
+        says: "each wall mirrors the sun, the near one upright and the far one upside down",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let around = read.mean(panel, [70, 86, 100, 116])[1];
+                let near = read.mean(panel, [90, 94, 84, 88])[1];
+                let far = read.mean(panel, [153, 157, 156, 160])[2];
+                let beside = read.mean(panel, [130, 146, 150, 166])[1];
+                assert!(
+                    near > around && far > beside,
+                    "{near} {around}, {far} {beside}"
+                );
+            }
+        },
+    },
+    Fact {
         pictures: "*renders/normal_mapped.png",
         says: "silver mirrors the sky above and the ground below, dents or not",
         holds: |shown| {

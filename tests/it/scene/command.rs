@@ -71,6 +71,23 @@ fn wrong_words_are_refused_before_the_work() {
         "render double_refraction --environment none.hdr",
         &["none.hdr"],
     );
+    // Films: one clear film, for the bubble around nothing, and no film for the other pictures.
+    place.refused(
+        "render thin_film --material gold",
+        &["gold", "one clear film", "--film titanium_dioxide:150nm"],
+    );
+    place.refused(
+        "render thin_film --material cold_mirror",
+        &["one clear film"],
+    );
+    place.refused(
+        "render soap_film --material oil_on_water",
+        &["oil_on_water", "take thin_film", "--material air"],
+    );
+    place.refused(
+        "render complex_f0 --film 1.4:100nm",
+        &["under films", "thin_film and soap_film"],
+    );
     place.put("not.hdr", "text");
     place.refused(
         "render double_refraction --environment not.hdr",

@@ -2,6 +2,7 @@
 
 mod caustics;
 mod command;
+mod film;
 mod glass;
 mod mirror;
 mod one_surface;
@@ -12,11 +13,13 @@ mod window;
 use glam::DVec3;
 
 use super::not_checked;
+use fresnel_gen::generator::fit::values_for_material;
 use fresnel_gen::lab::fault::Fault;
 use fresnel_gen::lab::gpu::{Device, Wanted};
+use fresnel_gen::pictures::gallery::own_subject;
 use fresnel_gen::pictures::scene::{
     self, Around, Camera, Display, Environment, OpticalMaterial, Paths, Picture, PictureRequest,
-    RenderRow, TONE_CURVES, Things,
+    RenderRow, RowText, TONE_CURVES, Things,
 };
 
 /// The device at hand, or a word that there is none.
@@ -43,6 +46,14 @@ fn plain() -> Display {
 
 fn row(name: &str) -> &'static RenderRow {
     scene::find(name).expect("a row")
+}
+
+/// A row's own body, under its film.
+fn glass_of(row: &RenderRow) -> OpticalMaterial {
+    let subject = own_subject(row);
+    let film = subject.material.films.first();
+    let film_nm = film.map_or(0.0, |film| film.thickness_nm);
+    OpticalMaterial::under_a_film(&subject.reference.surface, film_nm)
 }
 
 /// A picture of a row in an environment.
@@ -75,11 +86,15 @@ fn pictured_row(
     (environment, is_ldr): (&Environment, bool),
     size: u32,
 ) -> Picture {
+    let method = RowText::usual(row).method;
+    let values = row
+        .film
+        .map(|_| values_for_material(&own_subject(row), method));
     let request = PictureRequest {
         row,
         material: glass,
         material_name: "a test",
-        values: None,
+        values: values.as_ref(),
         environment,
         is_ldr,
         size,

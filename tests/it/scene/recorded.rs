@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use super::device;
-use super::pictured;
+use super::{device, glass_of, pictured};
 use crate::{bless, records};
-use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::physics::records::rows;
-use fresnel_gen::pictures::scene::{self, OpticalMaterial, RenderRow, sky};
+use fresnel_gen::pictures::scene::{self, OpticalMaterial, sky};
 
 const SIZE: u32 = 128;
 const HEAD: [&str; 12] = [
@@ -35,12 +33,6 @@ const MORE: [(&str, f64); 4] = [
     ("double_refraction_gem", 1.5),
     ("double_refraction_gem", 2.42),
 ];
-
-fn glass_of(row: &RenderRow) -> OpticalMaterial {
-    let material = materials::find(row.material).unwrap().unwrap();
-    let surface = Surface::new(&material, None, &ViewingConditions::default()).unwrap();
-    OpticalMaterial::of_surface(&surface)
-}
 
 #[test]
 fn figures_of_pictures_are_the_recorded_ones() {
