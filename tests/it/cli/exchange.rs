@@ -643,3 +643,54 @@ fn what_a_format_leaves_open_is_a_remark() {
     ));
     assert!(!says("water --as materialx", words));
 }
+
+/// The model of Blender's films beside pixels of Cycles (`tests/reference/cycles_films.py`).
+#[test]
+fn films_of_blender_are_what_cycles_draws() {
+    use fresnel_gen::generator::exchange::{CyclesBase, CyclesFilm};
+    let text = include_str!("../../reference/cycles_films.csv");
+    let (mut most, mut count) = (0.0_f64, 0);
+    for line in text.lines().skip(2) {
+        let (base, numbers) = line.split_once(',').unwrap();
+        let numbers: Vec<f64> = numbers.split(',').map(|x| x.parse().unwrap()).collect();
+        let three = |at: usize| [numbers[at], numbers[at + 1], numbers[at + 2]];
+        let film = CyclesFilm {
+            ior: numbers[6],
+            thickness_nm: numbers[7],
+            base: match base {
+                "tinted" => CyclesBase::Tinted(three(0), three(3)),
+                "conductor" => CyclesBase::Conductor(three(0), three(3)),
+                _ => CyclesBase::Dielectric(numbers[0]),
+            },
+        };
+        let (got, want) = (film.at(numbers[8].to_radians().cos()), three(9));
+        for channel in 0..3 {
+            let apart = (got[channel] - want[channel]).abs();
+            assert!(apart < 2e-4, "{line}: {got:?}");
+            most = most.max(apart);
+        }
+        count += 1;
+    }
+    println!("{count} pixels of Cycles, at most {most:.1e} apart");
+    assert!(count > 100);
+}
+
+/// Films in Blender: from 5.0 on a metal takes its film, before it the film's colours.
+#[test]
+fn blender_takes_films() {
+    let place = Place::new();
+    let shown = written(&place, "anodised_titanium_purple", "blender").out;
+    for line in [
+        "if bpy.app.version < (5, 0, 0):",
+        "    node.inputs[\"Specular Tint\"]",
+        "else:",
+        "    node.inputs[\"Thin Film Thickness\"].default_value = 39",
+        "    node.fresnel_type = \"PHYSICAL_CONDUCTOR\"",
+        "    node.inputs[\"Extinction\"]",
+    ] {
+        assert!(shown.contains(line), "{line}: {shown}");
+    }
+    let oil = written(&place, "oil_on_water", "blender").out;
+    assert!(oil.contains("node.inputs[\"Thin Film IOR\"].default_value = 1.47"), "{oil}");
+    assert!(!oil.contains("bpy.app.version"), "{oil}");
+}
