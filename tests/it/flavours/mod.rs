@@ -320,16 +320,16 @@ fn films_are_followed_better_than_by_four_coefficients() {
 fn the_tables_of_films_err_as_others_do() {
     let basis = methods::find("fitted_film").unwrap().basis().unwrap();
     let functions = Orthogonal::new(&basis);
+    let (rule, names) = (Ggx::default(), materials::stacks());
+    let numbers: Vec<Vec<[f64; 3]>> = rows(&names)
+        .iter()
+        .map(|row| functions.numbers(&row.coefficients))
+        .collect();
     let axes = [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt];
     for (size, within) in [(64, 0.003), (80, 0.0014)] {
         let design = SplitSumDesign::square(basis, size, axes);
         let tables = functions.tables(&design).unwrap();
         let stored = tables.map(|table| table.stored(Depth::Half));
-        let (rule, names) = (Ggx::default(), materials::stacks());
-        let numbers: Vec<Vec<[f64; 3]>> = rows(&names)
-            .iter()
-            .map(|row| functions.numbers(&row.coefficients))
-            .collect();
         let mut worst = vec![0.0; names.len()];
         for j in 0..size - 1 {
             for i in 0..size - 1 {
