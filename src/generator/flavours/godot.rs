@@ -32,6 +32,10 @@ pub static FLAVOUR: Flavour = Flavour {
             ),
         },
         FlavourPage {
+            name: "table_fitted_film.tres",
+            template: include_str!("../../../templates/flavours/godot/table_fitted_film.tres.tera"),
+        },
+        FlavourPage {
             name: "{material}.gdshaderinc",
             template: include_str!("../../../templates/flavours/godot/material.gdshaderinc.tera"),
         },

@@ -13,10 +13,11 @@ use crate::generator::emit::{
     library_functions, xml_comment,
 };
 use crate::generator::fit::rounded_up;
-use crate::generator::lut::{Depth, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
-use crate::generator::reference::FITTED_WITH_FOUR;
+use crate::generator::lut::{Depth, Orthogonal, SplitSum, SplitSumDesign, TERMS, WHITE_MEAN_LOST};
+use crate::generator::reference::FITTED_IN_ENGINES;
 use crate::language::methods::{self, Class, Method};
 use crate::language::targets::{self, Target};
+use crate::physics::materials::MaterialKind;
 
 /// The data of a template.
 #[derive(Clone, Debug, Serialize)]
@@ -37,7 +38,8 @@ pub(super) struct AdapterView {
     pub(super) licence: &'static str,
     /// The reference that coefficients were fitted to, in words.
     pub(super) reference: String,
-    /// The methods that materials may have. All of them, so that a file without materials of its own is the same in every run.
+    /// The methods that materials may have. All of them where there are files by material, so that a file without materials of its
+    /// own is the same in every run. Elsewhere that of films is here only with a material under films.
     pub(super) methods: Vec<MethodView>,
     /// The materials, by method and name.
     pub(super) materials: Vec<MaterialView>,
@@ -59,8 +61,14 @@ pub(super) struct MethodView {
     function: String,
     /// The function for the mean of F over the hemisphere, with the same arguments without the cosine.
     average_function: String,
-    /// Whether its materials have no diffuse light: metals and semiconductors.
+    /// Whether its materials have no diffuse light: metals and semiconductors. A material under films says so itself.
     is_opaque: bool,
+    /// Whether it is of materials under films: each says itself whether it is opaque, and the table is two of orthogonal functions.
+    is_of_films: bool,
+    /// The names of its coefficients.
+    coefficients: Vec<&'static str>,
+    /// What the two tables are multiplied by: row i times the coefficients is the number of channel i. Empty where that is the coefficients.
+    numbers: Vec<Vec<String>>,
     formula: &'static [&'static str],
     /// The source of its form and its coefficients.
     source: String,
@@ -80,8 +88,14 @@ pub(super) struct MaterialView {
     /// The name of the function with its coefficients.
     function: String,
     library_function: String,
-    /// c0 to c3, three channels each.
+    /// Whether films lie on it.
+    is_of_films: bool,
+    /// Whether it has no diffuse light: it, or what lies under its films, is a metal or a semiconductor.
+    is_opaque: bool,
+    /// c0 to c3, of films to c5, three channels each.
     coefficients: Vec<[String; 3]>,
+    /// What the channels of its split-sum table are multiplied by: the coefficients, or under films other numbers.
+    numbers: Vec<[String; 3]>,
     /// The mean of F over the hemisphere.
     average: [String; 3],
     /// F at normal incidence.
@@ -93,10 +107,10 @@ pub(super) struct MaterialView {
 }
 
 /// A split-sum table of four channels in half precision, little endian: rows by roughness, 0 first, each with texels by cosine, 0
-/// first. The ends of both axes are the centres of the outer texels.
+/// first. The ends of both axes are the centres of the outer texels. Of films, the rows of a second table follow.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct TableView {
-    /// Texels per side.
+    /// Texels per side of one table.
     size: usize,
     cosine: &'static str,
     roughness: &'static str,
@@ -114,7 +128,14 @@ pub(super) fn view(
     reference: &str,
     command: &str,
 ) -> Result<AdapterView, super::flavour::Error> {
-    let methods = FITTED_WITH_FOUR.map(|name| methods::find(name).expect("a test finds it"));
+    let all = FITTED_IN_ENGINES.map(|name| methods::find(name).expect("a test finds it"));
+    let is_needed = |method: &&'static Method| {
+        let mut used = rows.iter().map(|row| row.method.name);
+        !method.class.is_of_films()
+            || flavour.is_by_material()
+            || used.any(|name| name == method.name)
+    };
+    let methods: Vec<&'static Method> = all.into_iter().filter(is_needed).collect();
     let naming = Naming::default();
     Ok(AdapterView {
         mark: mark(command),
@@ -179,13 +200,28 @@ fn method_view(method: &'static Method, naming: &Naming) -> MethodView {
         function: format!("{}{}", naming.prefix, method.name),
         average_function: format!("{}{}_average", naming.prefix, method.name),
         is_opaque: method.class != Class::Dielectric,
+        is_of_films: method.class.is_of_films(),
+        coefficients: method.inputs.iter().map(|input| input.name).collect(),
+        numbers: orthogonal(method).map_or(Vec::new(), |functions| {
+            let number = |value: &f64| format!("{value:?}");
+            let rows = functions.rows.iter();
+            rows.map(|row| row.iter().map(number).collect()).collect()
+        }),
         formula: method.formula,
         source: method.source.line(),
     }
 }
 
+/// The functions of a method's split-sum table, where its terms are not: a texture has too few channels for them.
+fn orthogonal(method: &Method) -> Option<Orthogonal> {
+    let basis = method.basis()?;
+    (basis.terms() > TERMS).then(|| Orthogonal::new(&basis))
+}
+
 fn material_view(row: &CatalogueRow) -> MaterialView {
     let prefix = Naming::default().prefix;
+    let is_of_films = row.method.class.is_of_films();
+    let of_table = orthogonal(row.method).map(|functions| functions.numbers(&row.coefficients));
     MaterialView {
         name: row.name.clone(),
         constant: row.name.to_uppercase(),
@@ -194,7 +230,19 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
         method: row.method.name,
         function: format!("{prefix}{}_{}", row.name, row.method.name),
         library_function: format!("{prefix}{}", row.method.name),
+        is_of_films,
+        is_opaque: if is_of_films {
+            row.class != MaterialKind::Dielectric
+        } else {
+            row.method.class != Class::Dielectric
+        },
         coefficients: row.coefficients.iter().map(numbers).collect(),
+        numbers: of_table
+            .as_ref()
+            .unwrap_or(&row.coefficients)
+            .iter()
+            .map(numbers)
+            .collect(),
         average: numbers(&row.average.given),
         f0: numbers(&normal_incidence(row)),
         max_error: rounded_up(row.error.max_abs),
@@ -280,12 +328,12 @@ fn tables(
             .basis()
             .expect("fitted methods are affine in their coefficients");
         let design = SplitSumDesign::square(basis, size, axes);
-        let table = SplitSum::new(&design, &mut |_, _| {})?.stored(Depth::Half);
-        let halves = table
-            .texels
-            .iter()
-            .flatten()
-            .map(|value| f16::from_f32(*value));
+        let tables = match orthogonal(method) {
+            Some(functions) => functions.tables(&design)?.to_vec(),
+            None => vec![SplitSum::new(&design, &mut |_, _| {})?],
+        };
+        let stored = tables.iter().map(|table| table.stored(Depth::Half).texels);
+        let halves = stored.flatten().flatten().map(f16::from_f32);
         let bytes: Vec<u8> = halves.flat_map(f16::to_le_bytes).collect();
         let [cosine, roughness] = axes.map(|axis| axis.name());
         let view = TableView {

@@ -75,14 +75,14 @@ fn example_rows() -> Result<Vec<CatalogueRow>, Error> {
         ..Request::default()
     };
     let subjects = usual.subjects()?.materials();
-    Ok(emit::catalogue_rows(&subjects, &usual.naming())?)
+    Ok(emit::adapter_rows(&subjects, &usual.naming())?)
 }
 
 impl Run<'_> {
     /// All files of the flavours, and why some materials of `all` have none.
     ///
     /// # Errors
-    /// A named material has no fitted form with four coefficients.
+    /// A named material has no fitted form.
     pub fn flavour_files(&self) -> Result<(Vec<Artifact>, Vec<String>), Error> {
         if self.flavours.is_empty() {
             return Ok((Vec::new(), Vec::new()));
@@ -90,7 +90,7 @@ impl Run<'_> {
         let (subjects, others): (Vec<MaterialInMedium>, Vec<MaterialInMedium>) =
             (self.subjects.iter())
                 .map(|(subject, _)| subject.clone())
-                .partition(|subject| subject.fitted_with_four().is_some());
+                .partition(|subject| subject.fitted_in_engines().is_some());
         let without = |subject: &MaterialInMedium| {
             let name = &subject.name;
             format!(
@@ -104,7 +104,7 @@ impl Run<'_> {
             return Err(RequestFault::refused(format!("{}; leave it out", without(named))).into());
         }
         self.refuse_names_of_pages(&subjects)?;
-        let rows = emit::catalogue_rows(&subjects, &self.naming)?;
+        let rows = emit::adapter_rows(&subjects, &self.naming)?;
         let reference = subjects
             .first()
             .map(|subject| subject.reference.surface.seen.clone());

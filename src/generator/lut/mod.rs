@@ -17,6 +17,7 @@ mod exr;
 mod format;
 mod ktx2;
 mod lookup;
+mod orthogonal;
 mod picture;
 mod png;
 mod search;
@@ -31,6 +32,7 @@ pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
 pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
 pub use lookup::{lookup, lookup_by_thickness};
+pub use orthogonal::Orthogonal;
 pub use picture::{Picture, TermChannels};
 pub use search::{BetweenTexels, TableKind, smallest, table_error};
 pub use split_sum::{

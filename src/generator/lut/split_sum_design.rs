@@ -211,15 +211,20 @@ impl SplitSumDesign {
     /// What the channels hold at a cosine and a roughness, both in [0, 1]; α is roughness².
     pub fn channels_at(&self, rule: &Ggx, cos_v: f64, roughness: f64) -> [f64; MOST_TERMS] {
         let (mut sums, terms) = ([0.0; MOST_TERMS], self.basis.terms());
+        self.add_terms(rule, cos_v, roughness, &mut sums[..terms]);
+        self.layout.arranged(sums)
+    }
+
+    /// Adds the means of all terms to their sums.
+    pub(super) fn add_terms(&self, rule: &Ggx, cos_v: f64, roughness: f64, sums: &mut [f64]) {
         let alpha = roughness * roughness;
         rule.each_lit(cos_v, alpha, |cos_h, light, weight| {
             let weight = match self.layout {
                 SplitSumLayout::Unreal => weight * lines_for_roots(cos_v, light, alpha),
                 SplitSumLayout::Terms | SplitSumLayout::Filament => weight,
             };
-            self.basis.add(cos_h, weight, &mut sums[..terms]);
+            self.basis.add(cos_h, weight, sums);
         });
-        self.layout.arranged(sums)
     }
 }
 

@@ -42,7 +42,10 @@ const CLEAR_K: f64 = 0.05;
 pub type Typed = (String, Material);
 
 /// The fitted methods with four coefficients: of metals and semiconductors, and of dielectrics.
-pub const FITTED_WITH_FOUR: [&str; 2] = ["fitted", "fitted_dielectric"];
+const FITTED_WITH_FOUR: [&str; 2] = ["fitted", "fitted_dielectric"];
+
+/// The fitted methods of adapters for engines: of metals and semiconductors, of dielectrics, and of all under films.
+pub const FITTED_IN_ENGINES: [&str; 3] = [FITTED_WITH_FOUR[0], FITTED_WITH_FOUR[1], "fitted_film"];
 
 impl MaterialInMedium {
     /// A material in air or in a medium, under viewing conditions.
@@ -167,6 +170,14 @@ impl MaterialInMedium {
             false => Some(FITTED_WITH_FOUR[0]),
             true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some(FITTED_WITH_FOUR[1]),
             true => None,
+        }
+    }
+
+    /// The fitted method of adapters for engines: under films the one that follows them.
+    pub fn fitted_in_engines(&self) -> Option<&'static str> {
+        match self.has_films() {
+            true => Some(FITTED_IN_ENGINES[2]),
+            false => self.fitted_with_four(),
         }
     }
 

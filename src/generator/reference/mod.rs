@@ -7,7 +7,7 @@ mod reference_curve;
 
 pub use effective::{Effective, IndexSource, effective};
 pub use material_in_medium::{
-    Derivation, FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialClass, MaterialInMedium,
+    Derivation, FITTED_IN_ENGINES, LEAST_FITTED_N, MaterialClass, MaterialInMedium,
     THESIS_MATCHING_COS, Typed,
 };
 pub use reference_curve::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};

@@ -691,6 +691,9 @@ fn blender_takes_films() {
         assert!(shown.contains(line), "{line}: {shown}");
     }
     let oil = written(&place, "oil_on_water", "blender").out;
-    assert!(oil.contains("node.inputs[\"Thin Film IOR\"].default_value = 1.47"), "{oil}");
+    assert!(
+        oil.contains("node.inputs[\"Thin Film IOR\"].default_value = 1.47"),
+        "{oil}"
+    );
     assert!(!oil.contains("bpy.app.version"), "{oil}");
 }

@@ -9,13 +9,21 @@ use naga_oil::compose::{
 };
 
 use super::block;
+use super::coefficients;
 use super::host::shows_a_gold_sphere;
-use crate::catalogue::{evaluated, rows_named};
+use crate::catalogue::evaluated;
 use crate::cli::{OUT, PROGRAM, Place};
 use crate::gpu;
 use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 
-const MATERIALS: [&str; 4] = ["diamond", "gold", "silver", "water"];
+const MATERIALS: [&str; 6] = [
+    "anodised_titanium_purple",
+    "diamond",
+    "gold",
+    "oil_on_water",
+    "silver",
+    "water",
+];
 const POINTS: u32 = 512;
 
 fn place() -> Place {
@@ -90,10 +98,10 @@ fn valid(module: &naga::Module) -> String {
 
 /// The name of the function of each material.
 fn functions() -> Vec<(&'static str, String)> {
-    let rows = rows_named(&MATERIALS);
+    let rows = coefficients(&MATERIALS);
     let pairs = MATERIALS.iter().zip(&rows);
     pairs
-        .map(|(name, (_, method, _))| (*name, format!("fresnel_{name}_{method}")))
+        .map(|(name, (method, _))| (*name, format!("fresnel_{name}_{method}")))
         .collect()
 }
 
@@ -147,8 +155,8 @@ fn naga_oil_composes_it_and_wgpu_runs_it() {
         .collect();
     let batch = device.prepare_batch(&gpu::program(ShaderCode::Wgsl(&program), &[]), 1);
     let results = batch.unwrap().run(&points, None).unwrap();
-    let rows = rows_named(&MATERIALS);
-    for ((got, (_, method, coefficients)), name) in results
+    let rows = coefficients(&MATERIALS);
+    for ((got, (method, coefficients)), name) in results
         .chunks_exact(cosines.len())
         .zip(&rows)
         .zip(MATERIALS)

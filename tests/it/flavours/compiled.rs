@@ -221,7 +221,10 @@ fn compiles(way: &Way) {
         return;
     };
     let place = Place::new();
-    let line = format!("--flavour {} --material diamond,gold,water", way.flavour);
+    let line = format!(
+        "--flavour {} --material diamond,gold,oil_on_water,water",
+        way.flavour
+    );
     let names = includable(&written(&place, &line));
     let host = Host {
         way,

@@ -5,12 +5,16 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
+use super::FILMS;
+use super::coefficients;
 use super::host::Host;
 use super::host::number;
 use super::host::shows_a_gold_sphere;
-use crate::catalogue::{evaluated, rows_named};
+use crate::catalogue::evaluated;
 use crate::compensation::compensation;
-use fresnel_gen::generator::lut::{Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum};
+use fresnel_gen::generator::lut::{
+    Depth, Orthogonal, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum,
+};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingConditions};
@@ -29,7 +33,7 @@ const PLAYCANVAS: Host = Host {
         "</script></html>"
     ),
     bundled: Some(include_str!("playcanvas/entry.js")),
-    materials: "gold,water",
+    materials: "gold,water,anodised_titanium_purple,oil_on_water",
 };
 
 const BABYLON: Host = Host {
@@ -45,79 +49,89 @@ const BABYLON: Host = Host {
         "</script></html>"
     ),
     bundled: Some(include_str!("babylon/entry.js")),
-    materials: "gold,water",
+    materials: "gold,water,anodised_titanium_purple,oil_on_water",
 };
 
 /// What is asked of an engine; what was seen is a thousandth of it.
 const CLOSE: f64 = 1e-3;
 
-/// A material of a page, with the table of its method.
+/// A material of a page, with the tables of its method.
 struct Material {
-    method: String,
-    /// c0 to c3.
+    method: &'static str,
     coefficients: Vec<f32>,
-    table: StoredSplitSum,
+    /// What the channels of the tables are multiplied by.
+    numbers: Vec<[f64; 3]>,
+    tables: Vec<StoredSplitSum>,
 }
 
 impl Material {
-    fn new(method: String, coefficients: Vec<f32>) -> Material {
-        let basis = methods::find(&method).unwrap().basis().unwrap();
+    fn new(method: &'static str, coefficients: Vec<f32>) -> Material {
+        let basis = methods::find(method).unwrap().basis().unwrap();
         let axes = [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt];
         let design = SplitSumDesign::square(basis, 64, axes);
-        let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
+        let rows = coefficients.chunks_exact(3);
+        let rows: Vec<[f64; 3]> = rows.map(|c| [c[0], c[1], c[2]].map(f64::from)).collect();
+        let (numbers, tables) = if rows.len() > 4 {
+            let functions = Orthogonal::new(&basis);
+            let tables = functions.tables(&design).unwrap();
+            (functions.numbers(&rows), tables.to_vec())
+        } else {
+            let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
+            (rows, vec![table])
+        };
         Material {
             method,
             coefficients,
-            table: table.stored(Depth::Half),
+            numbers,
+            tables: tables
+                .iter()
+                .map(|table| table.stored(Depth::Half))
+                .collect(),
         }
     }
 
     fn f(&self, cos: f64) -> [f64; 3] {
-        evaluated(&self.method, &self.coefficients, &[cos])[0]
+        evaluated(self.method, &self.coefficients, &[cos])[0]
     }
 
-    /// The sum of the coefficients times these.
-    fn sum(&self, terms: &[f64]) -> [f64; 3] {
-        let rows: Vec<&[f32]> = self.coefficients.chunks_exact(3).collect();
-        [0, 1, 2].map(|i| {
-            rows.iter()
-                .zip(terms)
-                .map(|(c, t)| f64::from(c[i]) * t)
-                .sum()
-        })
-    }
-
-    fn terms(&self, cos: f64, roughness: f64) -> [f64; 4] {
-        self.table.lookup(Weights::Exact, cos, roughness)
+    fn terms(&self, cos: f64, roughness: f64) -> Vec<f64> {
+        let read = |table: &StoredSplitSum| table.lookup(Weights::Exact, cos, roughness);
+        self.tables.iter().flat_map(read).collect()
     }
 
     /// What an image is multiplied by, once reflected.
     fn image(&self, cos: f64, roughness: f64) -> [f64; 3] {
         let terms = self.terms(cos, roughness);
-        self.sum(&terms).map(|value| value.clamp(0.0, terms[0]))
+        sum(self.numbers.iter().copied(), &terms).map(|value| value.clamp(0.0, terms[0]))
     }
 
     /// What gives back the light that is reflected more than once.
     fn compensation(&self, cos: f64, roughness: f64) -> [f64; 3] {
-        let averages = methods::find(&self.method)
-            .unwrap()
-            .basis()
-            .unwrap()
-            .averages();
-        let average = self.sum(&averages).map(|mean| mean.clamp(0.0, 1.0));
+        let basis = methods::find(self.method).unwrap().basis().unwrap();
+        let rows = self.coefficients.chunks_exact(3);
+        let rows = rows.map(|c| [c[0], c[1], c[2]].map(f64::from));
+        let average = sum(rows, &basis.averages()).map(|mean| mean.clamp(0.0, 1.0));
         let white = self.terms(cos, roughness)[0];
         compensation(self.image(cos, roughness), white, average, roughness)
     }
 }
 
+/// The sum of colours times these.
+fn sum(colours: impl Iterator<Item = [f64; 3]>, terms: &[f64]) -> [f64; 3] {
+    let products = colours.zip(terms);
+    products.fold([0.0; 3], |sum, (colour, term)| {
+        [0, 1, 2].map(|i| sum[i] + colour[i] * term)
+    })
+}
+
 fn materials() -> BTreeMap<&'static str, Material> {
-    let names = ["gold", "water"];
-    let rows = names.into_iter().zip(rows_named(&names));
+    let names = ["gold", "water", FILMS[0], FILMS[1]];
+    let rows = names.into_iter().zip(coefficients(&names));
     let mut all: BTreeMap<&str, Material> = rows
-        .map(|(name, (_, method, coefficients))| (name, Material::new(method, coefficients)))
+        .map(|(name, (method, coefficients))| (name, Material::new(method, coefficients)))
         .collect();
     let white = [1.0; 3].into_iter().chain([0.0; 9]).collect();
-    all.insert("white", Material::new("fitted".to_owned(), white));
+    all.insert("white", Material::new("fitted", white));
     all
 }
 
@@ -205,7 +219,7 @@ fn held(told: &Value) -> BTreeMap<String, usize> {
             ("variant", if is_drawn { 0.0 } else { f64::NAN })
         } else if reading.is("is_furnace") {
             // Metals have no diffuse light that could make up for what they do not reflect.
-            let is_whole = reading.name != "gold";
+            let is_whole = !["gold", FILMS[0]].contains(&reading.name);
             (
                 "furnace",
                 if is_whole {

@@ -23,7 +23,7 @@ fn lamps_and_images_take_our_reflectance() {
     };
     let engine = packages.join(PACKAGE).join("godot");
     let place = Place::new();
-    place.done("--flavour godot --material gold,water,silver,diamond");
+    place.done("--flavour godot --material gold,water,silver,diamond,anodised_titanium_purple");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let output = Command::new("python3")
         .arg(root.join("tests/it/flavours/godot/run.py"))
@@ -42,6 +42,8 @@ fn lamps_and_images_take_our_reflectance() {
     assert!(number(&told["lamps_most"]) >= 100.0, "{told}");
     assert!(number(&told["lamps_of_water"]) <= 1.0, "{told}");
     assert!(number(&told["image"]) <= 1.5, "{told}");
+    assert!(number(&told["lamps_of_film"]) <= 1.0, "{told}");
+    assert!(number(&told["image_of_film"]) <= 1.5, "{told}");
     assert_eq!(told["finite"], true, "{told}");
     // Small panoramas are lit up to a texel too far.
     assert!(number(&told["widths"]) <= 8.0, "{told}");

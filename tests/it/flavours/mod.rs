@@ -22,8 +22,45 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
 
 use crate::cli::{MY_METAL, OUT, Place};
+use fresnel_gen::generator::emit::{self, CatalogueRow, Naming};
 use fresnel_gen::generator::flavours::{self, Flavour};
-use fresnel_gen::language::targets;
+use fresnel_gen::generator::lut::{
+    Depth, LEAST_ROUGHNESS, Orthogonal, SplitSumAxis, SplitSumDesign,
+};
+use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
+use fresnel_gen::language::ir::Weights;
+use fresnel_gen::language::{methods, targets};
+use fresnel_gen::physics::materials::{self, ViewingConditions};
+use fresnel_gen::physics::optics::Ggx;
+
+/// Materials under films: of metal and of dielectric bases.
+pub const FILMS: [&str; 2] = ["anodised_titanium_purple", "oil_on_water"];
+
+/// A material in air under the default viewing conditions.
+pub fn subject(name: &str) -> MaterialInMedium {
+    let material = materials::find(name).unwrap().unwrap();
+    let viewing = ViewingConditions::default();
+    let named = (name.to_owned(), material);
+    MaterialInMedium::new(named, None, &viewing, Derivation::default()).unwrap()
+}
+
+/// Materials as adapters have them, in this order.
+pub fn rows(names: &[&str]) -> Vec<CatalogueRow> {
+    let row = |name: &&str| {
+        let rows = emit::adapter_rows(&[subject(name)], &Naming::default());
+        rows.unwrap().remove(0)
+    };
+    names.iter().map(row).collect()
+}
+
+/// The methods of these materials in adapters, and their coefficients one after the other.
+pub fn coefficients(names: &[&str]) -> Vec<(&'static str, Vec<f32>)> {
+    let flat = |row: CatalogueRow| {
+        let all = row.coefficients.iter().flatten();
+        (row.method.name, all.map(|value| *value as f32).collect())
+    };
+    rows(names).into_iter().map(flat).collect()
+}
 
 /// The first block of a language in a README.
 pub fn block(readme: &str, language: &str) -> String {
@@ -266,11 +303,73 @@ fn a_file_of_somebody_else_stays() {
     }
 }
 
+/// Coefficients of adapters beside the law of layers over the spectrum, and beside the four that they would otherwise have.
+#[test]
+fn films_are_followed_better_than_by_four_coefficients() {
+    let fitted = methods::find("fitted").unwrap();
+    for (name, row) in FILMS.iter().zip(rows(&FILMS)) {
+        assert_eq!(row.method.name, "fitted_film");
+        let four = emit::fitted_error(&subject(name), fitted).unwrap().max_abs;
+        let own = row.error.max_abs;
+        assert!(own < 0.0012 && four > 0.011, "{name}: {own}, {four}");
+    }
+}
+
+/// The two tables of films between their texels, beside the integral in f64. Those of four terms err by less than .0014.
+#[test]
+fn the_tables_of_films_err_as_others_do() {
+    let basis = methods::find("fitted_film").unwrap().basis().unwrap();
+    let functions = Orthogonal::new(&basis);
+    let (rule, names) = (Ggx::default(), materials::stacks());
+    let numbers: Vec<Vec<[f64; 3]>> = rows(&names)
+        .iter()
+        .map(|row| functions.numbers(&row.coefficients))
+        .collect();
+    let axes = [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt];
+    for (size, within) in [(64, 0.003), (80, 0.0014)] {
+        let design = SplitSumDesign::square(basis, size, axes);
+        let tables = functions.tables(&design).unwrap();
+        let stored = tables.map(|table| table.stored(Depth::Half));
+        let mut worst = vec![0.0; names.len()];
+        for j in 0..size - 1 {
+            for i in 0..size - 1 {
+                let (cos_v, roughness) = design.at(i as f64 + 0.5, j as f64 + 0.5);
+                if roughness < LEAST_ROUGHNESS {
+                    continue;
+                }
+                let exact = functions
+                    .channels_at(&design, &rule, cos_v, roughness)
+                    .concat();
+                let read = stored
+                    .each_ref()
+                    .map(|table| table.lookup(Weights::Steps256, cos_v, roughness))
+                    .concat();
+                for (worst, numbers) in worst.iter_mut().zip(&numbers) {
+                    for channel in 0..3 {
+                        let terms = numbers.iter().zip(read.iter().zip(&exact));
+                        let off: f64 = terms.map(|(n, (a, b))| n[channel] * (a - b)).sum();
+                        *worst = f64::max(*worst, off.abs());
+                    }
+                }
+            }
+        }
+        for (name, off) in names.iter().zip(worst) {
+            assert!(off < within, "{name}, {size} texels: {off}");
+        }
+    }
+}
+
 /// The first channel is the albedo of a surface that reflects everything: a mirror loses nothing, and no surface gives more than it gets.
 #[test]
 fn tables_of_a_module_hold_what_surfaces_reflect() {
     let place = Place::new();
     place.done("--flavour three --material gold");
+    let without = place.read(&format!("{OUT}/three/fresnel.js"));
+    assert!(
+        !without.contains("fitted_film"),
+        "gold needs nothing of films"
+    );
+    place.done("--flavour three --material gold,oil_on_water");
     let module = place.read(&format!("{OUT}/three/fresnel.js"));
     let tables = module.split("table: \"").skip(1);
     let tables: Vec<Vec<u8>> = tables
@@ -280,14 +379,16 @@ fn tables_of_a_module_hold_what_surfaces_reflect() {
                 .unwrap()
         })
         .collect();
-    assert_eq!(tables.len(), 2);
-    for table in tables {
+    assert_eq!(tables.len(), 3);
+    for (table, count) in tables.into_iter().zip([1, 1, 2]) {
         let halves = table.chunks_exact(2);
         let halves: Vec<f32> = halves
             .map(|two| half::f16::from_le_bytes([two[0], two[1]]).to_f32())
             .collect();
         let (side, white) = (80, halves.iter().step_by(4));
-        assert_eq!(halves.len(), 4 * side * side);
+        assert_eq!(halves.len(), 4 * side * side * count);
+        let halves = &halves[..4 * side * side];
+        let white = white.take(side * side);
         assert!(white.clone().all(|albedo| *albedo > 0.0 && *albedo <= 1.0));
         let mirror = &halves[..4 * side];
         assert!(

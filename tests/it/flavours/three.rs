@@ -6,6 +6,7 @@ use super::host::Host;
 use super::host::at_most;
 use super::host::number;
 use super::host::shows_a_gold_sphere;
+use super::{FILMS, subject};
 
 const THREE: Host = Host {
     flavour: "three",
@@ -14,12 +15,13 @@ const THREE: Host = Host {
     version: "0.187.0",
     page: include_str!("three/proof.html"),
     scripts: &[
+        ("expected.js", include_str!("three/expected.js")),
         ("proof.js", include_str!("three/proof.js")),
         ("proof_webgpu.js", include_str!("three/proof_webgpu.js")),
     ],
     hands: "</html>",
     bundled: None,
-    materials: "gold,silver,diamond,water,anodised_titanium_purple",
+    materials: "gold,silver,diamond,water,anodised_titanium_purple,oil_on_water",
 };
 
 #[test]
@@ -37,6 +39,7 @@ fn lamps_images_and_nodes_take_our_reflectance() {
     assert_eq!(webgl["shader_faults"], json!([]));
     // cos θ from .2 on, at four roughnesses.
     at_most(&webgl["lamps"]["worst"], 1e-6);
+    films(&webgl["lamps"]["seen"]);
     furnace(&webgl["furnace"]);
     assert!(number(&webgl["rectangles"]) < 1e-6);
     spheres(&webgl["spheres"]);
@@ -51,6 +54,10 @@ fn lamps_images_and_nodes_take_our_reflectance() {
     says(&refused["material"], &["MeshBasicMaterial"]);
     says(&refused["method"], &["fited", "fitted"]);
     says(&refused["coefficients"], &["4 arrays of 3"]);
+    says(
+        &refused["coefficients_of_film"],
+        &["fitted_film", "6 arrays of 3"],
+    );
     says(&refused["iridescence"], &["iridescence"]);
     // three's shaders were changed under it: nothing is patched in silence.
     let foreign = refused
@@ -69,6 +76,27 @@ fn lamps_images_and_nodes_take_our_reflectance() {
     }
 }
 
+/// F of lamps is near the law of layers over the spectrum.
+#[track_caller]
+fn films(told: &Value) {
+    for name in FILMS {
+        let subject = subject(name);
+        let (mut worst, mut sum) = (0.0, 0.0);
+        let seen = told[name].as_array().unwrap();
+        for one in seen {
+            let channel = number(&one[1]) as usize;
+            let off = (number(&one[2]) - subject.reference.at(number(&one[0]))[channel]).abs();
+            worst = f64::max(worst, off);
+            sum += off;
+        }
+        let mean = sum / seen.len() as f64;
+        assert!(
+            mean < 0.0008 && worst < 0.0012,
+            "{name} is off by {mean} in the mean, by {worst} at most"
+        );
+    }
+}
+
 #[track_caller]
 fn says(told: &Value, words: &[&str]) {
     let text = told
@@ -83,11 +111,14 @@ fn furnace(told: &Value) {
     for name in [
         "white",
         "white_dielectric",
+        "white_film",
         "gold",
         "silver",
+        "titanium",
         "water",
         "diamond",
         "water_on_white",
+        "oil_on_white",
     ] {
         let one = &told[name];
         assert!(number(&one["image"][1]) <= 1.0005, "{name}: {one}");
@@ -98,7 +129,13 @@ fn furnace(told: &Value) {
             );
         }
     }
-    for white in ["white", "white_dielectric", "water_on_white"] {
+    for white in [
+        "white",
+        "white_dielectric",
+        "white_film",
+        "water_on_white",
+        "oil_on_white",
+    ] {
         let least = number(&told[white]["image"][0]);
         assert!(least >= 0.998, "{white} reflects {least}");
     }
@@ -133,6 +170,7 @@ fn nodes(renderer: &str, told: &Value) {
     }
     assert!(number(&lighting["lobe"]) < 0.002);
     assert!(number(&lighting["white_diffuse"]) < 1e-4);
+    assert_eq!(lighting["opaque_diffuse"], 0);
     assert_eq!(lighting["unpatched_changed"], 0);
     assert_eq!(lighting["physical_drawn"], true);
     let refused = &told["refusals"];

@@ -7,5 +7,6 @@ mod row;
 pub use array::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_array, catalogue_buffer};
 pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
 pub use row::{
-    CATALOGUE, COEFFICIENTS, CatalogueRow, catalogue_rows, first_dielectric, recorded_catalogue,
+    CATALOGUE, COEFFICIENTS, CatalogueRow, adapter_rows, catalogue_rows, first_dielectric,
+    recorded_catalogue,
 };

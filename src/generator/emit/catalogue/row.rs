@@ -82,10 +82,30 @@ pub fn catalogue_rows(
     subjects: &[MaterialInMedium],
     naming: &Naming,
 ) -> Result<Vec<CatalogueRow>, Error> {
+    rows(subjects, naming, MaterialInMedium::fitted_with_four)
+}
+
+/// The same rows for adapters, in which a material under films has the method that follows films.
+///
+/// # Errors
+/// As [`specialised_function`].
+pub fn adapter_rows(
+    subjects: &[MaterialInMedium],
+    naming: &Naming,
+) -> Result<Vec<CatalogueRow>, Error> {
+    rows(subjects, naming, MaterialInMedium::fitted_in_engines)
+}
+
+/// The rows of the materials for which this finds a method, by method and name.
+fn rows(
+    subjects: &[MaterialInMedium],
+    naming: &Naming,
+    method_of: fn(&MaterialInMedium) -> Option<&'static str>,
+) -> Result<Vec<CatalogueRow>, Error> {
     let bounds = Bounds::recorded();
     let row = |i: usize| {
         let subject = &subjects[i];
-        let method = methods::find(subject.fitted_with_four()?)?;
+        let method = methods::find(method_of(subject)?)?;
         Some(catalogue_row(subject, method, naming, &bounds))
     };
     let found = in_parallel(subjects.len(), &row, &mut |_, _| {});

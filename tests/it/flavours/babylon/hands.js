@@ -13,6 +13,8 @@
   const { materials, patch } = fresnel, B = BABYLON;
   materials.white = { method: "fitted", f0: [1, 1, 1], coefficients: [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]] };
 
+  const dielectrics = ["water", "oil_on_water"];
+
   async function start() {
     const canvas = document.getElementById("canvas");
     let engine = null;
@@ -100,7 +102,7 @@
       material.albedoColor = new B.Color3(...materials[name].f0);
     } else patch(material, name, BABYLON);
     Object.assign(material.brdf, after);
-    if (materials[name].method === "fitted_dielectric") material.albedoColor = new B.Color3(...diffuse);
+    if (dielectrics.includes(name)) material.albedoColor = new B.Color3(...diffuse);
     B.Quaternion.FromUnitVectorsToRef(B.Vector3.Up(), vector(angle), plane.rotationQuaternion);
     while (stage.lamp.length) stage.lamp.pop().dispose();
     if (lamps[kind]) stage.lamp.push(lamps[kind](vector(2 * angle), scene));
@@ -163,7 +165,7 @@
     }
     for (const set of variants) {
       for (const kind of ["directional", "image", "rectangle", "none"]) {
-        for (const name of ["gold", "water"]) await record({ name, kind, angle: 0.5, roughness: 0.5, set, is_variant: true });
+        for (const name of ["gold", "water", "oil_on_water"]) await record({ name, kind, angle: 0.5, roughness: 0.5, set, is_variant: true });
       }
     }
   }

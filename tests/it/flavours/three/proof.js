@@ -3,41 +3,13 @@
 
 import * as THREE from "three";
 import { RectAreaLightUniformsLib } from "three/addons/lights/RectAreaLightUniformsLib.js";
-import { materials, methods, patch, patchWith, tableSize, tableTexture } from "./three/fresnel.js";
+import { materials, methods, patch, patchWith, tableSize } from "./three/fresnel.js";
+import { compensation, reflectance, white } from "./expected.js";
 
 const renderer = new THREE.WebGLRenderer();
 const shaderFaults = [];
 renderer.debug.onShaderError = (gl, program, vertex, fragment) =>
   shaderFaults.push(gl.getShaderInfoLog(vertex) + gl.getShaderInfoLog(fragment) + gl.getProgramInfoLog(program));
-
-const WHITE = [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]];
-const white = method => ({ method, coefficients: WHITE });
-
-// F and the table in f64.
-const half = h => (h & 0x7c00 ? 2 ** ((h >> 10 & 31) - 15) * (1 + (h & 1023) / 1024) : 2 ** -24 * (h & 1023)) * (h >> 15 ? -1 : 1);
-const f32 = Math.fround;
-function reflectance({ method, coefficients }, cos, channel) {
-  const [c0, c1, c2, c3] = coefficients.map(c => f32(c[channel]));
-  const b = method === "fitted" ? 2 ** (-6.5 * cos) : 1 - cos;
-  const sum = method === "fitted" ? c0 + b * (c1 + b * (c2 + b * c3)) : c0 + b ** 3 * (c1 + b ** 4 * (c2 + b ** 7 * c3));
-  return Math.min(1, Math.max(0, sum));
-}
-function terms(method, cos, roughness) {
-  const texels = tableTexture(method).image.data, last = tableSize - 1;
-  const x = cos ** 0.25 * last, y = roughness ** 0.5 * last;
-  const i = Math.min(last - 1, Math.floor(x)), j = Math.min(last - 1, Math.floor(y));
-  const at = (a, b, k) => half(texels[4 * ((j + b) * tableSize + i + a) + k]);
-  const mix = (a, b, t) => a + (b - a) * t;
-  return [0, 1, 2, 3].map(k => mix(mix(at(0, 0, k), at(1, 0, k), x - i), mix(at(0, 1, k), at(1, 1, k), x - i), y - j));
-}
-const weights = { fitted: [1, 0.09253325, 0.024601486, 0.010947157], fitted_dielectric: [1, 0.1, 0.027777778, 0.008333334] };
-const mean = ({ method, coefficients }, channel) => coefficients.reduce((sum, c, i) => sum + c[channel] * weights[method][i], 0);
-// The series of bounces: lost is what the mean albedo of white lacks.
-function compensation(row, cos, roughness, channel) {
-  const t = terms(row.method, cos, roughness), sum = row.coefficients.reduce((sum, c, i) => sum + c[channel] * t[i], 0);
-  const m = mean(row, channel), lost = roughness ** 3 * (0.20275 + roughness * (3.50269 + roughness * (-4.97845 + roughness * 1.8645)));
-  return 1 + (1 - t[0]) * m * m * (1 - lost) / (1 - m * lost) / Math.min(t[0], Math.max(0, sum));
-}
 
 // Cells in a row of quads. A cell is { normal, light }: directions; the eye looks along -z.
 function cells(list, width) {
@@ -108,23 +80,25 @@ function lamps() {
     const normal = [Math.sin(angle - tilt), 0, Math.cos(angle - tilt)];
     if (dot(normal, light) > 0.02 && normal[2] > 0.02) list.push({ cos, light, normal });
   }
-  const grid = cells(list, 16), worst = {};
+  const grid = cells(list, 16), worst = {}, seen = {};
   for (const name of Object.keys(materials)) {
-    const row = materials[name], ours = standard(row), all = standard(white(row.method));
+    const row = materials[name], whole = white(row.method), ours = standard(row), all = standard(whole);
     let most = 0;
     for (const roughness of [0.1, 0.3, 0.6, 1]) {
       ours.roughness = all.roughness = roughness;
       const [a, b] = [drawn(lit, ours, grid), drawn(lit, all, grid)];
       list.forEach(({ cos, normal }, i) => {
         for (let channel = 0; channel < 3; channel++) {
-          const k = compensation(white(row.method), normal[2], roughness, channel) / compensation(row, normal[2], roughness, channel);
-          most = Math.max(most, Math.abs(a(i, channel) / b(i, channel) * k - reflectance(row, cos, channel)));
+          const k = compensation(whole, normal[2], roughness, channel) / compensation(row, normal[2], roughness, channel);
+          const f = a(i, channel) / b(i, channel) * k;
+          most = Math.max(most, Math.abs(f - reflectance(row, cos, channel)));
+          if (row.method === "fitted_film") (seen[name] ??= []).push([cos, channel, f]);
         }
       });
     }
     worst[name] = most;
   }
-  return { cells: list.length, worst };
+  return { cells: list.length, worst, seen };
 }
 
 // 3. Surfaces in light that is 1 from everywhere.
@@ -171,6 +145,8 @@ function furnace() {
   const rows = {
     white: [standard(white("fitted"))], white_dielectric: [standard(white("fitted_dielectric"))],
     gold: [standard(materials.gold)], silver: [standard(materials.silver)], water: [standard(materials.water)], diamond: [standard(materials.diamond)],
+    white_film: [standard(white("fitted_film"))], titanium: [standard(materials.anodised_titanium_purple, { color: 0xffffff })],
+    oil_on_white: [standard(materials.oil_on_water, { color: 0xffffff }), standard(materials.oil_on_water)],
     water_on_white: [standard(materials.water, { color: 0xffffff }), standard(materials.water)],
     three_white: [plain({ metalness: 1 })], three_dielectric_on_white: [plain(), plain({ color: 0 })],
   };
@@ -199,12 +175,12 @@ function furnace() {
   return told;
 }
 
-// Rectangular lights: gold over white is what it is for an image.
+// Rectangular lights: a material over white is what it is for an image.
 function rectangles() {
   const list = COSINES.slice(2).map(mu => ({ normal: normalAt(mu), light: [0, 0, 0.5] })), grid = cells(list, list.length);
-  const ours = standard(materials.gold), all = standard(white("fitted"));
+  const pairs = ["gold", "anodised_titanium_purple"].map(name => [standard(materials[name]), standard(white(materials[name].method))]);
   let most = 0;
-  for (const roughness of [0.1, 0.4, 0.9]) {
+  for (const [ours, all] of pairs) for (const roughness of [0.1, 0.4, 0.9]) {
     ours.roughness = all.roughness = roughness;
     const [a, b, c, d] = [drawn(area, ours, grid), drawn(area, all, grid), drawn(image, ours, grid), drawn(image, all, grid)];
     for (let i = 0; i < list.length; i++) for (let k = 0; k < 3; k++) {
@@ -278,7 +254,7 @@ function features() {
   };
   const eye = new THREE.PerspectiveCamera(40, 1, 0.1, 20), told = {};
   eye.position.z = 4;
-  for (const [name, parameters] of Object.entries(all)) for (const material of ["gold", "water"]) {
+  for (const [name, parameters] of Object.entries(all)) for (const material of ["gold", "water", "oil_on_water"]) {
     const scene = new THREE.Scene();
     scene.environment = image.environment;
     scene.add(rectangle.clone(), new THREE.DirectionalLight(), new THREE.PointLight(), new THREE.SpotLight(), new THREE.HemisphereLight());
@@ -301,8 +277,9 @@ function refusals() {
   const told = {
     name: refused(() => patch(new THREE.MeshStandardMaterial(), "glod")),
     material: refused(() => patch(new THREE.MeshBasicMaterial(), "gold")),
-    method: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fited", coefficients: WHITE })),
+    method: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fited", coefficients: [] })),
     coefficients: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fitted", coefficients: [[1, 1, 1]] })),
+    coefficients_of_film: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fitted_film", coefficients: white("fitted").coefficients })),
     iridescence: refused(() => drawn(lit, patch(new THREE.MeshPhysicalMaterial({ iridescence: 1 }), "gold"), cells([{ normal: V, light: V }], 1))),
   };
   const { ShaderChunk } = THREE;

@@ -4,16 +4,9 @@ import * as THREE from "three/webgpu";
 import { positionView, screenCoordinate, uniform, vec3, vec4 } from "three/tsl";
 import { MeshStandardMaterial } from "three";
 import { RectAreaLightTexturesLib } from "three/addons/lights/RectAreaLightTexturesLib.js";
-import { materials, patch as patchWebGL, tableSize, tableTexture } from "./three/fresnel.js";
+import { materials, patch as patchWebGL } from "./three/fresnel.js";
 import { fresnel, patch, patchWith } from "./three/fresnel.tsl.js";
-
-const f32 = Math.fround;
-function reflectance({ method, coefficients }, cos, channel) {
-  const [c0, c1, c2, c3] = coefficients.map(c => f32(c[channel]));
-  const b = method === "fitted" ? 2 ** (-6.5 * cos) : 1 - cos;
-  const sum = method === "fitted" ? c0 + b * (c1 + b * (c2 + b * c3)) : c0 + b ** 3 * (c1 + b ** 4 * (c2 + b ** 7 * c3));
-  return Math.min(1, Math.max(0, sum));
-}
+import { compensation, f32, once, reflectance, terms, white } from "./expected.js";
 
 const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 10);
 async function drawn(renderer, scene, mesh, width, height) {
@@ -43,18 +36,6 @@ async function nodes(renderer) {
   }
   return told;
 }
-
-const WHITE = [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]];
-const half = h => (h & 0x7c00 ? 2 ** ((h >> 10 & 31) - 15) * (1 + (h & 1023) / 1024) : 2 ** -24 * (h & 1023)) * (h >> 15 ? -1 : 1);
-function terms(method, cos, roughness) {
-  const texels = tableTexture(method).image.data, last = tableSize - 1;
-  const x = cos ** 0.25 * last, y = roughness ** 0.5 * last;
-  const i = Math.min(last - 1, Math.floor(x)), j = Math.min(last - 1, Math.floor(y));
-  const at = (a, b, k) => half(texels[4 * ((j + b) * tableSize + i + a) + k]);
-  const mix = (a, b, t) => a + (b - a) * t;
-  return [0, 1, 2, 3].map(k => mix(mix(at(0, 0, k), at(1, 0, k), x - i), mix(at(0, 1, k), at(1, 1, k), x - i), y - j));
-}
-const weights = { fitted: [1, 0.09253325, 0.024601486, 0.010947157], fitted_dielectric: [1, 0.1, 0.027777778, 0.008333334] };
 
 // Pixels in a row, on a plane behind which or in front of which a lamp stands. The normal is the half vector, tilted.
 const WIDTH = 128;
@@ -89,7 +70,7 @@ async function lighting(renderer) {
   const material = (row, color = 0) => patchWith(tilted(new THREE.MeshStandardNodeMaterial({ roughness, color }), lamp, tilt), row);
   const seen = (scene, one) => drawn(renderer, scene, new THREE.Mesh(plane, one), WIDTH, 1);
   for (const name of Object.keys(materials)) {
-    const row = materials[name], ours = material(row), all = material({ method: row.method, coefficients: WHITE });
+    const row = materials[name], ours = material(row), all = material(white(row.method));
     const most = { lamps: 0, image: 0, rectangle: 0 };
     for (const height of [0.2, -0.3]) {
       point.position.set(0, 0, height - 1);
@@ -98,13 +79,10 @@ async function lighting(renderer) {
       pixels(height, tilt).forEach(({ cos, cosV, cosL }, i) => {
         if (cos < 0.2 || cosV < 0.05 || cosL < 0.05) return;
         told.least_cos = Math.min(told.least_cos, cos);
-        const t = terms(row.method, cosV, roughness);
+        const lobe = terms(row.method, cosV, roughness)[0];
         for (let k = 0; k < 3; k++) {
-          const mean = row.coefficients.reduce((sum, one, j) => sum + one[k] * weights[row.method][j], 0);
-          const once = row.coefficients.reduce((sum, one, j) => sum + one[k] * t[j], 0);
-          const lost = roughness ** 3 * (0.20275 + roughness * (3.50269 + roughness * (-4.97845 + roughness * 1.8645)));
-          const compensation = 1 + (1 - t[0]) * mean * mean * (1 - lost) / (1 - mean * lost) / once, reflected = once * compensation;
-          most.lamps = Math.max(most.lamps, Math.abs(a(i, k) / b(i, k) / t[0] / compensation - reflectance(row, cos, k)));
+          const more = compensation(row, cosV, roughness, k), reflected = once(row, cosV, roughness, k) * more;
+          most.lamps = Math.max(most.lamps, Math.abs(a(i, k) / b(i, k) / lobe / more - reflectance(row, cos, k)));
           most.image = Math.max(most.image, Math.abs(c(i, k) - reflected), Math.abs(d(i, k) - 1));
           if (g(i, k) > 0) most.rectangle = Math.max(most.rectangle, Math.abs(e(i, k) / g(i, k) - c(i, k)));
         }
@@ -116,7 +94,7 @@ async function lighting(renderer) {
   told.lobe = 0;
   point.position.set(0, 0, -0.8);
   for (const tilt of [0.0005, 0.003, 0.01]) {
-    const narrow = patchWith(tilted(new THREE.MeshStandardNodeMaterial({ roughness: 0.05, color: 0 }), lamp, tilt), { method: "fitted", coefficients: WHITE });
+    const narrow = patchWith(tilted(new THREE.MeshStandardNodeMaterial({ roughness: 0.05, color: 0 }), lamp, tilt), white("fitted"));
     const seen = await drawn(renderer, lit, new THREE.Mesh(plane, narrow), WIDTH, 1);
     pixels(0.2, tilt).forEach(({ cosV, cosL, cosH }, i) => {
       if (cosV < 0.2 || cosL < 0.2) return;
@@ -126,8 +104,12 @@ async function lighting(renderer) {
       told.lobe = Math.max(told.lobe, Math.abs(seen(i, 0) / ours - 1));
     });
   }
-  const below = await seen(image, material(materials.water, 0xffffff));
-  pixels(-0.3, tilt).forEach((_, i) => { told.white_diffuse = Math.max(told.white_diffuse, Math.abs(below(i, 0) - 1)); });
+  for (const name of ["water", "oil_on_water"]) {
+    const below = await seen(image, material(materials[name], 0xffffff));
+    pixels(-0.3, tilt).forEach((_, i) => { told.white_diffuse = Math.max(told.white_diffuse, Math.abs(below(i, 0) - 1)); });
+  }
+  const opaque = [0, 0xffffff].map(color => material(materials.anodised_titanium_purple, color)), [black, bright] = [await seen(image, opaque[0]), await seen(image, opaque[1])];
+  told.opaque_diffuse = Math.abs(bright(64, 0) - black(64, 0));
   // Materials of one method share a program, and an unpatched one is not changed.
   point.position.set(0, 0, -0.8);
   const plain = () => tilted(new THREE.MeshStandardNodeMaterial({ roughness, metalness: 1 }), lamp, tilt);

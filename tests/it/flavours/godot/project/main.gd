@@ -34,7 +34,7 @@ func make_material(name):
 
 # One picture a channel, as the bytes of its pixels.
 func sweep():
-	var viewport = make_viewport(Vector2i(128, 4))
+	var viewport = make_viewport(Vector2i(128, 5))
 	var rect = ColorRect.new()
 	rect.size = viewport.size
 	rect.material = make_material("sweep")
@@ -73,16 +73,18 @@ func middle(stage):
 	var pixel = (await picture(stage.viewport)).get_pixel(4, 4)
 	return [pixel.r8, pixel.g8, pixel.b8]
 
+func table_of(kind):
+	return load("res://fresnel/table_fitted%s.tres" % { "water": "_dielectric", "film": "_film" }.get(kind, ""))
+
 func lamps(stage):
 	var black = GradientTexture2D.new()
 	black.gradient = Gradient.new()
 	black.gradient.colors = PackedColorArray([Color.BLACK, Color.BLACK])
 	var seen = []
-	for kind in ["readme", "water", "schlick", "builtin"]:
+	for kind in ["readme", "water", "film", "schlick", "builtin"]:
 		var material = make_material(kind)
 		stage.plane.material_override = material
-		var table = "table_fitted_dielectric" if kind == "water" else "table_fitted"
-		material.set_shader_parameter("table", load("res://fresnel/%s.tres" % table))
+		material.set_shader_parameter("table", table_of(kind))
 		material.set_shader_parameter("sky", black)
 		for roughness in [0.3, 0.6]:
 			material.set_shader_parameter("roughness", roughness)
@@ -107,25 +109,26 @@ func panorama(paint, width = 64):
 	picture.generate_mipmaps()
 	return ImageTexture.create_from_image(picture)
 
-func gold():
-	var material = make_material("readme")
-	material.set_shader_parameter("table", load("res://fresnel/table_fitted.tres"))
+func gold(kind = "readme"):
+	var material = make_material(kind)
+	material.set_shader_parameter("table", table_of(kind))
 	return material
 
 # A sky of one light and no lamp. The exposure keeps the pixel within its bits.
 func image(stage):
 	stage.light.visible = false
-	var material = gold()
-	stage.plane.material_override = material
 	var seen = []
-	for light in [0.01, 0.3, 1.0, 40.0]:
-		material.set_shader_parameter("sky", panorama(func(_x): return Color(light, light, light)))
-		stage.environment.tonemap_exposure = 1.0 / light
-		for roughness in [0.1, 0.3, 0.6, 1.0]:
-			material.set_shader_parameter("roughness", roughness)
-			for spin in [0, 20, 40, 60, 75]:
-				stage.plane.rotation_degrees = Vector3(0, spin, 0)
-				seen.append({ "roughness": roughness, "spin": spin, "pixel": await middle(stage) })
+	for kind in ["readme", "film"]:
+		var material = gold(kind)
+		stage.plane.material_override = material
+		for light in [0.01, 0.3, 1.0, 40.0]:
+			material.set_shader_parameter("sky", panorama(func(_x): return Color(light, light, light)))
+			stage.environment.tonemap_exposure = 1.0 / light
+			for roughness in [0.1, 0.3, 0.6, 1.0]:
+				material.set_shader_parameter("roughness", roughness)
+				for spin in [0, 20, 40, 60, 75]:
+					stage.plane.rotation_degrees = Vector3(0, spin, 0)
+					seen.append({ "kind": kind, "roughness": roughness, "spin": spin, "pixel": await middle(stage) })
 	stage.environment.tonemap_exposure = 1.0
 	return seen
 
