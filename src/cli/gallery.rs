@@ -63,8 +63,9 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
         )));
     }
     let named: Vec<String> = subjects.iter().map(|one| one.name.clone()).collect();
+    let with_stacks = flags.materials.material.is_empty();
     subjects.extend(
-        films()
+        films(with_stacks)
             .into_iter()
             .filter(|film| !named.contains(&film.name)),
     );

@@ -70,19 +70,14 @@ const FILM_MAPS: [(&str, &str, &str, &str); 3] = [
         "iridescence_khr",
         "titanium_dioxide:400nm",
         "titanium",
-        "iridescence_khr_on_titanium",
+        "film_map_titanium",
     ),
-    (
-        "iridescence_khr",
-        "1.38:400nm",
-        "bk7",
-        "iridescence_khr_on_glass",
-    ),
+    ("iridescence_khr", "1.38:400nm", "bk7", "film_map_glass"),
     (
         "film_spectral_six",
         "titanium_dioxide:400nm",
         "titanium",
-        "film_spectral_six_on_titanium",
+        "film_map_six",
     ),
 ];
 

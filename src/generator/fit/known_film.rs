@@ -219,7 +219,9 @@ impl Squares {
         rows.push([vec![1.0; count], vec![0.0]].concat());
         let of = |channel: usize| {
             let values = inner.iter().map(|a| self.with_colour[*a][channel]);
-            solve(rows.clone(), values.chain([1.0]).collect()).unwrap_or(vec![0.0; count + 1])
+            let found = solve(rows.clone(), values.chain([1.0]).collect());
+            // Where nothing is reflected at any thickness, all shares are as good.
+            found.unwrap_or_else(|| vec![1.0 / count as f64; count + 1])
         };
         let channels = each_channel(of);
         (0..count)

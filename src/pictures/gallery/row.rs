@@ -192,10 +192,10 @@ pub fn is_shown(subject: &MaterialInMedium) -> bool {
     rows().iter().any(|row| takes(row, subject))
 }
 
-/// The films of a page: those of rows, and each stack that has a name, as far as a row shows it.
-pub fn films() -> Vec<MaterialInMedium> {
+/// The rows' own films, and on request each stack that has a name, as far as a row shows it.
+pub fn films(with_stacks: bool) -> Vec<MaterialInMedium> {
     let rows = rows().into_iter().filter(|row| row.film.is_some());
-    let stacks = materials::stacks().into_iter();
+    let stacks = materials::stacks().into_iter().filter(|_| with_stacks);
     let stacks = stacks.map(|name| Source::Named(name.to_owned()));
     let mut films = subjects(rows.map(RenderRow::source).chain(stacks).collect());
     films.retain(is_shown);

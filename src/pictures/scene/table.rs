@@ -262,7 +262,7 @@ pub static ALL: &[RenderRow] = &[
         ),
         material: "titanium",
         film: Some("titanium_dioxide:150nm"),
-        wrong: "three wavelengths stand for the spectrum",
+        wrong: "three wavelengths stand for the spectrum; light that enters a clear base is left out, here and in the truth",
         ..METAL
     },
     RenderRow {

@@ -104,7 +104,10 @@ impl Scene<'_> {
 
     /// The share of the film's thickness at a place on the body.
     fn film_share(&self, place: DVec3) -> f64 {
-        OpticalMaterial::share_at(place.y / self.things.body.radius())
+        match self.things.material.film_nm > 0.0 {
+            true => OpticalMaterial::share_at(place.y / self.things.body.radius()),
+            false => 1.0,
+        }
     }
 
     /// The normal, tilted by the dents.

@@ -223,7 +223,7 @@ fn bash_completes_names_and_flags() {
 
 /// Lines in which each flag that a command offers does its work. Those of a graphics stack or of minutes are parsed only; tests of
 /// their own run them.
-const USED: [(&str, bool); 53] = [
+const USED: [(&str, bool); 54] = [
     (
         "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
         true,
@@ -341,6 +341,10 @@ const USED: [(&str, bool); 53] = [
     ),
     (
         "audit m.glsl --material gold --wavelengths 600,550,450",
+        false,
+    ),
+    (
+        "render thin_film --material silicon --film fused_silica:300nm --size 64",
         false,
     ),
     (

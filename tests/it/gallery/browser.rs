@@ -87,7 +87,7 @@ fn changes_are_seen(changes: &Value) {
         "film",
         "thinner",
         "by_khr",
-        "on_silicon",
+        "by_materialx",
     ];
     for pair in steps.windows(2) {
         let [one, other] = [pair[0], pair[1]].map(|name| &changes[name]);

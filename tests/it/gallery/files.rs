@@ -39,7 +39,7 @@ fn two_runs_write_the_same_bytes() {
     let ran = place.done(&format!(
         "gallery --material {materials} --out-dir . --overwrite"
     ));
-    assert!(ran.err.contains("7 materials"), "{}", ran.err);
+    assert!(ran.err.contains("9 materials"), "{}", ran.err);
     assert!(ran.err.contains("replaced: "), "{}", ran.err);
     assert!(place.read("index.html") == page(), "they differ");
 }

@@ -73,8 +73,8 @@
     await seen("thinner");
     await choose("method", "iridescence_khr");
     await seen("by_khr");
-    await choose("material", "silica_on_silicon");
-    await seen("on_silicon");
+    await choose("method", "airy_materialx");
+    await seen("by_materialx");
     await choose("effect", "ggx_specular");
     told.before = $("right").textContent;
     await step("magnification");

@@ -45,5 +45,5 @@ fn subjects() -> Vec<MaterialInMedium> {
         ..Request::default()
     };
     let found = request.subjects().expect("they are of the catalogue");
-    [found.materials(), films()].concat()
+    [found.materials(), films(false)].concat()
 }

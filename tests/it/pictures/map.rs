@@ -72,11 +72,60 @@ pub static FACTS: &[Fact] = &[
         holds: |shown| the_empirical_term_meets_the_law_at_60_degrees(&Read::new(shown)),
     },
     Fact {
+        pictures: "*film_map_titanium.png",
+        says: "on a metal KHR_materials_iridescence is wrong at nearly every thickness, and beyond 1 near grazing alone",
+        holds: |shown| {
+            let pixels = Pixels::new(&shown.bytes());
+            assert!(share_of_red(&pixels, 75..90) > 0.1 && share_of_red(&pixels, 0..70) == 0.0);
+            assert!(brightness(&pixels, 5..60) > 205.0);
+        },
+    },
+    Fact {
+        pictures: "*film_map_glass.png",
+        says: "on glass it is right head-on and wrong from 60 degrees on, and nowhere beyond 1",
+        holds: |shown| {
+            let pixels = Pixels::new(&shown.bytes());
+            assert_eq!(share_of_red(&pixels, 0..90), 0.0);
+            assert!(brightness(&pixels, 70..85) > brightness(&pixels, 0..30) + 15.0);
+        },
+    },
+    Fact {
+        pictures: "*film_map_six.png",
+        says: "six wavelengths are nowhere beyond 1, and err less than KHR_materials_iridescence on the same film",
+        holds: |shown| {
+            let pixels = Pixels::new(&shown.bytes());
+            assert_eq!(share_of_red(&pixels, 0..90), 0.0);
+            assert!(brightness(&pixels, 5..60) < 200.0);
+        },
+    },
+    Fact {
         pictures: "*index.html",
         says: "Schlick's error near an index of 1 is above .2, and the textbook's form fails below 1",
         holds: |shown| the_page_says_what_fails(&shown.text()),
     },
 ];
+
+/// The pixels between these angles, over all thicknesses, of the panel on the left.
+fn between(pixels: &Pixels, degrees: std::ops::Range<usize>) -> Vec<[u8; 3]> {
+    let column = |degree: usize| 70.0 + 300.0 * (degree as f64 + 0.5) / 91.0;
+    let rows = |degree| (92..308).map(move |y| (column(degree), f64::from(y)));
+    degrees
+        .flat_map(rows)
+        .map(|(x, y)| pixels.at(x, y))
+        .collect()
+}
+
+fn share_of_red(pixels: &Pixels, degrees: std::ops::Range<usize>) -> f64 {
+    let all = between(pixels, degrees);
+    let red = all.iter().filter(|colour| **colour == RED).count();
+    red as f64 / all.len() as f64
+}
+
+/// The mean of green, which grows with the error on the scale of colours.
+fn brightness(pixels: &Pixels, degrees: std::ops::Range<usize>) -> f64 {
+    let all = between(pixels, degrees);
+    all.iter().map(|colour| f64::from(colour[1])).sum::<f64>() / all.len() as f64
+}
 
 /// A map as its reader sees it.
 struct Read {
