@@ -62,13 +62,18 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
             hidden.name
         )));
     }
-    let named: Vec<String> = subjects.iter().map(|one| one.name.clone()).collect();
-    let with_stacks = flags.materials.material.is_empty();
-    subjects.extend(
-        films(with_stacks)
-            .into_iter()
-            .filter(|film| !named.contains(&film.name)),
-    );
+    for film in films(flags.materials.material.is_empty()) {
+        match subjects.iter().find(|own| own.name == film.name) {
+            None => subjects.push(film),
+            Some(own) if own.reference.surface == film.reference.surface => {}
+            Some(_) => {
+                return Err(Error::usage(format!(
+                    "the page has another material that is named `{}`; give yours another name",
+                    film.name
+                )));
+            }
+        }
+    }
     let space = request.viewing.integration.space;
     let gallery = gallery(&subjects, space, progress);
     let gallery = gallery.map_err(|fault| Error::usage(fault.to_string()))?;

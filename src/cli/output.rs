@@ -9,7 +9,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::cli::error::Error;
-use crate::cli::places::replaced;
+use crate::cli::places::{refuse_one_place, replaced};
 use crate::generator::envelope::json_text;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
@@ -64,6 +64,7 @@ pub fn report_beside<T: Serialize>(
 ) -> Result<Output, Error> {
     let (output, own) = reported(text, json, file);
     files.extend(own);
+    refuse_one_place(&files.iter().map(OutputFile::path).collect::<Vec<_>>())?;
     let old = write_outputs(&files)?;
     Ok(Output {
         remarks: replaced(&old).collect(),

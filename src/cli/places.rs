@@ -79,7 +79,7 @@ fn refuse_listed(named: &Path) -> Result<(), Error> {
 }
 
 /// Refuses two outputs that are the same file.
-fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
+pub(super) fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
     for (i, file) in files.iter().enumerate() {
         if files[..i].iter().any(|other| is_same_file(other, file)) {
             return Err(fault(

@@ -248,7 +248,7 @@ fn check_film(row: &'static RenderRow, subject: &MaterialInMedium) -> Result<(),
     let name = &subject.name;
     if !subject.is_described_by(RowText::usual(row).method) {
         let why = format!(
-            "{} shows one clear film, and `{name}` is not under one; name its thickest place, such as --material {} --film {}",
+            "{} shows one clear film (k below .05), and `{name}` is not under one; name a film and its thickest place, such as --material {} --film {}",
             row.name,
             row.material,
             row.film.unwrap_or_default()

@@ -101,7 +101,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     };
     let mapped = mapped(&study, &subjects);
     if flags.pictures.folder().is_some() && !is_library && mapped.is_empty() {
-        let why = "maps of a material are over the thickness of its film: name one clear film (k below .05) with --film, and with --method one that takes its thickness, such as film_spectral_six";
+        let why = "--out-dir draws a material over the thickness of its film: name one clear film (k below .05) with --film, and with --method one that takes its thickness, such as film_spectral_six";
         return Err(Error::usage(why));
     }
     let rows = if is_library {

@@ -5,6 +5,8 @@
 //! The page has all maps, and a sentence for each failure: how much of a region fails, where it is worst, and the result there. It is
 //! self-contained.
 
+use std::collections::BTreeSet;
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
@@ -239,7 +241,8 @@ pub fn stability_page(
     command: &str,
 ) -> Result<String, String> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
-    methods.dedup_by_key(|method| method.name);
+    let mut seen = BTreeSet::new();
+    methods.retain(|method| seen.insert(method.name));
     let sections = methods.into_iter();
     let sections: Vec<MethodSection> = sections
         .map(|method| section(method, rows, pictures))
@@ -260,10 +263,14 @@ fn section(
     pictures: &[(&'static str, String, Vec<u8>)],
 ) -> MethodSection {
     let own = rows.iter().filter(|row| row.method.name == method.name);
-    let findings: Vec<&Finding> = own.filter_map(|row| row.finding.as_ref()).collect();
+    let findings: Vec<(String, &Finding)> = own
+        .filter_map(|row| Some((about(row), row.finding.as_ref()?)))
+        .collect();
     let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
-        let findings = findings.iter().filter(|finding| wanted(finding));
-        findings.map(|finding| sentence(finding)).collect()
+        let findings = findings.iter().filter(|(_, finding)| wanted(finding));
+        findings
+            .map(|(about, finding)| about.clone() + &sentence(finding))
+            .collect()
     };
     let own = pictures.iter().filter(|(of, _, _)| *of == method.name);
     let picture = |(_, over, png): &(&str, String, Vec<u8>)| Picture {
@@ -278,6 +285,14 @@ fn section(
         arguments: sentences(|finding| !finding.is_media),
         pictures: own.map(picture).collect(),
     }
+}
+
+/// The material and the channel of a row, before its sentence.
+fn about(row: &StabilityRow) -> String {
+    let material = row.material.as_ref();
+    material.map_or_else(String::new, |(name, channel)| {
+        format!("{name}, {channel}: ")
+    })
 }
 
 /// A finding as a sentence.

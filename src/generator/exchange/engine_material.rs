@@ -228,7 +228,7 @@ fn remarks(
 pub enum ExchangeFault {
     /// A dielectric under films, for a format that has no film, or more films than one.
     #[error(
-        "`{}` is a dielectric under films: this format would have what lies below, without the films; the functions of `--material` have them, and gltf, materialx and openpbr take one film",
+        "`{}` is a dielectric under films: this format would have what lies below, without the films; the functions of `--material` have them, and blender, gltf, materialx and openpbr take one clear film that is not rarer than the medium",
         Foreign(name)
     )]
     Filmed {

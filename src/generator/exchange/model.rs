@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::cycles_film::CyclesFilm;
 use super::engine_material::{EngineFilm, EngineMaterial};
 use crate::generator::fit::{error_of, rounded_up, values_at};
-use crate::language::ir::{Column, Value};
+use crate::language::ir::{Checked, Column, Value};
 use crate::language::methods::{self, Method, Values};
 use crate::physics::num::each_channel;
 
@@ -20,8 +20,8 @@ pub struct Model {
 
 #[derive(Clone, Debug)]
 enum Formula {
-    /// That of one of our methods, with the values of its inputs. A scalar input uses the first number.
-    Method(&'static Method, Values),
+    /// That of one of our methods: its graph, and the values of its inputs. A scalar input uses the first number.
+    Method(&'static Method, Checked, Values),
     /// A film as Cycles has it.
     CyclesFilm(CyclesFilm),
 }
@@ -56,9 +56,10 @@ impl Model {
     fn new(words: &'static str, method: &str, values: &[(&str, [f64; 3])]) -> Model {
         let values = values.iter().map(|(name, value)| ((*name).into(), *value));
         let method = methods::find(method).expect("a test finds every model");
+        let function = method.function(false).expect("a test builds every method");
         Model {
             words,
-            formula: Formula::Method(method, values.collect()),
+            formula: Formula::Method(method, function, values.collect()),
         }
     }
 
@@ -115,7 +116,7 @@ impl Model {
 
     /// Its largest error for a material, and the angle in degrees.
     pub fn error(&self, material: &EngineMaterial) -> (f64, f64) {
-        let error = error_of(&material.subject.reference, &self.curve());
+        let error = error_of(&material.subject.reference, &|cosines| self.at(cosines));
         (error.max_abs, libm::acos(error.worst_cos).to_degrees())
     }
 
@@ -127,7 +128,7 @@ impl Model {
             .map(|part| steepest * part as f64 / PARTS as f64)
             .collect();
         let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
-        let given = self.curve()(&cosines);
+        let given = self.at(&cosines);
         let off = |part: usize| {
             let (given, want) = (given.at(part), material.subject.reference.at(cosines[part]));
             (0..3)
@@ -147,18 +148,16 @@ impl Model {
     }
 
     /// What it computes at cosines.
-    fn curve(&self) -> Box<dyn Fn(&[f64]) -> Value<f64> + '_> {
+    fn at(&self, cosines: &[f64]) -> Value<f64> {
         match &self.formula {
-            Formula::Method(method, values) => {
-                let function = method.function(false);
-                let function = function.expect("a test builds every method");
-                Box::new(move |cosines| values_at(&function, method.inputs, values, cosines))
+            Formula::Method(method, function, values) => {
+                values_at(function, method.inputs, values, cosines)
             }
-            Formula::CyclesFilm(film) => Box::new(|cosines| {
+            Formula::CyclesFilm(film) => {
                 let all: Vec<[f64; 3]> = cosines.iter().map(|c| film.at(*c)).collect();
                 let channel = |i: usize| Column::Each(all.iter().map(|rgb| rgb[i]).collect());
                 Value::Rgb(each_channel(channel))
-            }),
+            }
         }
     }
 }

@@ -220,8 +220,12 @@ impl Squares {
         let of = |channel: usize| {
             let values = inner.iter().map(|a| self.with_colour[*a][channel]);
             let found = solve(rows.clone(), values.chain([1.0]).collect());
-            // Where nothing is reflected at any thickness, all shares are as good.
-            found.unwrap_or_else(|| vec![1.0 / count as f64; count + 1])
+            // Where nothing is reflected at any thickness, all shares are as good: to each channel its own wavelengths.
+            let own = (0..=count).map(|i| i * 3 / count == channel);
+            found.unwrap_or_else(|| {
+                own.map(|is| f64::from(u8::from(is)) * 3.0 / count as f64)
+                    .collect()
+            })
         };
         let channels = each_channel(of);
         (0..count)

@@ -50,7 +50,10 @@ pub enum FilmFault {
     /// The thickness has no unit, or is no number.
     #[error("`{0}` is no thickness; a number with its unit is wanted: nm or um, such as 60nm")]
     NoLength(String),
-    /// The thickness lies outside its limits.
+    /// The thickness is negative, or no number.
+    #[error("a film of {0} is none: 0 to {THICKEST_NM} nm are allowed")]
+    Negative(String),
+    /// The film is too thick.
     #[error(
         "a film of {0} is none: 0 to {THICKEST_NM} nm are allowed. A thicker layer shows no colours of interference: it is a coat, and what lies below it has it as its --medium"
     )]
@@ -88,8 +91,10 @@ pub fn length_nm(length: &str) -> Result<f64, FilmFault> {
     let thickness_nm = (number * nm * 1e6).round() / 1e6;
     if (0.0..=THICKEST_NM).contains(&thickness_nm) {
         Ok(thickness_nm.abs())
-    } else {
+    } else if thickness_nm > THICKEST_NM {
         Err(FilmFault::Length(length.to_owned()))
+    } else {
+        Err(FilmFault::Negative(length.to_owned()))
     }
 }
 
