@@ -22,7 +22,7 @@ use crate::generator::request::Source;
 use crate::generator::request::source::{self, Loaded, load};
 use crate::lab::gpu::{Device, Wanted};
 use crate::physics::foreign;
-use crate::physics::materials::{Index, Material, MaterialKind, ViewingConditions};
+use crate::physics::materials::{Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Space, srgb_byte};
 use crate::pictures::plot::shade_bytes;
 use crate::pictures::png::rgb_png;
@@ -255,15 +255,7 @@ fn check_film(row: &'static RenderRow, subject: &MaterialInMedium) -> Result<(),
         );
         return Err(Error::usage(why));
     }
-    let air = Index { n: 1.0, k: 0.0 };
-    if row.is_transparent()
-        && subject
-            .reference
-            .surface
-            .indices
-            .iter()
-            .any(|one| *one != air)
-    {
+    if row.is_transparent() && !scene::hangs_free(&subject.reference.surface) {
         let why = format!(
             "{} shows a film that hangs free, and `{name}` lies on something; take thin_film for it, or --material air",
             row.name

@@ -183,8 +183,8 @@ fn takes(row: &'static RenderRow, subject: &MaterialInMedium) -> bool {
     if row.film.is_none() {
         return !subject.has_films() && row.is_transparent() == is_dielectric;
     }
-    let is_free = subject.effective.channels.n == [1.0; 3];
-    row.is_transparent() == is_free && subject.is_described_by(RowText::usual(row).method)
+    row.is_transparent() == scene::hangs_free(&subject.reference.surface)
+        && subject.is_described_by(RowText::usual(row).method)
 }
 
 /// Whether a row shows this material.

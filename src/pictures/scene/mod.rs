@@ -39,7 +39,7 @@ pub use picture::{
     Difference, Display, Picture, PictureRequest, RenderedRow, TONE_CURVES, ToneCurve, render,
 };
 pub use room::{ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
-pub use table::{ALL, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, View, find};
+pub use table::{ALL, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, View, find, hangs_free};
 pub use texels::{Slot, Texels};
 pub use text::{FRAME, GLES_CALLS, INPUTS, RowText, WGSL_CALLS};
 pub use trace::{Things, trace};

@@ -5,7 +5,7 @@ use super::light::Paths;
 use super::texels::Slot;
 use crate::generator::request::Source;
 use crate::lab::gpu::Depth;
-use crate::physics::materials::film_of_word;
+use crate::physics::materials::{Index, Surface, film_of_word};
 
 /// The sky behind everything.
 pub const SKY: PassRow = PassRow {
@@ -308,6 +308,12 @@ pub static ALL: &[RenderRow] = &[
         ..BALL
     },
 ];
+
+/// Whether a film hangs free: what lies below it is as what lies outside.
+pub fn hangs_free(surface: &Surface) -> bool {
+    let outside = Index { n: 1.0, k: 0.0 };
+    surface.indices.iter().all(|index| *index == outside)
+}
 
 /// The row of this name.
 pub fn find(name: &str) -> Option<&'static RenderRow> {

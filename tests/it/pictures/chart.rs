@@ -26,6 +26,31 @@ pub static FACTS: &[Fact] = &[
         holds: |shown| fitted_lies_below_what_is_cheaper(&shown.text()),
     },
     Fact {
+        pictures: "*films.svg",
+        says: "fitted forms of films stand far below and left of what engines compute of films",
+        holds: |shown| {
+            let text = shown.text();
+            the_frontier_falls(&text);
+            let place = |name: &str| {
+                let end = format!(">{name}</text>");
+                let line = text.lines().find(|line| line.ends_with(&end)).unwrap();
+                let number = |key: &str| {
+                    let (_, rest) = line.split_once(&format!(" {key}=\"")).unwrap();
+                    rest.split_once('"').unwrap().0.parse::<f64>().unwrap()
+                };
+                (number("x"), number("y"))
+            };
+            let engine = place("iridescence_khr");
+            for name in ["fitted_film", "fitted_film_eight"] {
+                let ours = place(name);
+                assert!(
+                    ours.0 < engine.0 - 200.0 && ours.1 > engine.1 + 100.0,
+                    "{name}"
+                );
+            }
+        },
+    },
+    Fact {
         pictures: "*ours/chart.svg",
         says: "every function stands at its own cost and error, in the colour of its kind",
         holds: |shown| {
