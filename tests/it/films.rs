@@ -8,7 +8,6 @@ use super::cli::Place;
 use super::fits::films;
 use super::physics::films::filmed;
 use super::readme::replaced;
-use fresnel_gen::generator::emit::{Bounds, of_cosine};
 use fresnel_gen::generator::fit::{model_error, values_for_material};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::lab::chart::{ChartData, ChartView, FunctionOrigin, chart_data};
@@ -651,30 +650,7 @@ fn wrong_films_are_refused() {
     }
 }
 
-/// A free film of no thickness mirrors nothing, by whatever wavelengths, and its functions can be written.
-#[test]
-fn a_free_film_of_no_thickness_mirrors_nothing() {
-    let material = filmed("water:0nm", "air");
-    let typed = (material.name.clone(), material);
-    let viewing = ViewingConditions::default();
-    let subject = MaterialInMedium::new(typed, None, &viewing, Derivation::default()).unwrap();
-    for name in ["film_spectral_three", "film_spectral_six"] {
-        let method = methods::find(name).unwrap();
-        let function = of_cosine(method, &subject, Precision::F32, &Bounds::recorded()).unwrap();
-        let error = model_error(&function, &subject.reference);
-        assert!(error.max_abs < 1e-6, "{name}: {error:?}");
-    }
-    let place = Place::new();
-    let shown =
-        place.done("--material air --film water:0nm --method film_spectral_six --target gles -o -");
-    assert!(
-        shown
-            .out
-            .contains("fresnel_air_film_water_0nm_film_spectral_six(")
-    );
-}
-
-/// What outsiders found: a report must not take the place of a map of the same run, and a page of several materials says whose error it tells.
+/// A report takes no place of a map of the same run, and a page of several materials says whose error it tells.
 #[test]
 fn maps_of_films_keep_their_places_and_names() {
     let place = Place::new();
