@@ -172,14 +172,15 @@ fn axes(map: &Map, left: f64) -> Axes {
         PLOT.0 / degrees.len() as f64 / 2.0,
         PLOT.1 / values.len() as f64 / 2.0,
     ];
+    // Thicknesses begin at 0.
+    let scale = match values[0] > 0.0 {
+        true => Scale::log,
+        false => Scale::linear,
+    };
     Axes {
         area,
         x: Scale::linear(ends(degrees), [area.left + half[0], area.right - half[0]]),
-        y: if values[0] > 0.0 {
-            Scale::log(ends(values), [area.bottom - half[1], area.top + half[1]])
-        } else {
-            Scale::linear(ends(values), [area.bottom - half[1], area.top + half[1]])
-        },
+        y: scale(ends(values), [area.bottom - half[1], area.top + half[1]]),
     }
 }
 

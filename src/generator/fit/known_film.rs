@@ -146,11 +146,7 @@ fn reflected_rows(surface: &Surface, degrees: &[f64], times: usize) -> Vec<Row> 
     let row = |share: f64, degrees: f64| {
         let at = |place: usize| {
             let (index, film) = (surface.indices[place], surface.films[place][0]);
-            let film = Layer {
-                waves: share * film.waves,
-                ..film
-            };
-            under_films(&[film], index.n, index.k, cosine(degrees)).unpolarised()
+            under_films(&[film.of_share(share)], index.n, index.k, cosine(degrees)).unpolarised()
         };
         let spectrum: Vec<f64> = (0..surface.indices.len()).map(at).collect();
         Row {

@@ -82,7 +82,7 @@ pub fn catalogue_rows(
     subjects: &[MaterialInMedium],
     naming: &Naming,
 ) -> Result<Vec<CatalogueRow>, Error> {
-    rows(subjects, naming, MaterialInMedium::fitted_with_four)
+    rows_by_method(subjects, naming, MaterialInMedium::fitted_with_four)
 }
 
 /// The same rows for adapters, in which a material under films has the method that follows films.
@@ -93,11 +93,11 @@ pub fn adapter_rows(
     subjects: &[MaterialInMedium],
     naming: &Naming,
 ) -> Result<Vec<CatalogueRow>, Error> {
-    rows(subjects, naming, MaterialInMedium::fitted_in_engines)
+    rows_by_method(subjects, naming, MaterialInMedium::fitted_in_engines)
 }
 
 /// The rows of the materials for which this finds a method, by method and name.
-fn rows(
+fn rows_by_method(
     subjects: &[MaterialInMedium],
     naming: &Naming,
     method_of: fn(&MaterialInMedium) -> Option<&'static str>,
