@@ -281,8 +281,8 @@ fn section(
     MethodSection {
         method: method.name,
         summary: method.summary,
-        formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),
-        rounding: sentences(|finding| finding.is_media && !finding.failure.is_of_the_model()),
+        formula: sentences(|finding| finding.is_media && finding.is_of_formula()),
+        rounding: sentences(|finding| finding.is_media && !finding.is_of_formula()),
         arguments: sentences(|finding| !finding.is_media),
         pictures: own.map(picture).collect(),
     }

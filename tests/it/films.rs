@@ -8,6 +8,7 @@ use super::cli::Place;
 use super::fits::films;
 use super::physics::films::filmed;
 use super::readme::replaced;
+use fresnel_gen::generator::emit::{Bounds, of_cosine};
 use fresnel_gen::generator::fit::{model_error, values_for_material};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::lab::chart::{ChartData, ChartView, FunctionOrigin, chart_data};
@@ -184,6 +185,26 @@ fn a_film_of_no_thickness_changes_no_bit() {
     for degrees in [0.0, 45.0, 89.0, 90.0] {
         let c = cosine(degrees);
         assert_eq!(bare.unpolarised(c), none.unpolarised(c));
+    }
+}
+
+/// Air on both sides of nothing reflects nothing, also by methods of a few wavelengths, and their functions can be written.
+#[test]
+fn a_free_film_of_no_thickness_reflects_nothing() {
+    let place = Place::new();
+    for name in ["film_spectral_three", "film_spectral_six"] {
+        let method = methods::find(name).unwrap();
+        let viewing = ViewingConditions::default();
+        let typed = ("air".to_owned(), filmed("water:0nm", "air"));
+        let none = MaterialInMedium::new(typed, None, &viewing, Derivation::default()).unwrap();
+        let function = of_cosine(method, &none, Precision::F32, &Bounds::default()).unwrap();
+        for c in [1.0, 0.5, 0.1, 0.01] {
+            let r = evaluate::<f64>(&function, &[Value::scalar(c)]).at(0);
+            assert!(r.iter().all(|r| r.abs() < 1e-6), "{name} {c}: {r:?}");
+        }
+        place.done(&format!(
+            "--material air --film water:0nm --method {name} --target gles -o -"
+        ));
     }
 }
 

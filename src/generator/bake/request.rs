@@ -3,9 +3,9 @@
 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{self, Naming};
-use crate::generator::lut::{self, Format, MOST_TERM, TERMS, TableAxis, term_range};
+use crate::generator::lut::{self, Format, TableAxis};
 use crate::generator::reference::{ReferenceCurve, Typed};
-use crate::language::methods::{self, Light, Method, TEXELS};
+use crate::language::methods::{self, Light, TEXELS};
 use crate::language::targets::Target;
 use crate::physics::materials::{Material, Surface, SurfaceError, ViewingConditions};
 use crate::physics::spectra::{Gamut, Space};
@@ -236,10 +236,7 @@ pub enum Error {
 
 /// The methods that have a split-sum table.
 pub fn split_sum_methods() -> Vec<&'static str> {
-    let has_table = |method: &&Method| {
-        let basis = method.basis();
-        basis.is_some_and(|basis| basis.terms() <= TERMS && term_range(&basis)[1] <= MOST_TERM)
-    };
-    let all = methods::ALL.iter().copied().filter(has_table);
+    let all = methods::ALL.iter();
+    let all = all.filter(|method| method.basis().is_some());
     all.map(|method| method.name).collect()
 }

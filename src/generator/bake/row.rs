@@ -141,8 +141,10 @@ pub struct SplitSumRow {
     pub axis: String,
     /// The file's path.
     pub file: String,
-    /// The file of the fourth term, if that has its own.
+    /// The files of further terms, where the first has no channels for them.
     pub(super) second_file: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) third_file: Option<String>,
     /// value = texel × scale.
     pub scale: f64,
     /// The largest error of a term's filtered lookup.
@@ -155,9 +157,9 @@ pub struct SplitSumRow {
     pub(super) least_roughness: f64,
     pub(super) depth: &'static str,
     pub(super) bytes: usize,
-    pub(super) channels: &'static str,
+    pub(super) channels: String,
     /// The factors of the terms, as formulas of the method's inputs.
-    pub(super) numbers: Vec<&'static str>,
+    pub(super) numbers: Vec<String>,
     pub(super) averages: Vec<f64>,
     pub(super) albedo: String,
     pub(super) alpha: &'static str,

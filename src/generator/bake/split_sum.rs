@@ -2,7 +2,10 @@
 //!
 //! A fourth term lies in alpha only where a file's texels reach a GPU unchanged: KTX2 and arrays. Readers of PNG and EXR may
 //! multiply colours by alpha (`createImageBitmap` of browsers by default, Core Graphics always), or divide by it, since OpenEXR
-//! treats colours as premultiplied. So in these formats it gets a file of its own.
+//! treats colours as premultiplied. So files of these formats hold three terms, those of others four. What is left has a file of
+//! its own, whose name ends in its first term.
+
+use std::ops::Range;
 
 use super::request::{DEFAULT_FORMATS, Error};
 use super::row::{BakeRow, Baked, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
@@ -10,7 +13,7 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
 use crate::generator::lut::{
     BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis,
-    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range,
+    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, check_side, term_range,
 };
 use crate::language::ir::Weights;
 use crate::language::methods::{self, Basis, Method};
@@ -79,8 +82,9 @@ impl SplitSumRequest {
 
     /// Why a format cannot hold the terms: integers end at 0 and 1.
     fn refusal(&self, format: Format) -> Option<Error> {
-        let [least, most] = term_range(&self.method.basis()?);
-        let is_held = least >= LEAST_OF_INTEGERS && most <= 1.0;
+        let design = self.design(self.method.basis()?);
+        let [least, most] = term_range(&design.basis);
+        let is_held = least >= LEAST_OF_INTEGERS && most <= 1.0 && design.functions.is_none();
         let is_refused = format.depth().largest().is_some() && !is_held;
         is_refused.then(|| Error::Integers {
             method: self.method.name,
@@ -106,8 +110,7 @@ struct DescribedTable<'a> {
 /// Bakes the table. `progress` receives the number of finished rows (of texels and of places between them), and of all rows.
 ///
 /// # Errors
-/// The method is not affine, or has more numbers than a texture has channels; no texture can have this size; or a format cannot
-/// hold the terms.
+/// The method is not affine; no texture can have this size; or a format cannot hold the terms.
 pub fn bake_split_sum(
     request: &SplitSumRequest,
     progress: &mut dyn FnMut(u64, u64, &str),
@@ -147,12 +150,13 @@ pub fn bake_split_sum(
     for depth in Format::depths(&formats) {
         let stored = table.stored(depth);
         let errors = [Weights::Steps256, Weights::Exact]
-            .map(|w| between.errors(&stored, w)[..design.channels()].to_vec());
+            .map(|w| between.errors(&stored, w)[..described.design.channels()].to_vec());
         for format in formats.iter().filter(|format| format.depth() == depth) {
             rows.push(described.row(*format, &errors));
-            for channels in described.parts(*format).iter().copied() {
-                let picture = described.picture(*format, &stored, &errors, channels);
-                files.push((described.file(*format, channels), format.encode(&picture)?));
+            for terms in described.parts(*format) {
+                let file = described.file(*format, &terms);
+                let picture = described.picture(*format, &stored, &errors, terms);
+                files.push((file, format.encode(&picture)?));
             }
         }
     }
@@ -178,44 +182,65 @@ pub fn usual_method(layout: SplitSumLayout) -> &'static Method {
     methods::find(name).expect("it is in the list of methods")
 }
 
+/// What the channels of the file of these terms hold.
+fn meanings(terms: &Range<usize>) -> String {
+    let names = ["red", "green", "blue", "alpha"]
+        .into_iter()
+        .zip(terms.clone());
+    let each: Vec<String> = names.map(|(name, i)| format!("{name} T{i}")).collect();
+    let each = each.join(", ");
+    match (terms.start, terms.len()) {
+        (0, 1) => format!("{each}; the others nothing"),
+        (0, 2) => format!("{each}; blue nothing"),
+        (0, 3) => each,
+        (0, _) => format!("{each}: no colours, and no opacity"),
+        (first, 1) => format!("the file _t{first} holds T{first} in every channel"),
+        (first, _) => format!("the file _t{first}: {each}"),
+    }
+}
+
 fn most(errors: &[f64]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
 }
 
 impl DescribedTable<'_> {
     /// The terms in each file of a format.
-    fn parts(&self, format: Format) -> &'static [TermChannels] {
-        match (self.design.channels() == 4, format.keeps_alpha()) {
-            (true, true) => &[TermChannels::All],
-            (true, false) => &[TermChannels::FirstThree, TermChannels::Fourth],
-            (false, _) => &[TermChannels::FirstThree],
+    fn parts(&self, format: Format) -> Vec<Range<usize>> {
+        let (all, most) = (
+            self.design.channels(),
+            3 + usize::from(format.keeps_alpha()),
+        );
+        let starts = (0..all).step_by(most);
+        starts.map(|from| from..all.min(from + most)).collect()
+    }
+
+    /// The name of the picture of these terms.
+    fn part(&self, terms: &Range<usize>) -> String {
+        match terms.start {
+            0 => self.name.clone(),
+            first => format!("{}_t{first}", self.name),
         }
     }
 
-    fn file(&self, format: Format, channels: TermChannels) -> String {
-        let part = match channels {
-            TermChannels::Fourth => "_t3",
-            TermChannels::All | TermChannels::FirstThree => "",
-        };
-        format!("{TABLES}/{}{part}{}", self.name, format.ending())
+    fn file(&self, format: Format, terms: &Range<usize>) -> String {
+        format!("{TABLES}/{}{}", self.part(terms), format.ending())
     }
 
     /// The meaning of the channels in a format's files.
-    fn channels(&self, format: Format) -> &'static str {
-        match (self.request.layout, self.design.channels()) {
-            (SplitSumLayout::Filament, _) => {
-                "red the mean of w, green the mean of 1, w = (1 - h.v)^5; blue nothing"
+    fn channels(&self, format: Format) -> String {
+        match self.request.layout {
+            SplitSumLayout::Filament => {
+                "red the mean of w, green the mean of 1, w = (1 - h.v)^5; blue nothing".to_owned()
             }
-            (SplitSumLayout::Unreal, _) => {
+            SplitSumLayout::Unreal => {
                 "red the mean of 1 - w, green the mean of w, w = (1 - h.v)^5; blue nothing"
+                    .to_owned()
             }
-            (_, 1) => "red T0; the others nothing",
-            (_, 2) => "red T0, green T1; blue nothing",
-            (_, 3) => "red T0, green T1, blue T2",
-            _ if format.keeps_alpha() => {
-                "red T0, green T1, blue T2, alpha T3: no colours, and no opacity"
+            SplitSumLayout::Terms => {
+                let parts = self.parts(format);
+                let meanings: Vec<String> = parts.iter().map(meanings).collect();
+                meanings.join("; ")
             }
-            _ => "red T0, green T1, blue T2; the file _t3 holds T3 in every channel",
         }
     }
 
@@ -225,8 +250,8 @@ impl DescribedTable<'_> {
             SplitSumLayout::Filament => "mix(red, green, f0)".to_owned(),
             SplitSumLayout::Unreal => "f0 red + green".to_owned(),
             SplitSumLayout::Terms => {
-                let numbers = self.design.basis.numbers().into_iter().enumerate();
-                let term = |(i, number): (usize, &str)| {
+                let numbers = self.numbers().into_iter().enumerate();
+                let term = |(i, number): (usize, String)| {
                     if number.contains(' ') {
                         format!("({number}) T{i}")
                     } else {
@@ -236,6 +261,31 @@ impl DescribedTable<'_> {
                 numbers.map(term).collect::<Vec<_>>().join(" + ")
             }
         }
+    }
+
+    /// What the terms are multiplied by, as formulas of the method's inputs.
+    fn numbers(&self) -> Vec<String> {
+        let own = self.design.basis.numbers();
+        let Some(functions) = &self.design.functions else {
+            return own.into_iter().map(str::to_owned).collect();
+        };
+        let product = |(factor, name): (&f64, &&str)| match *factor {
+            0.0 => None,
+            1.0 => Some((*name).to_owned()),
+            factor => Some(format!("{:?} {name}", factor as f32)),
+        };
+        let number = |row: &Vec<f64>| {
+            let products = row.iter().zip(&own).filter_map(product);
+            products.collect::<Vec<_>>().join(" + ")
+        };
+        functions.rows.iter().map(number).collect()
+    }
+
+    /// The mean over the hemisphere of what the terms are means of.
+    fn averages(&self) -> Vec<f64> {
+        let own = self.design.basis.averages();
+        let functions = self.design.functions.as_ref();
+        functions.map_or(own.clone(), |functions| functions.functions(&own))
     }
 
     /// The coordinate of a number along a side.
@@ -270,7 +320,7 @@ impl DescribedTable<'_> {
         format: Format,
         stored: &StoredSplitSum,
         [steps, _]: &[Vec<f64>; 2],
-        channels: TermChannels,
+        terms: Range<usize>,
     ) -> Picture {
         let [u, v] = self.places();
         let about = vec![
@@ -300,14 +350,10 @@ impl DescribedTable<'_> {
             let (_, roughness) = self.design.at(0.0, j as f64);
             format!("roughness {roughness:.6}")
         });
-        let name = match channels {
-            TermChannels::Fourth => format!("{}_t3", self.name),
-            TermChannels::All | TermChannels::FirstThree => self.name.clone(),
-        };
         Picture::of_terms(
-            &name,
+            &self.part(&terms),
             stored,
-            channels,
+            terms,
             rows.collect(),
             comment_lines(about),
         )
@@ -317,7 +363,6 @@ impl DescribedTable<'_> {
         let [u, v] = self.places();
         let design = &self.design;
         let parts = self.parts(format);
-        let second = parts.contains(&TermChannels::Fourth);
         BakeRow::SplitSum(Box::new(SplitSumRow {
             material: None,
             medium: None,
@@ -330,8 +375,9 @@ impl DescribedTable<'_> {
             texels: design.width,
             rows: design.height,
             axis: format!("{},{}", design.cosine.name(), design.roughness.name()),
-            file: self.file(format, parts[0]),
-            second_file: second.then(|| self.file(format, TermChannels::Fourth)),
+            file: self.file(format, &parts[0]),
+            second_file: parts.get(1).map(|terms| self.file(format, terms)),
+            third_file: parts.get(2).map(|terms| self.file(format, terms)),
             scale: 1.0,
             max_abs: most(steps),
             mean_rel: None,
@@ -345,8 +391,8 @@ impl DescribedTable<'_> {
             depth: format.depth().name(),
             bytes: design.width * design.height * format.depth().bytes() * parts.len(),
             channels: self.channels(format),
-            numbers: design.basis.numbers(),
-            averages: design.basis.averages(),
+            numbers: self.numbers(),
+            averages: self.averages(),
             albedo: self.albedo(),
             alpha: "roughness^2",
             distribution: self.masking(),

@@ -13,7 +13,7 @@ use crate::generator::emit::{
     library_functions, xml_comment,
 };
 use crate::generator::fit::rounded_up;
-use crate::generator::lut::{Depth, Orthogonal, SplitSum, SplitSumDesign, TERMS, WHITE_MEAN_LOST};
+use crate::generator::lut::{Depth, Orthogonal, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
 use crate::generator::reference::FITTED_IN_ENGINES;
 use crate::language::methods::{self, Class, Method};
 use crate::language::targets::{self, Target};
@@ -212,10 +212,9 @@ fn method_view(method: &'static Method, naming: &Naming) -> MethodView {
     }
 }
 
-/// The functions of a method's split-sum table, where its terms are not: a texture has too few channels for them.
+/// The functions of a method's split-sum table, where they stand in place of its terms.
 fn orthogonal(method: &Method) -> Option<Orthogonal> {
-    let basis = method.basis()?;
-    (basis.terms() > TERMS).then(|| Orthogonal::new(&basis))
+    Orthogonal::of(&method.basis()?)
 }
 
 fn material_view(row: &CatalogueRow) -> MaterialView {
@@ -328,12 +327,13 @@ fn tables(
             .basis()
             .expect("fitted methods are affine in their coefficients");
         let design = SplitSumDesign::square(basis, size, axes);
-        let tables = match orthogonal(method) {
-            Some(functions) => functions.tables(&design)?.to_vec(),
-            None => vec![SplitSum::new(&design, &mut |_, _| {})?],
-        };
-        let stored = tables.iter().map(|table| table.stored(Depth::Half).texels);
-        let halves = stored.flatten().flatten().map(f16::from_f32);
+        let stored = SplitSum::new(&design, &mut |_, _| {})?.stored(Depth::Half);
+        let firsts = (0..design.channels()).step_by(4);
+        let channels = firsts.flat_map(|first| {
+            let own = move |texel: &[f32; 8]| [0, 1, 2, 3].map(|i| texel[first + i]);
+            stored.texels.iter().flat_map(own)
+        });
+        let halves = channels.map(f16::from_f32);
         let bytes: Vec<u8> = halves.flat_map(f16::to_le_bytes).collect();
         let [cosine, roughness] = axes.map(|axis| axis.name());
         let view = TableView {

@@ -33,11 +33,11 @@ pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
 pub use lookup::{lookup, lookup_by_thickness};
 pub use orthogonal::Orthogonal;
-pub use picture::{Picture, TermChannels};
+pub use picture::Picture;
 pub use search::{BetweenTexels, TableKind, smallest, table_error};
 pub use split_sum::{
-    BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
-    WHITE_MEAN_LOST, term_range,
+    BetweenSplitSum, LEAST_ROUGHNESS, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, WHITE_MEAN_LOST,
+    term_range,
 };
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{Stored, Table};

@@ -1,4 +1,4 @@
-//! Split-sum tables of a method with more terms than a texture has channels, as two tables of orthogonal functions.
+//! What the split-sum tables of a method hold whose terms half precision holds poorly: orthogonal functions.
 //!
 //! The terms of `fitted_film` are nearly alike and reach 40, and cancel, so half precision of their means is poor. Functions that
 //! span the same curves, orthogonal over the cosine and at most 1, are held well. The first is 1, so its mean is the albedo of a
@@ -7,12 +7,8 @@
 //! Source: the modified Gram-Schmidt process, Björck, "Solving linear least squares problems by Gram-Schmidt orthogonalization",
 //! BIT 7, 1967, <https://doi.org/10.1007/BF01934122>.
 
-use super::split_sum::SplitSum;
-use super::split_sum_design::SplitSumDesign;
-use super::texel::{Error, check_side};
+use super::split_sum::{MOST_TERM, term_range};
 use crate::language::methods::{Basis, MOST_TERMS};
-use crate::physics::num::in_parallel;
-use crate::physics::optics::Ggx;
 
 /// Orthogonal functions that span what the terms of a basis do.
 #[derive(Clone, Debug)]
@@ -23,6 +19,12 @@ pub struct Orthogonal {
 }
 
 impl Orthogonal {
+    /// The functions that stand for the terms of a basis in a table; none where a texture holds these terms well.
+    pub fn of(basis: &Basis) -> Option<Orthogonal> {
+        let is_needed = basis.terms() > MOST_TERMS || term_range(basis)[1] > MOST_TERM;
+        is_needed.then(|| Orthogonal::new(basis))
+    }
+
     /// The functions of a basis, over equal steps of the cosine.
     pub fn new(basis: &Basis) -> Orthogonal {
         const STEPS: usize = 1000;
@@ -73,46 +75,6 @@ impl Orthogonal {
             })
         };
         self.rows.iter().map(number).collect()
-    }
-
-    /// The tables of means of the functions, four in the first and the others in the second.
-    ///
-    /// # Errors
-    /// A size that no texture can have.
-    pub fn tables(&self, design: &SplitSumDesign) -> Result<[SplitSum; 2], Error> {
-        check_side(design.width)?;
-        check_side(2 * design.height)?;
-        let rule = Ggx::default();
-        let row = |j: usize| -> Vec<[[f64; MOST_TERMS]; 2]> {
-            let texel = |i: usize| {
-                let (cos_v, roughness) = design.at(i as f64, j as f64);
-                self.channels_at(design, &rule, cos_v, roughness)
-            };
-            (0..design.width).map(texel).collect()
-        };
-        let pairs = in_parallel(design.height, &row, &mut |_, _| {}).concat();
-        Ok([0, 1].map(|table| SplitSum {
-            design: *design,
-            texels: pairs.iter().map(|pair| pair[table]).collect(),
-        }))
-    }
-
-    /// What the channels of both tables hold at a cosine and a roughness, both in [0, 1].
-    pub fn channels_at(
-        &self,
-        design: &SplitSumDesign,
-        rule: &Ggx,
-        cos_v: f64,
-        roughness: f64,
-    ) -> [[f64; MOST_TERMS]; 2] {
-        let mut means = vec![0.0; self.rows.len()];
-        design.add_terms(rule, cos_v, roughness, &mut means);
-        let mut pair = [[0.0; MOST_TERMS]; 2];
-        let places = pair.iter_mut().flatten();
-        for (place, value) in places.zip(self.functions(&means)) {
-            *place = value;
-        }
-        pair
     }
 }
 

@@ -1,21 +1,12 @@
 //! A picture: tables of one size, axis and depth as the rows of a texture, with what its file says about them.
 
+use std::ops::Range;
+
 use super::axis::TableAxis;
 use super::split_sum::{StoredSplitSum, TERMS};
 use super::table::Stored;
 use super::texel::Depth;
 use crate::physics::spectra::Space;
-
-/// Which terms of a split-sum table a file holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TermChannels {
-    /// Four, the last as alpha.
-    All,
-    /// The first three, or as many as exist.
-    FirstThree,
-    /// The fourth, in each of three channels.
-    Fourth,
-}
 
 /// One or more tables as a texture.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,21 +56,22 @@ impl Picture {
         }
     }
 
-    /// A split-sum table, with its rows' names and what it says about itself. The picture's axis does not describe how it is
+    /// These terms of a split-sum table, with its rows' names and what it says about itself. The picture's axis does not describe how it is
     /// looked up.
     pub fn of_terms(
         name: &str,
         stored: &StoredSplitSum,
-        channels: TermChannels,
+        terms: Range<usize>,
         rows: Vec<String>,
         about: Vec<String>,
     ) -> Picture {
         let texels = stored.texels.iter();
-        let colour = |[first, second, third, fourth]: &[f32; TERMS]| match channels {
-            TermChannels::Fourth => [*fourth; 3],
-            TermChannels::All | TermChannels::FirstThree => [*first, *second, *third],
+        let colour = |texel: &[f32; TERMS]| match &texel[terms.clone()] {
+            // A lone fourth term, in every channel.
+            [fourth] if terms.start > 0 => [*fourth; 3],
+            own => [0, 1, 2].map(|i| own.get(i).copied().unwrap_or(0.0)),
         };
-        let is_all = channels == TermChannels::All;
+        let fourth = (terms.len() == 4).then_some(terms.start + 3);
         Picture {
             name: name.to_owned(),
             axis: TableAxis::Cos,
@@ -88,7 +80,7 @@ impl Picture {
             width: stored.design.width,
             rows,
             texels: texels.clone().map(colour).collect(),
-            alpha: is_all.then(|| texels.map(|texel| texel[3]).collect()),
+            alpha: fourth.map(|i| texels.map(|texel| texel[i]).collect()),
             space: None,
             about,
         }

@@ -5,8 +5,9 @@
 //! ```
 //!
 //! The c_i are numbers of a material, and F = Σ c_i b_i: coefficients of a fitted method, or F0 and others of a method that is
-//! affine in them ([`Basis`]). The terms T_i do not depend on the material: one texture serves all. T_0 is the albedo of a
-//! surface that reflects everything. The microfacets are GGX with height-correlated Smith masking ([`Ggx`]). The clamp of F to
+//! affine in them ([`Basis`](crate::language::methods::Basis)), or what follows from them where a texture would hold the b_i poorly
+//! ([`Orthogonal`](super::Orthogonal)). The terms T_i do not depend on the material: one texture serves all, or two where there are
+//! more than four. T_0 is the albedo of a surface that reflects everything. The microfacets are GGX with height-correlated Smith masking ([`Ggx`]). The clamp of F to
 //! [0, 1] is left out: it acts only for colours outside the working space.
 //!
 //! Source: Karis, "Real Shading in Unreal Engine 4", SIGGRAPH course, 2013,
@@ -47,12 +48,12 @@
 use super::split_sum_design::SplitSumDesign;
 use super::texel::{Depth, Error, check_side};
 use crate::language::ir::Weights;
-use crate::language::methods::{Basis, MOST_TERMS};
+use crate::language::methods::Basis;
 use crate::physics::num::in_parallel;
 use crate::physics::optics::Ggx;
 
-/// The most terms of a table: the channels of a texture.
-pub const TERMS: usize = MOST_TERMS;
+/// The most terms of a table: the channels of two textures.
+pub const TERMS: usize = 8;
 /// Texels per side by default.
 pub const SPLIT_SUM_SIZE: usize = 128;
 /// The roughness from which the lookup's error is measured: below it, the valley lies between the first texels.
@@ -85,11 +86,10 @@ impl SplitSum {
     /// The table of a design. Rows are computed in parallel, and the result does not depend on the number of threads.
     ///
     /// # Errors
-    /// More terms than a texture has channels, terms that no texture holds well, or a size that no texture can have.
+    /// A size that no texture can have.
     pub fn new(design: &SplitSumDesign, progress: RowProgress) -> Result<SplitSum, Error> {
         check_side(design.width)?;
         check_side(design.height)?;
-        check_terms(&design.basis)?;
         let rule = Ggx::default();
         let row = |j: usize| -> Vec<[f64; TERMS]> {
             let texel = |i: usize| {
@@ -100,7 +100,7 @@ impl SplitSum {
         };
         let texels = in_parallel(design.height, &row, progress).concat();
         Ok(SplitSum {
-            design: *design,
+            design: design.clone(),
             texels,
         })
     }
@@ -109,27 +109,15 @@ impl SplitSum {
     pub fn stored(&self, depth: Depth) -> StoredSplitSum {
         let rounded = |texel: &[f64; TERMS]| texel.map(|value| depth.nearest(value));
         StoredSplitSum {
-            design: self.design,
+            design: self.design.clone(),
             depth,
             texels: self.texels.iter().map(rounded).collect(),
         }
     }
 }
 
-/// The largest term allowed in half precision, which has 11 significant bits: above 4, its error is .002.
+/// The largest term that is left to half precision, which has 11 significant bits: above 4, its error is .002.
 pub const MOST_TERM: f64 = 4.0;
-
-/// Refuses more terms than a texture has channels, and terms that half precision holds poorly.
-fn check_terms(basis: &Basis) -> Result<(), Error> {
-    let terms = basis.terms();
-    if terms > TERMS {
-        Err(Error::Terms { terms })
-    } else if term_range(basis)[1] > MOST_TERM {
-        Err(Error::Range)
-    } else {
-        Ok(())
-    }
-}
 
 /// The least and the largest factor of a material's numbers, over all angles. Terms are means, so they lie between.
 pub fn term_range(basis: &Basis) -> [f64; 2] {
@@ -137,8 +125,11 @@ pub fn term_range(basis: &Basis) -> [f64; 2] {
     let mut range = [0.0, 1.0];
     for step in 0..=STEPS {
         let mut values = [0.0; TERMS];
-        let terms = basis.terms().min(TERMS);
-        basis.add(step as f64 / STEPS as f64, 1.0, &mut values[..terms]);
+        basis.add(
+            step as f64 / STEPS as f64,
+            1.0,
+            &mut values[..basis.terms()],
+        );
         for value in values {
             range = [f64::min(range[0], value), f64::max(range[1], value)];
         }
@@ -245,8 +236,9 @@ mod tests {
             });
             let table = table.unwrap();
             // A mirror at 90 degrees, and from above.
-            assert_eq!(table.texels[0], [1.0; TERMS]);
-            assert_eq!(table.texels[8], [1.0, 0.0, 0.0, 0.0]);
+            let of_four = |texel: usize| &table.texels[texel][..4];
+            assert_eq!(of_four(0), [1.0; 4]);
+            assert_eq!(of_four(8), [1.0, 0.0, 0.0, 0.0]);
             // The roughest from above: T_0 is 1 - ln 2.
             assert!((table.texels[80][0] - 0.306_853).abs() < 1e-5);
             let stored = table.stored(Depth::Float);
@@ -260,13 +252,17 @@ mod tests {
     }
 
     #[test]
-    fn what_no_texture_holds_is_refused() {
-        let refusal = |name: &str| {
+    fn terms_that_a_texture_holds_poorly_are_replaced() {
+        let table = |name: &str| {
             let design = SplitSumDesign::square(basis(name), 9, [SplitSumAxis::Linear; 2]);
-            SplitSum::new(&design, &mut |_, _| {}).err()
+            SplitSum::new(&design, &mut |_, _| {}).unwrap()
         };
-        assert_eq!(refusal("fitted_five"), Some(Error::Terms { terms: 5 }));
-        assert_eq!(refusal("fitted_rational"), Some(Error::Range));
-        assert_eq!(refusal("fitted_f82"), None);
+        for name in ["fitted_five", "fitted_rational", "fitted_film_eight"] {
+            let table = table(name);
+            assert!(table.design.functions.is_some(), "{name}");
+            let most = table.texels.iter().flatten().map(|term| term.abs());
+            assert!(most.fold(0.0, f64::max) <= 1.0, "{name}");
+        }
+        assert!(table("fitted_f82").design.functions.is_none());
     }
 }

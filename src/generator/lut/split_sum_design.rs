@@ -13,7 +13,9 @@
 //! "Real Shading in Unreal Engine 4", 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>, `PreIntegratedGF`
 //! and `Vis_SmithJointApprox`.
 
-use crate::language::methods::{Basis, MOST_TERMS};
+use super::orthogonal::Orthogonal;
+use super::split_sum::TERMS;
+use crate::language::methods::Basis;
 use crate::physics::optics::Ggx;
 
 /// The spacing of a number from 0 to 1 along a side.
@@ -96,21 +98,24 @@ impl SplitSumLayout {
         }
     }
 
-    /// The channels, from the terms T0 (of 1) and T1 (of w) and the others.
-    fn arranged(self, [white, grazing, third, fourth]: [f64; MOST_TERMS]) -> [f64; MOST_TERMS] {
+    /// Turns the terms, T0 of 1 and T1 of w, into what the channels hold.
+    fn arrange(self, terms: &mut [f64; TERMS]) {
+        let [white, grazing] = [terms[0], terms[1]];
         match self {
-            SplitSumLayout::Terms => [white, grazing, third, fourth],
-            SplitSumLayout::Filament => [grazing, white, 0.0, 0.0],
-            SplitSumLayout::Unreal => [white - grazing, grazing, 0.0, 0.0],
+            SplitSumLayout::Terms => {}
+            SplitSumLayout::Filament => [terms[0], terms[1]] = [grazing, white],
+            SplitSumLayout::Unreal => [terms[0], terms[1]] = [white - grazing, grazing],
         }
     }
 }
 
 /// How a split-sum table is made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct SplitSumDesign {
     /// What is integrated.
     pub basis: Basis,
+    /// What stands in place of its terms, where a texture would hold them poorly.
+    pub functions: Option<Orthogonal>,
     /// The meaning of each channel. An engine's layout also decides how masking is computed and where texels lie.
     pub layout: SplitSumLayout,
     /// Texels along n·v.
@@ -130,6 +135,7 @@ impl SplitSumDesign {
     /// A square table of all terms, along these axes of cosine and roughness.
     pub fn square(basis: Basis, size: usize, [cosine, roughness]: [SplitSumAxis; 2]) -> Self {
         SplitSumDesign {
+            functions: Orthogonal::of(&basis),
             basis,
             layout: SplitSumLayout::Terms,
             width: size,
@@ -147,6 +153,7 @@ impl SplitSumDesign {
         };
         SplitSumDesign {
             basis,
+            functions: None,
             layout,
             width: 128,
             height,
@@ -209,14 +216,25 @@ impl SplitSumDesign {
     }
 
     /// What the channels hold at a cosine and a roughness, both in [0, 1]; α is roughness².
-    pub fn channels_at(&self, rule: &Ggx, cos_v: f64, roughness: f64) -> [f64; MOST_TERMS] {
-        let (mut sums, terms) = ([0.0; MOST_TERMS], self.basis.terms());
-        self.add_terms(rule, cos_v, roughness, &mut sums[..terms]);
-        self.layout.arranged(sums)
+    pub fn channels_at(&self, rule: &Ggx, cos_v: f64, roughness: f64) -> [f64; TERMS] {
+        let (mut channels, terms) = ([0.0; TERMS], self.basis.terms());
+        self.add_terms(rule, cos_v, roughness, &mut channels[..terms]);
+        if let Some(functions) = &self.functions {
+            let own = functions.functions(&channels[..terms]);
+            channels[..terms].copy_from_slice(&own);
+        }
+        self.layout.arrange(&mut channels);
+        channels
+    }
+
+    /// What the channels are multiplied by, from a material's numbers in the method.
+    pub fn numbers(&self, numbers: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let own = self.functions.as_ref();
+        own.map_or(numbers.to_vec(), |functions| functions.numbers(numbers))
     }
 
     /// Adds the means of all terms to their sums.
-    pub(super) fn add_terms(&self, rule: &Ggx, cos_v: f64, roughness: f64, sums: &mut [f64]) {
+    fn add_terms(&self, rule: &Ggx, cos_v: f64, roughness: f64, sums: &mut [f64]) {
         let alpha = roughness * roughness;
         rule.each_lit(cos_v, alpha, |cos_h, light, weight| {
             let weight = match self.layout {

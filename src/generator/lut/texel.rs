@@ -117,19 +117,6 @@ pub enum Error {
         /// The size.
         size: usize,
     },
-    /// A split-sum table of too many terms.
-    #[error(
-        "a split-sum table has a channel for each coefficient, and a texture has 4: {terms} do not fit (fitted and fitted_dielectric have 4)"
-    )]
-    Terms {
-        /// The number of coefficients.
-        terms: usize,
-    },
-    /// A split-sum table whose terms exceed 4.
-    #[error(
-        "the terms of this form reach beyond 4, which integers cannot hold and half precision holds poorly: fitted and fitted_dielectric stay below 1"
-    )]
-    Range,
     /// An encoder refused.
     #[error("the table cannot be written as {format}: {why}")]
     Encode {

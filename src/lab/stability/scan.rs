@@ -27,6 +27,20 @@ pub struct Finding {
     pub amount: f64,
 }
 
+/// What f64 has above 1, or below 0, by more than this is so without any rounding.
+const BEYOND: f64 = 1e-6;
+
+impl Finding {
+    /// Whether it is the formula's fault, and not that of its rounding.
+    pub fn is_of_formula(&self) -> bool {
+        match (self.failure, &self.point) {
+            (Failure::Negative, Some(point)) => point.want < -BEYOND,
+            (Failure::AboveOne, Some(point)) => point.want > point.limit + BEYOND,
+            (failure, _) => failure.is_of_the_model(),
+        }
+    }
+}
+
 /// The results of a function of scalars at these cosines, in a kind of number.
 fn in_numbers<N: Num>(
     function: &Checked,
@@ -155,7 +169,10 @@ impl Scan<'_> {
         with_cosine.push(self.space.cosines.clone());
         let mut findings = Vec::new();
         for (kind, failure) in Failure::ALL.into_iter().enumerate() {
-            let (axes, amounts): (&[ScanAxis], Vec<f32>) = if failure.is_of_the_model() {
+            // One curve alone says at which angles it errs.
+            let by_angle = self.space.axes.is_empty() && matches!(failure, Failure::Error(_));
+            let of_curve = failure.is_of_the_model() && !by_angle;
+            let (axes, amounts): (&[ScanAxis], Vec<f32>) = if of_curve {
                 (
                     &self.space.axes,
                     rows.iter().map(|row| row.of_curve[kind]).collect(),

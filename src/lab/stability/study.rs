@@ -162,7 +162,7 @@ fn worst(finding: &Finding) -> Worst<'_> {
 
 /// The cause of a failure, in a word: the formula or its rounding.
 fn fault_of(finding: &Finding) -> &'static str {
-    if finding.failure.is_of_the_model() {
+    if finding.is_of_formula() {
         "formula"
     } else {
         "rounding"

@@ -66,9 +66,15 @@ fn name_shared(mut function: Function) -> Function {
     let unnamed: Vec<NodeId> = (0..function.nodes.len())
         .filter(|id| wants_name(&function, *id, uses[*id]))
         .collect();
-    for (count, id) in unnamed.into_iter().enumerate() {
+    // What was specialised before may have such names.
+    let labels = function.nodes.iter().filter_map(|node| node.label.as_ref());
+    let taken: Vec<String> = labels.map(|label| label.name.clone()).collect();
+    let free = (1..)
+        .map(|i| format!("part_{i}"))
+        .filter(|name| !taken.contains(name));
+    for (id, name) in unnamed.into_iter().zip(free) {
         function.nodes[id].label = Some(Label {
-            name: format!("part_{}", count + 1),
+            name,
             why: String::new(),
         });
     }

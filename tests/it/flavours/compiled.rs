@@ -33,10 +33,10 @@ struct Way {
 }
 
 const HLSL_MAIN: &str = "\nTexture2D a;\nTexture2D b;\nSamplerState s;\nfloat4 main(float4 u : TEXCOORD0) : SV_Target\n{\n{gold}\n}\n";
-const UNITY_GOLD: &str = "float3 f, i, c; half3 g, j, d; FresnelGold_float(u.x, f); FresnelGold_half((half)u.x, g); FresnelGoldImage_float(u, u.y, i, c); FresnelGoldImage_half((half4)u, (half)u.y, j, d); return float4(f + i + c + float3(g + j + d) + fresnel_gold_fitted(u.y), 1);";
+const UNITY_GOLD: &str = "float3 f, i, c; half3 g, j, d; FresnelGold_float(u.x, f); FresnelGold_half((half)u.x, g); FresnelGoldImage_float(u, u.y, i, c); FresnelGoldImage_half((half4)u, (half)u.y, j, d); FresnelOilOnWaterImage_float(u, u.xy, u.y, i, c); FresnelOilOnWaterImage_half((half4)u, (half2)u.xy, (half)u.y, j, d); return float4(f + i + c + float3(g + j + d) + fresnel_gold_fitted(u.y), 1);";
 const UNITY_README: &str =
     "return float4(lamp(1, u.xyz, u.yzx, u.zxy, 1, u.xyz) + image(a, b, s, u.x, u.y, 1), 1);";
-const UNREAL_GOLD: &str = "return float4(fresnel_gold_fitted(u.x) + fresnel_gold_fitted_image(u) * fresnel_gold_fitted_compensation(u, u.y), 1);";
+const UNREAL_GOLD: &str = "return float4(fresnel_gold_fitted(u.x) + fresnel_gold_fitted_image(u) * fresnel_gold_fitted_compensation(u, u.y) + fresnel_oil_on_water_fitted_film_image(u, u.xy) * fresnel_oil_on_water_fitted_film_compensation(u, u.xy, u.y), 1);";
 const UNREAL_README: &str =
     "return float4(Lamp(1, u.xyz, u.yzx, u.zxy, 1, u, u.y) + Image(a, b, s, u.x, u.y, 1), 1);";
 const DXC: (&str, &str) = ("dxc", "of PyPI, which tests/run fetches");

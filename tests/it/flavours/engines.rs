@@ -12,9 +12,7 @@ use super::host::number;
 use super::host::shows_a_gold_sphere;
 use crate::catalogue::evaluated;
 use crate::compensation::compensation;
-use fresnel_gen::generator::lut::{
-    Depth, Orthogonal, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum,
-};
+use fresnel_gen::generator::lut::{Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingConditions};
@@ -61,7 +59,7 @@ struct Material {
     coefficients: Vec<f32>,
     /// What the channels of the tables are multiplied by.
     numbers: Vec<[f64; 3]>,
-    tables: Vec<StoredSplitSum>,
+    table: StoredSplitSum,
 }
 
 impl Material {
@@ -71,22 +69,12 @@ impl Material {
         let design = SplitSumDesign::square(basis, 64, axes);
         let rows = coefficients.chunks_exact(3);
         let rows: Vec<[f64; 3]> = rows.map(|c| [c[0], c[1], c[2]].map(f64::from)).collect();
-        let (numbers, tables) = if rows.len() > 4 {
-            let functions = Orthogonal::new(&basis);
-            let tables = functions.tables(&design).unwrap();
-            (functions.numbers(&rows), tables.to_vec())
-        } else {
-            let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
-            (rows, vec![table])
-        };
+        let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
         Material {
             method,
             coefficients,
-            numbers,
-            tables: tables
-                .iter()
-                .map(|table| table.stored(Depth::Half))
-                .collect(),
+            numbers: design.numbers(&rows),
+            table: table.stored(Depth::Half),
         }
     }
 
@@ -94,9 +82,8 @@ impl Material {
         evaluated(self.method, &self.coefficients, &[cos])[0]
     }
 
-    fn terms(&self, cos: f64, roughness: f64) -> Vec<f64> {
-        let read = |table: &StoredSplitSum| table.lookup(Weights::Exact, cos, roughness);
-        self.tables.iter().flat_map(read).collect()
+    fn terms(&self, cos: f64, roughness: f64) -> [f64; 8] {
+        self.table.lookup(Weights::Exact, cos, roughness)
     }
 
     /// What an image is multiplied by, once reflected.

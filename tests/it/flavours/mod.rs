@@ -24,9 +24,7 @@ use serde_json::Value;
 use crate::cli::{MY_METAL, OUT, Place};
 use fresnel_gen::generator::emit::{self, CatalogueRow, Naming};
 use fresnel_gen::generator::flavours::{self, Flavour};
-use fresnel_gen::generator::lut::{
-    Depth, LEAST_ROUGHNESS, Orthogonal, SplitSumAxis, SplitSumDesign,
-};
+use fresnel_gen::generator::lut::{Depth, LEAST_ROUGHNESS, SplitSum, SplitSumAxis, SplitSumDesign};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::{methods, targets};
@@ -319,17 +317,15 @@ fn films_are_followed_better_than_by_four_coefficients() {
 #[test]
 fn the_tables_of_films_err_as_others_do() {
     let basis = methods::find("fitted_film").unwrap().basis().unwrap();
-    let functions = Orthogonal::new(&basis);
     let (rule, names) = (Ggx::default(), materials::stacks());
-    let numbers: Vec<Vec<[f64; 3]>> = rows(&names)
-        .iter()
-        .map(|row| functions.numbers(&row.coefficients))
-        .collect();
     let axes = [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt];
     for (size, within) in [(64, 0.003), (80, 0.0014)] {
         let design = SplitSumDesign::square(basis, size, axes);
-        let tables = functions.tables(&design).unwrap();
-        let stored = tables.map(|table| table.stored(Depth::Half));
+        let numbers = rows(&names).into_iter();
+        let numbers = numbers.map(|row| design.numbers(&row.coefficients));
+        let numbers: Vec<Vec<[f64; 3]>> = numbers.collect();
+        let stored = SplitSum::new(&design, &mut |_, _| {}).unwrap();
+        let stored = stored.stored(Depth::Half);
         let mut worst = vec![0.0; names.len()];
         for j in 0..size - 1 {
             for i in 0..size - 1 {
@@ -337,13 +333,8 @@ fn the_tables_of_films_err_as_others_do() {
                 if roughness < LEAST_ROUGHNESS {
                     continue;
                 }
-                let exact = functions
-                    .channels_at(&design, &rule, cos_v, roughness)
-                    .concat();
-                let read = stored
-                    .each_ref()
-                    .map(|table| table.lookup(Weights::Steps256, cos_v, roughness))
-                    .concat();
+                let exact = design.channels_at(&rule, cos_v, roughness);
+                let read = stored.lookup(Weights::Steps256, cos_v, roughness);
                 for (worst, numbers) in worst.iter_mut().zip(&numbers) {
                     for channel in 0..3 {
                         let terms = numbers.iter().zip(read.iter().zip(&exact));
