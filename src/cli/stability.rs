@@ -112,7 +112,11 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     if rows.is_empty() {
         return Err(RequestFault::NothingToDo {
             work: "scan",
-            why: "no such method for these materials",
+            why: if is_library {
+                "such a method wants a film: --material titanium --film titanium_dioxide:60nm"
+            } else {
+                "no such method for these materials"
+            },
         }
         .into());
     }
