@@ -422,9 +422,21 @@ fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
 fn bake_text(rows: &[BakeRow]) -> String {
     let cells = |row: &BakeRow| {
         let (name, format, texels, axis, file) = match row {
-            BakeRow::Table(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
-            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, &*row.axis, &row.file),
-            BakeRow::Film(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+            BakeRow::Table(row) => (
+                &row.name,
+                row.format,
+                row.texels,
+                row.axis,
+                row.file.clone(),
+            ),
+            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, &*row.axis, row.files()),
+            BakeRow::Film(row) => (
+                &row.name,
+                row.format,
+                row.texels,
+                row.axis,
+                row.file.clone(),
+            ),
         };
         let (scale, max_abs, mean_rel) = match row {
             BakeRow::Table(row) => (row.scale, row.max_abs, row.mean_rel),
@@ -436,7 +448,7 @@ fn bake_text(rows: &[BakeRow]) -> String {
             format.to_owned(),
             texels.to_string(),
             axis.to_owned(),
-            file.clone(),
+            file,
             format!("{scale:?}"),
             format!("{max_abs:.6}"),
             mean_rel.map_or("none".to_owned(), |mean| format!("{:.4}", 100.0 * mean)),

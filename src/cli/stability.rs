@@ -123,7 +123,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     let json = Report::new(flags.command_line(), rows.clone());
     let (drawn, said) = match flags.pictures.folder() {
         Some(folder) => drawn(flags, &study, &mapped, &rows, folder, progress)?,
-        None => (Vec::new(), None),
+        None => (Vec::new(), Vec::new()),
     };
     let mut output = report_beside(stability_text(&rows), &json, flags.report.json(), drawn)?;
     output.remarks.splice(0..0, left_out);
@@ -199,13 +199,21 @@ fn drawn(
     rows: &[StabilityRow],
     folder: &Path,
     progress: Progress,
-) -> Result<(Vec<OutputFile>, Option<String>), Error> {
+) -> Result<(Vec<OutputFile>, Vec<String>), Error> {
     let Study { methods, precision } = study;
-    let mut pictures = Vec::new();
+    let (mut pictures, mut said) = (Vec::new(), Vec::new());
     let picture = |method: &'static Method, map: &Map| png(&heat_map(method.name, map), SCALE);
     for (i, (subject, method)) in mapped.iter().enumerate() {
         progress(i as u64, mapped.len() as u64, "maps");
         let map = film_map(method, subject, *precision)?;
+        let (degrees, nm, error) = map.worst();
+        said.push(format!(
+            "{} for {}, thickness 0 to {} nm: at most {error:.4} from the law, at {degrees} degrees and {nm:.1} nm; the rows above are of {} nm",
+            method.name,
+            subject.name,
+            subject.material.films[0].thickness_nm,
+            subject.material.films[0].thickness_nm,
+        ));
         let over = format!("{}_{}", map.axis.name, subject.name);
         pictures.push((method.name, over, picture(method, &map)?));
     }
@@ -223,11 +231,11 @@ fn drawn(
     let command = String::from(flags.command_line());
     let page = stability_page(rows, &pictures, &command).map_err(Error::usage)?;
     let index = index(*precision);
-    let said = format!(
+    said.push(format!(
         "{}: {} maps, and {index} that shows them",
         crate::physics::foreign::path(&folder),
         pictures.len()
-    );
+    ));
     let overwrite = flags.pictures.overwrite;
     let suffix = precision.suffix();
     let map = |(method, over, bytes): (&str, String, Vec<u8>)| {
@@ -236,7 +244,7 @@ fn drawn(
     };
     let mut files: Vec<OutputFile> = pictures.into_iter().map(map).collect();
     files.push(OutputFile::of_report(folder.join(&index), page, overwrite));
-    Ok((files, Some(said)))
+    Ok((files, said))
 }
 
 fn cells(row: &StabilityRow) -> Vec<String> {

@@ -9,7 +9,7 @@ use super::fits::films;
 use super::physics::films::filmed;
 use super::readme::replaced;
 use fresnel_gen::generator::emit::{Bounds, of_cosine};
-use fresnel_gen::generator::fit::{model_error, values_for_material};
+use fresnel_gen::generator::fit::{known_film, model_error, thickness_error, values_for_material};
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::lab::chart::{ChartData, ChartView, FunctionOrigin, chart_data};
 use fresnel_gen::lab::cost::{CostFigures, FunctionId, records};
@@ -349,6 +349,14 @@ fn charted() -> [(Vec<MaterialInMedium>, ChartData); 2] {
     })
 }
 
+/// The largest error of a method over all thicknesses from 0 to that of each film, up to 85 degrees.
+fn at_any_thickness(method: &'static Method, subjects: &[MaterialInMedium]) -> Vec<f64> {
+    let described = subjects.iter().filter(|one| one.is_described_by(method));
+    described
+        .map(|one| thickness_error(one, &known_film(one, method.wavelengths)))
+        .collect()
+}
+
 fn films_table(both: &[(Vec<MaterialInMedium>, ChartData); 2]) -> String {
     let mut table = "| function | cost on RDNA 2 | films | median | 90th percentile | worst | films that had no part in a choice: number, median, 90th |\n\
                      |---|---:|---:|---:|---:|---:|---:|\n"
@@ -367,20 +375,30 @@ fn films_table(both: &[(Vec<MaterialInMedium>, ChartData); 2]) -> String {
             let all = [0.5, 0.9, 1.0].into_iter().zip(most).all(kept);
             assert!(all, "{name}: {own:?}");
         }
-        let shown = |errors: &[f64], share| format!("{:.4}", quantile(errors, share));
-        table += &format!(
-            "| {words} | {} | {} | {} | {} | {} | {}, {}, {} |\n",
-            cost(method),
-            own.len(),
-            shown(&own, 0.5),
-            shown(&own, 0.9),
-            shown(&own, 1.0),
-            outside.len(),
-            shown(&outside, 0.5),
-            shown(&outside, 0.9),
-        );
+        table += &films_line(words, &cost(method), &own, &outside);
+        if method.keeps_inputs() && method.wavelengths > 0 {
+            let all = both
+                .each_ref()
+                .map(|(subjects, _)| at_any_thickness(method, subjects));
+            let words = "the same, at any thickness from 0 to the film's";
+            table += &films_line(words, "as above", &all[0], &all[1]);
+        }
     }
     table
+}
+
+fn films_line(words: &str, cost: &str, own: &[f64], outside: &[f64]) -> String {
+    let shown = |errors: &[f64], share| format!("{:.4}", quantile(errors, share));
+    format!(
+        "| {words} | {cost} | {} | {} | {} | {} | {}, {}, {} |\n",
+        own.len(),
+        shown(own, 0.5),
+        shown(own, 0.9),
+        shown(own, 1.0),
+        outside.len(),
+        shown(outside, 0.5),
+        shown(outside, 0.9),
+    )
 }
 
 fn stacks_table() -> String {

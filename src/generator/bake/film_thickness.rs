@@ -213,6 +213,17 @@ fn about(
         to_nm - from_nm,
         THICKNESS_ROWS - 1
     ));
+    lines.push(
+        "The first row is the thinnest. A loader that turns a picture over (three.js: EXRLoader, and TextureLoader unless flipY = false) turns thicknesses over: take the KTX2."
+            .to_owned(),
+    );
+    let mut texels = picture.texels.iter().flatten();
+    if texels.any(|value| !(-1e-6..=1.0 + 1e-6).contains(&f64::from(value * picture.scale))) {
+        lines.push(
+            "Some values lie outside 0 to 1: colours that the space does not hold. --gamut clip limits them."
+                .to_owned(),
+        );
+    }
     lines
 }
 

@@ -167,6 +167,19 @@ pub struct SplitSumRow {
     pub(super) lookup: SplitSumLookup,
 }
 
+impl SplitSumRow {
+    /// All files of its terms, with a comma between.
+    pub fn files(&self) -> String {
+        let more = self.second_file.iter().chain(&self.third_file);
+        let all: Vec<&str> = [&self.file]
+            .into_iter()
+            .chain(more)
+            .map(String::as_str)
+            .collect();
+        all.join(", ")
+    }
+}
+
 /// The errors of terms with exact filtering weights.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExactTermWeights {

@@ -27,9 +27,9 @@ pub use artifact::{
 pub use average::Average;
 pub use batch::{batch_entry, batch_program, places};
 pub use catalogue::{
-    BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueMaterial,
-    CatalogueMethod, CatalogueRow, FOURTH, adapter_rows, catalogue_array, catalogue_buffer,
-    catalogue_rows, first_dielectric, recorded_catalogue,
+    BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COAT, COEFFICIENT_ORDER, COEFFICIENTS,
+    CatalogueMaterial, CatalogueMethod, CatalogueRow, FOURTH, adapter_rows, catalogue_array,
+    catalogue_buffer, catalogue_rows, first_dielectric, recorded_catalogue,
 };
 pub use code_bound::{Bounds, CodeBound, PLAIN_ULP, fingerprint};
 pub use comment::lines as comment_lines;

@@ -85,7 +85,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
         }
         (Some(film), Body::Conductor) => {
             remarks.push(
-                "`material` has the colours of the film, `iridescence` the film itself".to_owned(),
+                "the first material has the colours of the film, the second, whose name ends in _iridescence, the bare metal and the film itself".to_owned(),
             );
             let bare = vec![
                 Field::colour("baseColorFactor", film.f0),

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::flavour::Flavour;
 use crate::generator::emit::{
-    self, CatalogueRow, EmittedFunction, MARK, Naming, OUTPUT_LICENCE, comment_lines,
+    self, COAT, CatalogueRow, EmittedFunction, MARK, Naming, OUTPUT_LICENCE, comment_lines,
     library_functions, xml_comment,
 };
 use crate::generator::fit::rounded_up;
@@ -100,10 +100,38 @@ pub(super) struct MaterialView {
     average: [String; 3],
     /// F at normal incidence.
     f0: [String; 3],
+    /// The base of a clear coat, of metals and semiconductors in air.
+    coated: Option<CoatedView>,
+    /// What a file of one material holds: the material, and the base of a clear coat where it has one.
+    forms: Vec<FormView>,
     /// The largest error over angles and channels.
     max_error: String,
     /// The angle of the largest error, in degrees.
     max_error_degrees: String,
+}
+
+/// A material in air, or as the base of a clear coat: names, and numbers.
+#[derive(Clone, Debug, Serialize)]
+struct FormView {
+    /// What it is, where that is not the material itself; empty there.
+    about: Vec<String>,
+    function: String,
+    constant: String,
+    pascal: String,
+    coefficients: Vec<[String; 3]>,
+    numbers: Vec<[String; 3]>,
+    average: [String; 3],
+}
+
+/// The base of a clear coat of index 1.5.
+#[derive(Clone, Debug, Serialize)]
+struct CoatedView {
+    index: f64,
+    coefficients: Vec<[String; 3]>,
+    numbers: Vec<[String; 3]>,
+    average: [String; 3],
+    /// The largest error of coat and base together.
+    max_error: String,
 }
 
 /// A split-sum table of four channels in half precision, little endian: rows by roughness, 0 first, each with texels by cosine, 0
@@ -220,8 +248,15 @@ fn orthogonal(method: &Method) -> Option<Orthogonal> {
 fn material_view(row: &CatalogueRow) -> MaterialView {
     let prefix = Naming::default().prefix;
     let is_of_films = row.method.class.is_of_films();
-    let of_table = orthogonal(row.method).map(|functions| functions.numbers(&row.coefficients));
-    MaterialView {
+    let of_table = |coefficients: &[[f64; 3]]| -> Vec<[String; 3]> {
+        let own = orthogonal(row.method).map(|functions| functions.numbers(coefficients));
+        own.as_deref()
+            .unwrap_or(coefficients)
+            .iter()
+            .map(numbers)
+            .collect()
+    };
+    let mut view = MaterialView {
         name: row.name.clone(),
         constant: row.name.to_uppercase(),
         pascal: pascal(&row.name),
@@ -236,19 +271,54 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
             row.method.class != Class::Dielectric
         },
         coefficients: row.coefficients.iter().map(numbers).collect(),
-        numbers: of_table
-            .as_ref()
-            .unwrap_or(&row.coefficients)
-            .iter()
-            .map(numbers)
-            .collect(),
+        numbers: of_table(&row.coefficients),
         average: numbers(&row.average.given),
         f0: numbers(&normal_incidence(row)),
+        coated: row.coated.as_ref().map(|coated| CoatedView {
+            index: COAT,
+            coefficients: coated.coefficients.iter().map(numbers).collect(),
+            numbers: of_table(&coated.coefficients),
+            average: numbers(&coated.average),
+            max_error: rounded_up(coated.max_abs),
+        }),
         max_error: rounded_up(row.error.max_abs),
         max_error_degrees: format!(
             "{:.2}",
             row.error.worst_cos.clamp(0.0, 1.0).acos().to_degrees()
         ),
+        forms: Vec::new(),
+    };
+    view.forms = view.both_forms();
+    view
+}
+
+impl MaterialView {
+    fn both_forms(&self) -> Vec<FormView> {
+        let plain = FormView {
+            about: Vec::new(),
+            function: self.function.clone(),
+            constant: self.constant.clone(),
+            pascal: self.pascal.clone(),
+            coefficients: self.coefficients.clone(),
+            numbers: self.numbers.clone(),
+            average: self.average.clone(),
+        };
+        let coated = self.coated.as_ref().map(|coated| FormView {
+            about: vec![
+                format!(
+                    "Below a clear coat of index {}, which the host draws itself: coat and {} together reflect F of the coat + (1 - F of the coat) times this.",
+                    coated.index, self.name
+                ),
+                format!("cos_theta is that outside. Together they err by at most {}.", coated.max_error),
+            ],
+            function: format!("{}_under_coat", self.function),
+            constant: format!("{}_UNDER_COAT", self.constant),
+            pascal: format!("{}UnderCoat", self.pascal),
+            coefficients: coated.coefficients.clone(),
+            numbers: coated.numbers.clone(),
+            average: coated.average.clone(),
+        });
+        [plain].into_iter().chain(coated).collect()
     }
 }
 

@@ -178,6 +178,21 @@ pub fn film_map(
     })
 }
 
+impl Map {
+    /// The largest error of the formula: the angle in degrees, the value of the axis, and the error there.
+    pub fn worst(&self) -> (f64, f64, f64) {
+        let of = |(i, cell): (usize, &Cell)| {
+            let (row, column) = (i / self.degrees.len(), i % self.degrees.len());
+            (self.degrees[column], self.axis.values[row], cell.error)
+        };
+        let all = self.cells.iter().enumerate().map(of);
+        all.fold(
+            (0.0, 0.0, 0.0),
+            |most, one| if one.2 > most.2 { one } else { most },
+        )
+    }
+}
+
 impl Cell {
     /// The worse of two in each respect.
     fn worse(self, other: Cell) -> Cell {

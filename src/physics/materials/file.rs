@@ -376,6 +376,13 @@ impl FileText<'_> {
             });
             what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         }
+        // All that is missing, in place of the first.
+        let table: toml::Table = toml::from_str(self.text).unwrap_or_default();
+        let missing = fields.iter().filter(|field| !table.contains_key(**field));
+        let missing: Vec<String> = missing.map(|field| format!("`{field}`")).collect();
+        if what.starts_with("missing field") && missing.len() > 1 {
+            what = format!("missing fields {}", missing.join(", "));
+        }
         self.fault(error.span().map_or(0, |span| span.start), what)
     }
 }

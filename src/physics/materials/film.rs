@@ -50,6 +50,9 @@ pub enum FilmFault {
     /// The thickness has no unit, or is no number.
     #[error("`{0}` is no thickness; a number with its unit is wanted: nm or um, such as 60nm")]
     NoLength(String),
+    /// Two films in one word.
+    #[error("`{0}` are several films; write --film for each, the outermost first")]
+    Several(String),
     /// The thickness is negative, or no number.
     #[error("a film of {0} is none: 0 to {THICKEST_NM} nm are allowed")]
     Negative(String),
@@ -71,6 +74,10 @@ pub enum FilmFault {
 /// assert_eq!(film_of_word("titanium_dioxide:0.06um"), Ok(("titanium_dioxide", 60.0)));
 /// ```
 pub fn film_of_word(word: &str) -> Result<(&str, f64), FilmFault> {
+    let mut each = word.split(',');
+    if word.contains(',') && each.all(|part| part.contains(':') && part.ends_with('m')) {
+        return Err(FilmFault::Several(word.to_owned()));
+    }
     let parts = word.rsplit_once(':').filter(|(name, _)| !name.is_empty());
     let (name, length) = parts.ok_or_else(|| FilmFault::NoThickness(word.to_owned()))?;
     Ok((name, length_nm(length)?))
@@ -307,6 +314,8 @@ mod tests {
         ] {
             assert_eq!(film_of_word(word), Ok(want));
         }
+        let two = film_of_word("titanium_dioxide:60nm,1.47:0.1um");
+        assert!(matches!(two, Err(FilmFault::Several(_))), "{two:?}");
         for word in [
             "gold",
             ":60nm",

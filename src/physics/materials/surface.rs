@@ -13,7 +13,7 @@ use super::film::Film;
 use super::formula::Extrapolate;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
-use crate::physics::optics::{Layer, Reflectance, under_films};
+use crate::physics::optics::{Layer, Reflectance, dielectric, under_films};
 use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM, Step};
 
 /// The conditions under which reflectance becomes three channels.
@@ -207,6 +207,34 @@ impl Surface {
     pub fn unpolarised_spectrum(&self, cos_theta: f64) -> Vec<f64> {
         let both = self.spectrum(cos_theta);
         both.map(Reflectance::unpolarised).collect()
+    }
+
+    /// What the surface adds to a clear coat of index `coat` that lies on it, at a cosine outside, without gamut mapping. A renderer draws
+    /// `R_c + (1 - R_c) B` with R_c, what the coat reflects itself. All that both interfaces reflect, one after the other, is this with
+    ///
+    /// ```text
+    /// B = Σ (1 - R_c)² R_b / (1 - R_c R_b) / Σ (1 - R_c)      sums over s and p; R_b relative to the coat, at the refracted angle
+    /// ```
+    ///
+    /// Domain: cosine 0 to 1, `coat` from 1. At grazing nothing enters the coat, and B is 0. The coat absorbs nothing and is too thick for
+    /// fringes: Born, Wolf, "Principles of Optics", 1999, section 7.6, <https://doi.org/10.1017/CBO9781139644181>.
+    pub fn through_coat(&self, coat: f64, cos_theta: f64) -> DVec3 {
+        let own = dielectric(coat, cos_theta);
+        let entering = 2.0 - own.s - own.p;
+        if entering <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let inside = (1.0 - (1.0 - cos_theta * cos_theta) / (coat * coat)).sqrt();
+        let indices = self.indices.iter().enumerate();
+        let added = indices.map(|(i, index)| {
+            let films = self.films_at(i).iter().map(|film| film.within(coat));
+            let films: Vec<Layer> = films.collect();
+            let below = under_films(&films, index.n / coat, index.k / coat, inside);
+            let part = |own: f64, below: f64| (1.0 - own).powi(2) * below / (1.0 - own * below);
+            (part(own.s, below.s) + part(own.p, below.p)) / entering
+        });
+        let spectrum: Vec<f64> = added.collect();
+        self.integrator.colour(&spectrum)
     }
 
     /// The wavelengths at which the index is extrapolated, in words; none if there are none.

@@ -40,6 +40,15 @@ impl Layer {
         let waves = share * self.waves;
         Layer { waves, ..self }
     }
+
+    /// The same layer in another medium, of this index relative to the one outside.
+    pub fn within(self, medium: f64) -> Layer {
+        Layer {
+            n: self.n / medium,
+            k: self.k / medium,
+            waves: self.waves * medium,
+        }
+    }
 }
 
 /// Reflectance of layers, outermost first, on the surface of m = n + ik.

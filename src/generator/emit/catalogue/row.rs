@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
+use super::coated::Coated;
 use crate::generator::emit::average::Average;
 use crate::generator::emit::code_bound::{Bounds, fingerprint};
 use crate::generator::emit::error::Error;
@@ -50,6 +51,9 @@ pub struct CatalogueRow {
     pub better: Option<CloserFit>,
     /// In words, beyond which wavelengths its index was held constant; none if nowhere.
     pub held: Option<String>,
+    /// The base of a clear coat, in the rows of adapters.
+    #[serde(skip)]
+    pub coated: Option<Coated>,
 }
 
 /// A method with a smaller error for a material of the catalogue than its four coefficients have.
@@ -82,10 +86,11 @@ pub fn catalogue_rows(
     subjects: &[MaterialInMedium],
     naming: &Naming,
 ) -> Result<Vec<CatalogueRow>, Error> {
-    rows_by_method(subjects, naming, MaterialInMedium::fitted_with_four)
+    rows_by_method(subjects, naming, MaterialInMedium::fitted_with_four, false)
 }
 
-/// The same rows for adapters, in which a material under films has the method that follows films.
+/// The same rows for adapters, in which a material under films has the method that follows films, and metals have their base of a clear
+/// coat too.
 ///
 /// # Errors
 /// As [`specialised_function`].
@@ -93,7 +98,7 @@ pub fn adapter_rows(
     subjects: &[MaterialInMedium],
     naming: &Naming,
 ) -> Result<Vec<CatalogueRow>, Error> {
-    rows_by_method(subjects, naming, MaterialInMedium::fitted_in_engines)
+    rows_by_method(subjects, naming, MaterialInMedium::fitted_in_engines, true)
 }
 
 /// The rows of the materials for which this finds a method, by method and name.
@@ -101,12 +106,17 @@ fn rows_by_method(
     subjects: &[MaterialInMedium],
     naming: &Naming,
     method_of: fn(&MaterialInMedium) -> Option<&'static str>,
+    with_coats: bool,
 ) -> Result<Vec<CatalogueRow>, Error> {
     let bounds = Bounds::recorded();
     let row = |i: usize| {
         let subject = &subjects[i];
         let method = methods::find(method_of(subject)?)?;
-        Some(catalogue_row(subject, method, naming, &bounds))
+        let mut row = catalogue_row(subject, method, naming, &bounds);
+        if let (Ok(row), true) = (&mut row, with_coats) {
+            row.coated = Coated::of(subject, method);
+        }
+        Some(row)
     };
     let found = in_parallel(subjects.len(), &row, &mut |_, _| {});
     let mut rows = found
@@ -139,6 +149,7 @@ fn catalogue_row(
         average: Average::of(&emitted).expect("a fitted method has a mean"),
         better,
         held: subject.reference.surface.extrapolation(),
+        coated: None,
     })
 }
 
