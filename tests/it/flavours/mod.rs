@@ -28,8 +28,10 @@ use fresnel_gen::generator::lut::{Depth, LEAST_ROUGHNESS, SplitSum, SplitSumAxis
 use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
 use fresnel_gen::language::ir::Weights;
 use fresnel_gen::language::{methods, targets};
-use fresnel_gen::physics::materials::{self, ViewingConditions};
-use fresnel_gen::physics::optics::Ggx;
+use fresnel_gen::physics::materials::{
+    self, AtWavelength, ConstantIndex, Extrapolate, ViewingConditions,
+};
+use fresnel_gen::physics::optics::{self, Ggx};
 
 /// Materials under films: of metal and of dielectric bases.
 pub const FILMS: [&str; 2] = ["anodised_titanium_purple", "oil_on_water"];
@@ -299,6 +301,71 @@ fn a_file_of_somebody_else_stays() {
         place.refused(&line, &["fresnel-gen did not write", "--overwrite"]);
         place.done(&format!("{line} --overwrite"));
     }
+}
+
+/// What a material under a clear coat of index 1.5 reflects, at a cosine outside: at each wavelength and for s and p the series of all
+/// reflections between both interfaces.
+pub fn two_interfaces(name: &str, cos: f64) -> [f64; 3] {
+    let material = materials::find(name).unwrap().unwrap();
+    let coat = ConstantIndex::parse("1.5").unwrap().unwrap().material();
+    let surface = &subject(name).reference.surface;
+    let outer = optics::dielectric(1.5, cos);
+    let inside = (1.0 - (1.0 - cos * cos) / 2.25).sqrt();
+    let at = |nm: &f64| {
+        let below = AtWavelength::new(&material, Some(&coat), *nm, Extrapolate::Refuse).unwrap();
+        let below = below.reflectance(inside);
+        let both = |c: f64, b: f64| {
+            // A ray that is reflected i times by the metal has left through the coat, or will.
+            let leaving = (0..200).map(|i| (1.0 - c).powi(2) * b * (c * b).powi(i));
+            c + leaving.sum::<f64>()
+        };
+        0.5 * (both(outer.s, below.s) + both(outer.p, below.p))
+    };
+    let spectrum: Vec<f64> = surface.integrator.wavelengths.iter().map(at).collect();
+    surface
+        .gamut
+        .apply(surface.integrator.colour(&spectrum))
+        .to_array()
+}
+
+/// A coat and what it lets through are both interfaces together, and coefficients of the base follow that.
+#[test]
+fn a_base_below_a_coat_makes_both_interfaces() {
+    for name in [
+        "gold",
+        "copper",
+        "platinum",
+        "silicon",
+        "anodised_titanium_purple",
+    ] {
+        let surface = &subject(name).reference.surface;
+        for cos in [0.02, 0.1, 0.3, 0.6, 1.0] {
+            let coat = optics::dielectric(1.5, cos).unpolarised();
+            let base = surface.through_coat(1.5, cos).to_array();
+            let all = two_interfaces(name, cos);
+            for channel in 0..3 {
+                let both = (coat + (1.0 - coat) * base[channel]).clamp(0.0, 1.0);
+                assert!(
+                    (both - all[channel]).abs() < 1e-9,
+                    "{name} {cos}: {both} {all:?}"
+                );
+            }
+        }
+        assert_eq!(surface.through_coat(1.5, 0.0).to_array(), [0.0; 3]);
+    }
+    let all = rows(&[
+        "gold",
+        "copper",
+        "platinum",
+        "silicon",
+        "anodised_titanium_purple",
+    ]);
+    for row in all {
+        let coated = row.coated.unwrap();
+        println!("{}: {} at {}", row.name, coated.max_abs, coated.worst_cos);
+        assert!(coated.max_abs < 0.004, "{}: {}", row.name, coated.max_abs);
+    }
+    assert!(rows(&["water"])[0].coated.is_none());
 }
 
 /// Coefficients of adapters beside the law of layers over the spectrum, and beside the four that they would otherwise have.

@@ -6,7 +6,7 @@ use super::host::Host;
 use super::host::at_most;
 use super::host::number;
 use super::host::shows_a_gold_sphere;
-use super::{FILMS, subject};
+use super::{FILMS, subject, two_interfaces};
 
 const THREE: Host = Host {
     flavour: "three",
@@ -21,7 +21,7 @@ const THREE: Host = Host {
     ],
     hands: "</html>",
     bundled: None,
-    materials: "gold,silver,diamond,water,anodised_titanium_purple,oil_on_water",
+    materials: "copper,gold,platinum,silver,diamond,water,anodised_titanium_purple,oil_on_water",
 };
 
 #[test]
@@ -41,6 +41,7 @@ fn lamps_images_and_nodes_take_our_reflectance() {
     at_most(&webgl["lamps"]["worst"], 1e-6);
     films(&webgl["lamps"]["seen"]);
     furnace(&webgl["furnace"]);
+    coats(&webgl["coats"]);
     assert!(number(&webgl["rectangles"]) < 1e-6);
     spheres(&webgl["spheres"]);
     for (feature, drawn) in webgl["features"].as_object().unwrap() {
@@ -49,7 +50,11 @@ fn lamps_images_and_nodes_take_our_reflectance() {
     let refused = &webgl["refusals"];
     says(
         &refused["name"],
-        &["glod", "\"gold\"", "silver, diamond, water"],
+        &[
+            "glod",
+            "\"gold\"",
+            "copper, gold, platinum, silver, diamond, water",
+        ],
     );
     says(&refused["material"], &["MeshBasicMaterial"]);
     says(&refused["method"], &["fited", "fitted"]);
@@ -57,6 +62,15 @@ fn lamps_images_and_nodes_take_our_reflectance() {
     says(
         &refused["coefficients_of_film"],
         &["fitted_film", "6 arrays of 3"],
+    );
+    says(
+        &refused["coat_of_water"],
+        &["water", "metals and semiconductors"],
+    );
+    says(&refused["coat_of_another_index"], &["1.5, not 1.6"]);
+    says(
+        &refused["coat_of_a_standard_material"],
+        &["MeshPhysicalMaterial"],
     );
     says(&refused["iridescence"], &["iridescence"]);
     // three's shaders were changed under it: nothing is patched in silence.
@@ -94,6 +108,24 @@ fn films(told: &Value) {
             mean < 0.0008 && worst < 0.0012,
             "{name} is off by {mean} in the mean, by {worst} at most"
         );
+    }
+}
+
+/// Both interfaces reflect as the law has it, with all reflections between them: ours is nearer than three's own in each material.
+#[track_caller]
+fn coats(told: &Value) {
+    for (name, rows) in told.as_object().unwrap() {
+        let rows = rows.as_array().unwrap();
+        let mean_of = |place: usize| {
+            let off = rows.iter().map(|row| {
+                let truth = two_interfaces(name, number(&row[0]))[number(&row[1]) as usize];
+                (number(&row[place]) - truth).abs()
+            });
+            off.sum::<f64>() / rows.len() as f64
+        };
+        let (stock, ours) = (mean_of(2), mean_of(3));
+        println!("{name} under a coat: three's own is off by {stock:.4}, ours by {ours:.4}");
+        assert!(ours < 0.007 && stock > 4.0 * ours, "{name}: {stock} {ours}");
     }
 }
 

@@ -87,7 +87,7 @@
     clustered: (to, scene) => new B.ClusteredLightContainer("lamp", [new B.PointLight("one", to.scale(3))], scene),
   };
 
-  async function reading(stage, { name, kind, angle, roughness, diffuse = [0, 0, 0], set = {}, after = {}, plain = false, energy = true }) {
+  async function reading(stage, { name, kind, angle, roughness, diffuse = [0, 0, 0], set = {}, after = {}, plain = false, energy = true, coat }) {
     const { scene, plane, target, environment } = stage;
     const material = new B.PBRMaterial("surface", scene);
     material.backFaceCulling = false;
@@ -100,7 +100,7 @@
     if (plain) {
       material.metallic = 1;
       material.albedoColor = new B.Color3(...materials[name].f0);
-    } else patch(material, name, BABYLON);
+    } else patch(material, name, BABYLON, { coat });
     Object.assign(material.brdf, after);
     if (dielectrics.includes(name)) material.albedoColor = new B.Color3(...diffuse);
     B.Quaternion.FromUnitVectorsToRef(B.Vector3.Up(), vector(angle), plane.rotationQuaternion);
@@ -144,8 +144,8 @@
     }
     for (const degree of degrees) {
       const angle = degree * Math.PI / 180, set = { clearCoat: { isEnabled: true } };
-      for (const plain of [false, true]) {
-        await record({ name: "gold", kind: "image", angle, roughness: 0, energy: false, set, plain, is_coated: true });
+      for (const row of [{}, { plain: true }, { coat: 1.5 }]) {
+        await record({ name: "gold", kind: "image", angle, roughness: 0, energy: false, set, ...row, is_coated: true });
       }
     }
     // Variants of the shader that must compile: their colours are Babylon.js' own in part.

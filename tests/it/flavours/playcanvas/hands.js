@@ -69,7 +69,7 @@
     rectangle: { type: "spot", range: 100, innerConeAngle: 60, outerConeAngle: 70, shape: pc.LIGHTSHAPE_RECT },
   };
 
-  async function reading(stage, { name, kind, clustered = false, angle, gloss, diffuse = [0, 0, 0], set = {}, plain = false }) {
+  async function reading(stage, { name, kind, clustered = false, angle, gloss, diffuse = [0, 0, 0], set = {}, plain = false, coat }) {
     const { app, plane, picture, target, side, environment } = stage;
     if (backend !== "webgpu") app.scene.clusteredLightingEnabled = clustered;
     if (clustered) app.scene.lighting.areaLightsEnabled = kind === "rectangle";
@@ -77,7 +77,7 @@
     const material = new pc.StandardMaterial();
     Object.assign(material, { gloss, enableGGXSpecular: true, diffuse: new pc.Color(...diffuse), useMetalness: false }, set);
     if (plain) material.specular = new pc.Color(...materials[name].f0).gamma();
-    else patch(material, name, pc);
+    else patch(material, name, pc, { coat });
     if (kind === "image" && dielectrics.includes(name)) material.diffuse = new pc.Color(...diffuse);
     material.update();
     plane.render.meshInstances[0].material = material;
@@ -122,6 +122,11 @@
     }
     for (const degree of degrees) {
       await record({ name: "gold", kind: "directional", clustered: backend === "webgpu", angle: degree * Math.PI / 180, gloss: 0.5, plain: true });
+    }
+    for (const degree of degrees) {
+      for (const row of [{}, { plain: true }, { coat: 1.5 }]) {
+        await record({ name: "gold", kind: "image", angle: degree * Math.PI / 180, gloss: 1, set: { clearCoat: 1 }, ...row, is_coated: true });
+      }
     }
     // Variants of the shader that must compile: their colours are PlayCanvas' own in part.
     const variants = [

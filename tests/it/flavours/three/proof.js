@@ -175,6 +175,18 @@ function furnace() {
   return told;
 }
 
+// Metals below a clear coat in light that is 1 from everywhere, three's own and ours: [cosine, channel, three, ours].
+function coats() {
+  const cosines = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1], seen = cells(cosines.map(mu => ({ normal: normalAt(mu), light: V })), cosines.length);
+  const coated = parameters => placed(new THREE.MeshPhysicalMaterial({ roughness: 0.05, clearcoat: 1, ...parameters })), told = {};
+  for (const name of ["copper", "gold", "platinum", "anodised_titanium_purple"]) {
+    const stock = drawn(image, coated({ color: new THREE.Color(...materials[name].f0), metalness: 1 }), seen);
+    const ours = drawn(image, patch(coated({}), name, { coat: 1.5 }), seen);
+    told[name] = cosines.flatMap((mu, place) => [0, 1, 2].map(channel => [mu, channel, stock(place, channel), ours(place, channel)]));
+  }
+  return told;
+}
+
 // Rectangular lights: a material over white is what it is for an image.
 function rectangles() {
   const list = COSINES.slice(2).map(mu => ({ normal: normalAt(mu), light: [0, 0, 0.5] })), grid = cells(list, list.length);
@@ -280,6 +292,9 @@ function refusals() {
     method: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fited", coefficients: [] })),
     coefficients: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fitted", coefficients: [[1, 1, 1]] })),
     coefficients_of_film: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fitted_film", coefficients: white("fitted").coefficients })),
+    coat_of_water: refused(() => patch(new THREE.MeshPhysicalMaterial(), "water", { coat: 1.5 })),
+    coat_of_another_index: refused(() => patch(new THREE.MeshPhysicalMaterial(), "gold", { coat: 1.6 })),
+    coat_of_a_standard_material: refused(() => patch(new THREE.MeshStandardMaterial(), "gold", { coat: 1.5 })),
     iridescence: refused(() => drawn(lit, patch(new THREE.MeshPhysicalMaterial({ iridescence: 1 }), "gold"), cells([{ normal: V, light: V }], 1))),
   };
   const { ShaderChunk } = THREE;
@@ -298,7 +313,7 @@ function refusals() {
 
 export async function proof() {
   const start = performance.now(), told = { revision: THREE.REVISION, table: [tableSize, Object.keys(methods)] };
-  for (const part of [lamps, furnace, rectangles, spheres, features, refusals]) {
+  for (const part of [lamps, furnace, coats, rectangles, spheres, features, refusals]) {
     told[part.name] = part();
     told[`${part.name}_ms`] = Math.round(performance.now() - start);
   }
