@@ -40,6 +40,7 @@ pub use model_error::{
 pub use perceived::{Perceived, perceived};
 pub use problem::{
     Coefficients, FitCurve, FitObjective, FitProblem, basis, coefficients_and_error,
+    weighted_coefficients,
 };
 pub use survey::{
     PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours, survey_page,

@@ -242,6 +242,19 @@ pub fn coefficients_and_error(
     Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
 }
 
+/// The coefficients of a fitted method for a curve whose errors count by a weight above 0 at each cosine.
+pub fn weighted_coefficients(
+    method: &Method,
+    curve: &FitCurve,
+    aim: FitObjective,
+    weight: impl Fn(f64) -> f64,
+) -> Option<Vec<[f64; 3]>> {
+    let weights: Vec<f64> = curve.cosines.iter().map(|c| weight(*c)).collect();
+    let problem = FitProblem::new(curve, aim);
+    let fit = problem.fit_by(&each_channel(|_| weights.clone()), &basis(&method.shape?))?;
+    Some(fit.coefficients)
+}
+
 /// Coefficients with their errors, on paper and before the clamp to [0, 1].
 #[derive(Clone, Debug)]
 pub struct Coefficients {

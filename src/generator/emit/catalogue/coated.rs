@@ -1,7 +1,7 @@
 //! A metal under the clear coat of an engine: coefficients of what the base must add, so that base and coat together reflect what both
 //! interfaces do ([`Surface::through_coat`](crate::physics::materials::Surface::through_coat)).
 
-use crate::generator::fit::{FitCurve, FitObjective, coefficients_and_error};
+use crate::generator::fit::{FitCurve, FitObjective, weighted_coefficients};
 use crate::generator::reference::{MaterialInMedium, cosines};
 use crate::language::methods::Method;
 use crate::physics::materials::MaterialKind;
@@ -42,9 +42,10 @@ impl Coated {
             gamut: surface.gamut,
             ..FitObjective::default()
         };
-        let (constants, _) = coefficients_and_error(method, &FitCurve::new(seen), aim)?;
-        let inputs = method.inputs.iter();
-        let coefficients: Vec<[f64; 3]> = inputs.map(|input| constants[input.name]).collect();
+        // What is seen of the base has passed the coat.
+        let passed = |c: f64| 1.0 - dielectric(COAT, c).unpolarised();
+        let weight = |c: f64| passed(c).max(LEAST_WEIGHT);
+        let coefficients = weighted_coefficients(method, &FitCurve::new(seen), aim, weight)?;
         let basis = method.basis()?;
         let of = |weights: &[f64]| {
             each_channel(|channel| {
@@ -60,14 +61,8 @@ impl Coated {
             let mut terms = vec![0.0; basis.terms()];
             basis.add(c, 1.0, &mut terms);
             let (got, want) = (of(&terms), seen(c));
-            let entering = 1.0 - dielectric(COAT, c).unpolarised();
-            (
-                entering
-                    * each_channel(|i| (got[i] - want[i]).abs())
-                        .into_iter()
-                        .fold(0.0, f64::max),
-                c,
-            )
+            let apart = each_channel(|i| (got[i] - want[i]).abs());
+            (passed(c) * apart.into_iter().fold(0.0, f64::max), c)
         };
         let all = cosines(ANGLES).into_iter().map(off);
         let (max_abs, worst_cos) = all.fold(
@@ -83,5 +78,44 @@ impl Coated {
     }
 }
 
+/// The least weight of an error, where nothing enters the coat.
+const LEAST_WEIGHT: f64 = 1e-3;
 /// The angles over which the error is sought.
 const ANGLES: usize = 256;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::reference::Derivation;
+    use crate::language::methods::find;
+    use crate::physics::materials::{self, ViewingConditions};
+
+    #[test]
+    fn metals_below_a_coat_are_followed() {
+        let viewing = ViewingConditions::default();
+        let of = |name: &str, method: &str| {
+            let typed = (name.to_owned(), materials::find(name).unwrap().unwrap());
+            let subject =
+                MaterialInMedium::new(typed, None, &viewing, Derivation::default()).unwrap();
+            Coated::of(&subject, find(method).unwrap())
+        };
+        for name in [
+            "gold", "copper", "silver", "platinum", "titanium", "silicon",
+        ] {
+            let coated = of(name, "fitted").unwrap();
+            assert!(
+                coated.max_abs < 0.004,
+                "{name}: {} at {}",
+                coated.max_abs,
+                coated.worst_cos
+            );
+        }
+        assert!(
+            of("anodised_titanium_purple", "fitted_film")
+                .unwrap()
+                .max_abs
+                < 0.004
+        );
+        assert!(of("water", "fitted_dielectric").is_none());
+    }
+}
