@@ -324,6 +324,37 @@ impl AtWavelength {
         })
     }
 
+    /// The same at each of some wavelengths.
+    ///
+    /// # Errors
+    /// The material, a film or the medium is not known at one of them.
+    pub fn each(
+        material: &Material,
+        medium: Option<&Material>,
+        wavelengths_nm: &[f64],
+        beyond: Extrapolate,
+    ) -> Result<Vec<AtWavelength>, SurfaceError> {
+        for part in parts(material, medium) {
+            let Some(rgb) = part.rgb_nm else { continue };
+            if let Some(nm) = wavelengths_nm.iter().find(|nm| !rgb.contains(nm)) {
+                let [red, green, blue] = rgb;
+                let name = &part.name;
+                return Err(SurfaceError {
+                    why: format!(
+                        "material `{name}`: known at {red}, {green} and {blue} nm only, and {nm} nm is wanted"
+                    ),
+                    advice: String::new(),
+                });
+            }
+        }
+        let at = |nm: &f64| AtWavelength::new(material, medium, *nm, beyond);
+        let all: Result<_, String> = wavelengths_nm.iter().map(at).collect();
+        all.map_err(|why| SurfaceError {
+            why,
+            advice: advice(extrapolated_beyond(material, medium, wavelengths_nm), true),
+        })
+    }
+
     /// Its reflectance.
     pub fn reflectance(&self, cos_theta: f64) -> Reflectance<f64> {
         under_films(&self.films, self.index.n, self.index.k, cos_theta)
