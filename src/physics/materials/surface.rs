@@ -211,17 +211,20 @@ impl Surface {
 
     /// The wavelengths at which the index is extrapolated, in words; none if there are none.
     pub fn extrapolation(&self) -> Option<String> {
-        let below = self.extrapolated_nm.0.map(|nm| format!("below {nm} nm"));
-        let above = self.extrapolated_nm.1.map(|nm| format!("above {nm} nm"));
-        let ends: Vec<String> = below.into_iter().chain(above).collect();
-        (!ends.is_empty())
-            .then(|| format!("{} the last measured index is held", ends.join(" and ")))
+        extrapolation_in_words(self.extrapolated_nm)
     }
 
     /// The largest k at any of the wavelengths.
     pub fn most_k(&self) -> f64 {
         self.indices.iter().map(|index| index.k).fold(0.0, f64::max)
     }
+}
+
+fn extrapolation_in_words((below, above): (Option<f64>, Option<f64>)) -> Option<String> {
+    let below = below.map(|nm| format!("below {nm} nm"));
+    let above = above.map(|nm| format!("above {nm} nm"));
+    let ends: Vec<String> = below.into_iter().chain(above).collect();
+    (!ends.is_empty()).then(|| format!("{} the last measured index is held", ends.join(" and ")))
 }
 
 fn in_gamut(gamut: Gamut) -> &'static str {
@@ -353,6 +356,15 @@ impl AtWavelength {
             why,
             advice: advice(extrapolated_beyond(material, medium, wavelengths_nm), true),
         })
+    }
+
+    /// Beyond which wavelengths the last measured index was held at some of these, in words; none if nowhere.
+    pub fn extrapolation(
+        material: &Material,
+        medium: Option<&Material>,
+        wavelengths_nm: &[f64],
+    ) -> Option<String> {
+        extrapolation_in_words(extrapolated_beyond(material, medium, wavelengths_nm))
     }
 
     /// Its reflectance.
