@@ -94,7 +94,7 @@ fn bad_input_says_what_is_allowed() {
     place.put("mine.png", "mine");
     for (line, says) in [
         ("gold", "2"),
-        ("gold slver", "did you mean silver?"),
+        ("gold slver", "did you mean silver or"),
         ("gold silver --polarised", "add --png FILE or --svg FILE"),
         (
             "gold silver --wavelengths 550",

@@ -132,7 +132,7 @@ fn bad_input_says_what_is_allowed() {
     #[rustfmt::skip]
     let cases = [
         ("", "<NAME>"),
-        ("glod", "did you mean gold?"),
+        ("glod", "did you mean gold or"),
         ("gold --angles 0..91:1", "it has 91; angles are in degrees, between 0 and 90, such as 0..90:5 or 0,30,60"),
         ("gold --angles -5", "it has -5; angles are in degrees"),
         ("gold --angles x", "`x` is not a number; angles are in degrees"),
