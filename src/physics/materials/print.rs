@@ -140,7 +140,7 @@ impl Material {
         let words = self.reference.split(|c: char| !c.is_alphanumeric());
         in_brackets
             .next()
-            .or_else(|| words.filter_map(number).last())
+            .or_else(|| words.rev().find_map(number))
     }
 
     /// The licence of the numbers, if it is given.
