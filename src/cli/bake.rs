@@ -38,7 +38,7 @@ use crate::physics::names::UnknownName;
 use crate::pictures::table;
 
 /// Flags that conflict with `--dfg`.
-const NO_MATERIAL: [&str; 8] = [
+const NO_MATERIAL: [&str; 9] = [
     "material",
     "medium",
     "gamut",
@@ -47,6 +47,7 @@ const NO_MATERIAL: [&str; 8] = [
     "target",
     "prefix",
     "ViewingFlags",
+    "ColourFlags",
 ];
 
 /// The flags of `bake`.

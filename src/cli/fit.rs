@@ -59,7 +59,7 @@ pub struct FitFlags {
     #[arg(long, conflicts_with_all = ["f0", "f82", "gamut"])]
     pub search: bool,
     /// In place of --material: reflectance at 0 degrees, three numbers from 0 to 1 (requires --f82)
-    #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f82", conflicts_with_all = ["material", "film", "medium", "ViewingFlags", "gamut"])]
+    #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f82", conflicts_with_all = ["material", "film", "medium", "ViewingFlags", "ColourFlags", "gamut"])]
     pub f0: Option<[f64; 3]>,
     /// Reflectance at 81.79 degrees (cos θ = 1/7; requires --f0)
     #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f0")]
@@ -139,7 +139,7 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
             normal: flags.exact.contains(&"0"),
             grazing: flags.exact.contains(&"90"),
         },
-        space: flags.gamut.viewing.space.unwrap_or_default(),
+        space: flags.gamut.viewing.colour.space.unwrap_or_default(),
         // Forms are compared by what they can represent, before any limit is applied.
         gamut: if flags.search {
             Gamut::Keep

@@ -5,18 +5,19 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
+use crate::cli::compare::CompareFlags;
 use crate::cli::error::Error;
 use crate::cli::flags::choice::one_of;
 use crate::cli::flags::material::{FilmFlags, MaterialName, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
-use crate::cli::output::{Output, Progress, png, report, reported};
-use crate::cli::{import, params, survey};
+use crate::cli::output::{Output, Progress, check_places, png, report, report_with_files};
+use crate::cli::reflectance::ReflectanceFlags;
+use crate::cli::{compare, import, params, reflectance, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};
 use crate::generator::error::unknown;
 use crate::generator::exchange::{self, Format};
-use crate::generator::output::write::{OutputFile, write_outputs};
 use crate::generator::request::check_transparent;
 use crate::generator::request::source::{Loaded, load};
 use crate::physics::foreign::{Foreign, one_line};
@@ -47,6 +48,16 @@ pub enum MaterialsCommand {
     List(FilterFlags),
     /// All that is known of one, as text, and as a picture
     Show(ShowFlags),
+    /// Several beside each other: F0, F82 and differences as a table, and reflectance, n and k as one picture
+    #[command(
+        after_help = "Examples:\n  fresnel-gen materials compare silver silver_babar silver_jiang --png silver.png\n  fresnel-gen materials compare gold my_gold.csv --wavelengths 450,550,650 --polarised --svg gold.svg"
+    )]
+    Compare(CompareFlags),
+    /// Reflectance by angle and wavelength, unpolarised, s and p, or the reflected colour by angle, as numbers
+    #[command(
+        after_help = "Examples:\n  fresnel-gen materials reflectance silver silver_babar --angles 0..90:5 --csv silver.csv\n  fresnel-gen materials reflectance gold --wavelengths 400..700:10 --angles 0,45 --csv -"
+    )]
+    Reflectance(ReflectanceFlags),
     /// The numbers that an engine wants: F0, F82, n and k per channel, averages, and how well they are known
     #[command(
         after_help = "Examples:\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials params gold --as materialx -o gold.mtlx"
@@ -200,6 +211,8 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         None => list(&FilterFlags::default(), json),
         Some(MaterialsCommand::List(filter)) => list(filter, json),
         Some(MaterialsCommand::Show(show)) => shown(show, json),
+        Some(MaterialsCommand::Compare(flags)) => compare::run(flags, json),
+        Some(MaterialsCommand::Reflectance(flags)) => reflectance::run(flags, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
         Some(MaterialsCommand::Coat(coat)) => params::run_coat(coat, json),
         Some(MaterialsCommand::Import(import)) => import::run(import, json),
@@ -335,25 +348,18 @@ pub(super) struct MaterialRecord<'a> {
 }
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
-    check_places(flags, json)?;
+    let places = [flags.svg.as_deref(), flags.png.as_deref(), json];
+    check_places("--svg, --png and --json", &places)?;
     let loaded = flags.of.loaded()?;
     let record = material_record(&loaded.material);
-    let (mut output, own) = reported(text(&loaded.material), &record, json);
-    let mut files: Vec<OutputFile> = own.into_iter().collect();
-    for (file, bytes) in drawn(flags, &loaded)? {
-        // A file on stdout replaces the text.
-        if file == Path::new("-") {
-            output.stdout = bytes;
-            output.is_file = true;
-        } else {
-            output
-                .remarks
-                .push(format!("{}: drawn", crate::physics::foreign::path(file)));
-            files.push(OutputFile::named(file, bytes));
-        }
-    }
-    write_outputs(&files)?;
-    Ok(output)
+    let files = drawn(flags, &loaded)?;
+    let named = files.iter().map(|(file, _)| *file);
+    let named = named.filter(|file| *file != Path::new("-"));
+    let remarks: Vec<String> = named
+        .map(|file| format!("{}: drawn", crate::physics::foreign::path(file)))
+        .collect();
+    let output = report_with_files(text(&loaded.material), &record, json, files)?;
+    Ok(Output { remarks, ..output })
 }
 
 /// The pictures of the material that were requested, each with its path.
@@ -384,25 +390,8 @@ fn drawn<'a>(flags: &'a ShowFlags, loaded: &Loaded) -> Result<Vec<(&'a Path, Vec
     Ok(placed.collect())
 }
 
-/// Refuses more than one output on stdout, and two pictures in one file.
-fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
-    let places = [flags.svg.as_deref(), flags.png.as_deref(), json];
-    let given: Vec<&Path> = places.into_iter().flatten().collect();
-    let twice = given
-        .iter()
-        .enumerate()
-        .find(|(i, place)| given[..*i].contains(place));
-    match twice {
-        None => Ok(()),
-        Some((_, place)) => Err(Error::usage(format!(
-            "--svg, --png and --json want different places, and `{}` is named twice",
-            crate::physics::foreign::path(&place)
-        ))),
-    }
-}
-
 /// Pixels of the PNG for each unit of the SVG, sharp on today's screens.
-const PNG_SCALE: f32 = 2.0;
+pub(super) const PNG_SCALE: f32 = 2.0;
 
 /// The command that draws it again as `svg` or `png`, without the output's path.
 fn command(

@@ -9,6 +9,7 @@
 mod audit;
 mod bake;
 mod chart;
+mod compare;
 mod completions;
 mod cost;
 mod error;
@@ -29,6 +30,7 @@ mod places;
 mod plan;
 mod plan_file;
 mod plan_input;
+mod reflectance;
 mod render;
 mod reproduce;
 mod scene_error;
@@ -45,11 +47,15 @@ use clap::{Parser, Subcommand};
 use crate::cli::flags::groups;
 use crate::cli::flags::material::MaterialName;
 use crate::cli::flags::named::NamedFiles;
+use crate::cli::materials::MaterialsCommand;
 use crate::cli::places::refuse_clashes;
 use crate::generator::output::lock::Announce;
+use crate::generator::request::source;
 use crate::language::effects::Effect;
 use crate::language::methods::Method;
 use crate::language::targets::Target;
+use crate::physics::foreign;
+use crate::physics::materials::page;
 
 pub use completions::completions;
 pub use error::Error;
@@ -92,7 +98,7 @@ pub enum Command {
     Methods(lists::ListFlags<Method>),
     /// List the materials, show one, compute its parameters, import more
     #[command(
-        after_help = "Examples:\n  fresnel-gen materials list --class metal\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials show gold --svg gold.svg\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
+        after_help = "Examples:\n  fresnel-gen materials list --class metal\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials show gold --svg gold.svg\n  fresnel-gen materials compare silver silver_babar --png silver.png\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
     )]
     Materials(Box<materials::MaterialsFlags>),
     /// List the effects, or show one with its functions, their arguments, and where it must be wrong
@@ -207,7 +213,33 @@ impl Cli {
 /// Flags contradict each other or name something that does not exist, a file cannot be read or written, or something needed is
 /// missing.
 pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
-    refuse_clashes(&cli.named_files())?;
+    let named = cli.named_files();
+    refuse_clashes(&named)?;
+    let mut output = run_command(cli, progress, announce)?;
+    output.remarks.extend(unit_remarks(cli, &named));
+    Ok(output)
+}
+
+/// The unit of a table whose header names none. A command that shows the material's note says it there.
+fn unit_remarks(cli: &Cli, named: &NamedFiles) -> Vec<String> {
+    if let Some(Command::Materials(flags)) = &cli.command
+        && matches!(
+            flags.what,
+            Some(MaterialsCommand::Show(_) | MaterialsCommand::Import(_))
+        )
+    {
+        return Vec::new();
+    }
+    let remark = |file: &&Path| {
+        let text = source::text(file).ok()?;
+        let page = page(&file.to_string_lossy(), &text)?.ok()?;
+        let remark = page.unit_remark()?;
+        Some(format!("{}: {remark}", foreign::path(file)))
+    };
+    named.inputs.iter().filter_map(remark).collect()
+}
+
+fn run_command(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
     match &cli.command {
         None => generate::run(&cli.generate, announce),
         Some(Command::Generate(flags)) => generate::run(flags, announce),

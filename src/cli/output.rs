@@ -13,6 +13,7 @@ use crate::cli::places::{refuse_one_place, replaced};
 use crate::generator::envelope::json_text;
 use crate::generator::error::RequestFault;
 use crate::generator::output::write::{OutputFile, write_outputs};
+use crate::physics::foreign;
 use crate::physics::materials::{escaped, is_hidden};
 
 /// The output of a run: text or a file for stdout, remarks for stderr, the exit code.
@@ -70,6 +71,70 @@ pub fn report_beside<T: Serialize>(
         remarks: replaced(&old).collect(),
         ..output
     })
+}
+
+/// A report and files that the user names, each of which may be stdout: it stands there alone.
+pub fn report_with_files<T: Serialize>(
+    text: String,
+    json: &T,
+    file: Option<&Path>,
+    named: Vec<(&Path, Vec<u8>)>,
+) -> Result<Output, Error> {
+    let (mut output, own) = reported(text, json, file);
+    let mut files: Vec<OutputFile> = own.into_iter().collect();
+    for (file, bytes) in named {
+        if file == Path::new("-") {
+            output.stdout = bytes;
+            output.is_file = true;
+        } else {
+            files.push(OutputFile::named(file, bytes));
+        }
+    }
+    write_outputs(&files)?;
+    Ok(output)
+}
+
+/// Refuses more than one output on stdout, and two in one file. `flags` are their names.
+pub fn check_places(flags: &str, places: &[Option<&Path>]) -> Result<(), Error> {
+    let given: Vec<&Path> = places.iter().copied().flatten().collect();
+    let twice = given
+        .iter()
+        .enumerate()
+        .find(|(i, place)| given[..*i].contains(place));
+    match twice {
+        None => Ok(()),
+        Some((_, place)) => Err(Error::usage(format!(
+            "{flags} want different places, and `{}` is named twice",
+            foreign::path(place)
+        ))),
+    }
+}
+
+/// Rows as CSV, with their keys as the head.
+pub fn csv_text<T: Serialize>(rows: &[T]) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer
+            .serialize(row)
+            .expect("rows are flat, and memory has room");
+    }
+    finished(writer)
+}
+
+/// Records of text as CSV.
+pub fn csv_records(records: impl Iterator<Item = Vec<String>>) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for record in records {
+        writer
+            .write_record(record)
+            .expect("records are of one length, and memory has room");
+    }
+    finished(writer)
+}
+
+fn finished(writer: csv::Writer<Vec<u8>>) -> String {
+    let bytes = writer.into_inner().expect("memory has room");
+    escaped(&String::from_utf8(bytes).expect("cells are text"))
 }
 
 /// The printed part of a report, and its file where it has one.

@@ -7,8 +7,9 @@ use thiserror::Error;
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::Choice;
-use crate::generator::command_line::path_again;
-use crate::generator::request::source::{comma_list, is_path, read};
+use crate::cli::flags::viewing::ColourFlags;
+use crate::generator::command_line::{CommandLine, path_again};
+use crate::generator::request::source::{Loaded, comma_list, is_path, load, read, same_name};
 use crate::generator::request::{Materials, Source};
 use crate::physics::materials::{self, ConstantIndex, FilmFault, IndexFault, film_of_word};
 use crate::physics::names::UnknownName;
@@ -270,5 +271,72 @@ impl MediumFlags {
     /// The path, if the medium is a file.
     pub fn path(&self) -> Option<&str> {
         self.medium.as_ref().and_then(MaterialName::path)
+    }
+}
+
+/// Several materials, and how they are looked at.
+#[derive(Args, Debug)]
+pub struct SeveralFlags {
+    /// Names, or paths of material files, pages or tables
+    #[arg(required = true, value_name = "NAME", value_parser = MaterialName::parse)]
+    pub names: Vec<MaterialName>,
+    /// The films on each of them.
+    #[command(flatten)]
+    pub films: FilmFlags,
+    /// The medium.
+    #[command(flatten)]
+    pub medium: MediumFlags,
+    /// The way to three channels.
+    #[command(flatten)]
+    pub colour: ColourFlags,
+}
+
+impl SeveralFlags {
+    /// The materials under their films, each once.
+    ///
+    /// # Errors
+    /// A file cannot be read or is no material, or two materials have one name.
+    pub fn loaded(&self) -> Result<Vec<Loaded>, Error> {
+        let mut all: Vec<Loaded> = Vec::new();
+        for name in &self.names {
+            let one = load(&self.films.on(name.source()?)?)?;
+            let same = all
+                .iter()
+                .find(|other| other.material.name == one.material.name);
+            match same {
+                None => all.push(one),
+                Some(other) if other.text == one.text => {}
+                Some(other) => {
+                    let words = [other.argument.as_str(), one.argument.as_str()];
+                    return Err(same_name(&one.material.name, words).into());
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// The command of these words with the materials, their films and their medium.
+    pub fn command(
+        &self,
+        words: &str,
+        materials: &[Loaded],
+        medium: Option<&Loaded>,
+    ) -> CommandLine {
+        let command = CommandLine::new(words);
+        let command = materials
+            .iter()
+            .fold(command, |command, one| command.argument(&one.argument));
+        command
+            .each("film", &self.films.film)
+            .list("medium", medium.map(|medium| &medium.argument))
+    }
+
+    /// The paths among them.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        let names = self.names.iter().filter_map(MaterialName::path);
+        names
+            .chain(self.films.paths())
+            .chain(self.medium.path())
+            .chain(self.colour.path())
     }
 }

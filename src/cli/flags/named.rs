@@ -14,7 +14,7 @@ use crate::cli::merge::MergeFlags;
 pub struct NamedFiles<'a> {
     /// The user's materials, media, lights, pages, shaders.
     pub inputs: Vec<&'a Path>,
-    /// Paths of `-o`, `--depfile`, `--json`, `--junit`, `--svg` and `--png`, except stdout.
+    /// Paths of `-o`, `--depfile`, `--json`, `--junit`, `--csv`, `--svg` and `--png`, except stdout.
     pub outputs: Vec<&'a Path>,
 }
 
@@ -63,6 +63,14 @@ impl<'a> NamedFiles<'a> {
             Some(MaterialsCommand::Params(params)) => {
                 self.params(&params.of);
                 self.write(&params.output);
+            }
+            Some(MaterialsCommand::Compare(flags)) => {
+                self.read(flags.of.paths());
+                self.write(flags.svg.iter().chain(&flags.png).chain(&flags.csv));
+            }
+            Some(MaterialsCommand::Reflectance(flags)) => {
+                self.read(flags.of.paths());
+                self.write(&flags.csv);
             }
             Some(MaterialsCommand::Import(import)) => {
                 self.inputs.push(Path::new(&import.page));

@@ -128,6 +128,21 @@ impl Material {
         (!parts.is_empty()).then(|| parts.join(between))
     }
 
+    /// The year of the reference: the first in brackets, or the last number that can be one.
+    pub fn year(&self) -> Option<u16> {
+        let is_year = |year: &u16| (1800..=2100).contains(year);
+        let number = |word: &str| {
+            let is_number = word.len() == 4 && word.bytes().all(|byte| byte.is_ascii_digit());
+            word.parse().ok().filter(|year| is_number && is_year(year))
+        };
+        let after_brackets = self.reference.split('(').skip(1);
+        let mut in_brackets = after_brackets.filter_map(|rest| number(rest.split(')').next()?));
+        let words = self.reference.split(|c: char| !c.is_alphanumeric());
+        in_brackets
+            .next()
+            .or_else(|| words.rev().find_map(number))
+    }
+
     /// The licence of the numbers, if it is given.
     pub fn licence_words(&self) -> Option<&str> {
         given(&self.licence)

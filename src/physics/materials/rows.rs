@@ -24,6 +24,11 @@ pub enum Columns {
 }
 
 impl Columns {
+    /// How many they are.
+    pub fn count(self) -> usize {
+        self.names().len()
+    }
+
     fn names(self) -> &'static [&'static str] {
         match self {
             Columns::N => &["n"],

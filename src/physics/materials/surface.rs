@@ -239,17 +239,20 @@ impl Surface {
 
     /// The wavelengths at which the index is extrapolated, in words; none if there are none.
     pub fn extrapolation(&self) -> Option<String> {
-        let below = self.extrapolated_nm.0.map(|nm| format!("below {nm} nm"));
-        let above = self.extrapolated_nm.1.map(|nm| format!("above {nm} nm"));
-        let ends: Vec<String> = below.into_iter().chain(above).collect();
-        (!ends.is_empty())
-            .then(|| format!("{} the last measured index is held", ends.join(" and ")))
+        extrapolation_in_words(self.extrapolated_nm)
     }
 
     /// The largest k at any of the wavelengths.
     pub fn most_k(&self) -> f64 {
         self.indices.iter().map(|index| index.k).fold(0.0, f64::max)
     }
+}
+
+fn extrapolation_in_words((below, above): (Option<f64>, Option<f64>)) -> Option<String> {
+    let below = below.map(|nm| format!("below {nm} nm"));
+    let above = above.map(|nm| format!("above {nm} nm"));
+    let ends: Vec<String> = below.into_iter().chain(above).collect();
+    (!ends.is_empty()).then(|| format!("{} the last measured index is held", ends.join(" and ")))
 }
 
 fn in_gamut(gamut: Gamut) -> &'static str {
@@ -350,6 +353,46 @@ impl AtWavelength {
             index: relative(own),
             films: films.collect::<Result<_, String>>()?,
         })
+    }
+
+    /// The same at each of some wavelengths.
+    ///
+    /// # Errors
+    /// The material, a film or the medium is not known at one of them.
+    pub fn each(
+        material: &Material,
+        medium: Option<&Material>,
+        wavelengths_nm: &[f64],
+        beyond: Extrapolate,
+    ) -> Result<Vec<AtWavelength>, SurfaceError> {
+        for part in parts(material, medium) {
+            let Some(rgb) = part.rgb_nm else { continue };
+            if let Some(nm) = wavelengths_nm.iter().find(|nm| !rgb.contains(nm)) {
+                let [red, green, blue] = rgb;
+                let name = &part.name;
+                return Err(SurfaceError {
+                    why: format!(
+                        "material `{name}`: known at {red}, {green} and {blue} nm only, and {nm} nm is wanted"
+                    ),
+                    advice: String::new(),
+                });
+            }
+        }
+        let at = |nm: &f64| AtWavelength::new(material, medium, *nm, beyond);
+        let all: Result<_, String> = wavelengths_nm.iter().map(at).collect();
+        all.map_err(|why| SurfaceError {
+            why,
+            advice: advice(extrapolated_beyond(material, medium, wavelengths_nm), true),
+        })
+    }
+
+    /// Beyond which wavelengths the last measured index was held at some of these, in words; none if nowhere.
+    pub fn extrapolation(
+        material: &Material,
+        medium: Option<&Material>,
+        wavelengths_nm: &[f64],
+    ) -> Option<String> {
+        extrapolation_in_words(extrapolated_beyond(material, medium, wavelengths_nm))
     }
 
     /// Its reflectance.

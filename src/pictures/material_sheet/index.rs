@@ -53,7 +53,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
 }
 
 /// The highest value; negative infinity where there is none.
-fn highest(series: &Series) -> f64 {
+pub(super) fn highest(series: &Series) -> f64 {
     let values = series.points.iter().map(|point| point.1);
     values.fold(f64::NEG_INFINITY, f64::max)
 }
@@ -69,7 +69,7 @@ fn without_k(k: Option<&Series>) -> String {
 }
 
 /// Three points, joined by dashes to guide the eye.
-fn joined(
+pub(super) fn joined(
     name: &str,
     curve: &DispersionCurve,
     look: Look,
@@ -87,7 +87,12 @@ fn joined(
 }
 
 /// A table with its points as dots, or a formula's curve.
-fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f64)>) -> Series {
+pub(super) fn whole(
+    name: &str,
+    curve: &DispersionCurve,
+    look: Look,
+    range: Option<(f64, f64)>,
+) -> Series {
     let points = match (curve, range) {
         (_, None) => Vec::new(),
         (DispersionCurve::Table(table), Some(range)) => within(table.points(), range),

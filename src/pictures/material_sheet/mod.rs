@@ -1,13 +1,16 @@
-//! The picture of a material: one sheet with its index, its reflectance and its colours, as self-contained SVG text.
+//! The picture of a material, and of several beside each other: one sheet with its index, its reflectance and its colours, as self-contained SVG text.
 //!
 //! Four panels: n and k against wavelength, reflectance against angle per channel, reflectance against wavelength at a few
 //! angles, and swatches. All reflectance is by the exact law. Colours outside [0, 1] are kept, except in the swatches, which show
-//! what a screen shows.
+//! what a screen shows. A comparison of several materials is a sheet of its own, of the same parts.
 
 mod axis;
+mod comparison;
 mod index;
 mod spectrum;
 mod swatches;
+
+pub use comparison::{ShownReflectance, comparison_sheet};
 
 use crate::physics::materials::{Material, Surface, ViewingConditions};
 use crate::physics::spectra::Gamut;

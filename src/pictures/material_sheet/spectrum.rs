@@ -91,6 +91,11 @@ fn reflectance(indices: &Indices, cos_theta: f64) -> Vec<(f64, f64)> {
 /// The number of angles: from 0 to 90 degrees, a quarter of a degree apart.
 const POINTS: u32 = 361;
 
+/// The angles at which curves are drawn, in degrees.
+pub(super) fn angles() -> impl Iterator<Item = f64> {
+    (0..POINTS).map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
+}
+
 /// Red is solid below, and the others are dashed above it with one period. Where the three coincide, each still shows on a third
 /// of the line.
 const CHANNELS: [(&str, Look); 3] = [
@@ -101,11 +106,8 @@ const CHANNELS: [(&str, Look); 3] = [
 
 /// The reflected share of unpolarised light in each channel, by the exact law.
 pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
-    let colour = |i: u32| {
-        let degrees = 90.0 * f64::from(i) / f64::from(POINTS - 1);
-        (degrees, drawn.surface.unpolarised(cosine(degrees)))
-    };
-    let colours: Vec<(f64, DVec3)> = (0..POINTS).map(colour).collect();
+    let colour = |degrees| (degrees, drawn.surface.unpolarised(cosine(degrees)));
+    let colours: Vec<(f64, DVec3)> = angles().map(colour).collect();
     let series = [0, 1, 2].map(|channel| {
         let (name, look) = CHANNELS[channel];
         let points = colours.iter().map(|(at, colour)| (*at, colour[channel]));

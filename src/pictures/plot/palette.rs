@@ -87,7 +87,8 @@ impl Look {
 }
 
 impl Style {
-    fn look(self) -> Look {
+    /// Colour, dashes and width.
+    pub fn look(self) -> Look {
         match self {
             Style::Exact => Look::new(INK, "", 3.0),
             Style::Approximate(number) => {

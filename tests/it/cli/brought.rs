@@ -42,6 +42,51 @@ fn a_page_is_a_material() {
     assert_eq!(json["class"], "metal");
 }
 
+/// Every command that reads a table says which unit it took, where the header names none.
+#[test]
+fn a_unit_that_was_told_by_size_is_said() {
+    let place = Place::new();
+    let um = "\u{feff}sep=;\r\nWavelength;Refractive index n;Extinction coefficient k\r\n0,38;1,6;1,9\r\n0,79;0,15;4,8\r\n";
+    place.put("gold.csv", um);
+    place.put("nm.csv", "wl\tn\tk\n380\t1.6\t1.9\n790\t0.15\t4.8\n");
+    let said = "the header names no unit: wavelengths from 0.38 to 0.79 are taken as micrometres";
+    for line in [
+        "materials params gold.csv",
+        "materials reflectance gold.csv --angles 0",
+        "materials compare gold.csv silver",
+        "--material gold.csv --target gles",
+        "bake --material gold.csv --size 8",
+        "materials import gold.csv -o gold.toml",
+    ] {
+        let ran = place.done(line);
+        assert!(ran.err.contains(said), "{ran:?}");
+    }
+    let shown = place.done("materials show gold.csv");
+    assert!(
+        shown.out.contains(said) && shown.err.is_empty(),
+        "{shown:?}"
+    );
+    let ran = place.done("materials params nm.csv");
+    let nm =
+        "nm.csv: the header names no unit: wavelengths from 380 to 790 are taken as nanometres";
+    assert!(ran.err.contains(nm), "{ran:?}");
+    let [one, other] = ["gold.csv", "nm.csv"].map(|file| {
+        let json = place
+            .done(&format!("materials params {file} --json -"))
+            .json();
+        json["f0"].clone()
+    });
+    assert_eq!(one, other);
+    place.put("both.csv", "wavelength,n\n0.5,1.5\n500,1.5\n");
+    place.refused(
+        "materials params both.csv",
+        &[
+            "both.csv:1:1: the header names no unit",
+            "name the column wavelength_nm or wavelength_um",
+        ],
+    );
+}
+
 #[test]
 fn an_imported_page_is_a_material_file() {
     let place = Place::new();

@@ -223,7 +223,7 @@ fn bash_completes_names_and_flags() {
 
 /// Lines in which each flag that a command offers does its work. Those of a graphics stack or of minutes are parsed only; tests of
 /// their own run them.
-const USED: [(&str, bool); 54] = [
+const USED: [(&str, bool); 57] = [
     (
         "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
         true,
@@ -275,6 +275,18 @@ const USED: [(&str, bool); 54] = [
     ),
     (
         "materials params gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --json -",
+        true,
+    ),
+    (
+        "materials compare gold m.csv --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --wavelengths 450,550 --polarised --svg c.svg --png c.png --csv c.csv --json c.json",
+        true,
+    ),
+    (
+        "materials reflectance gold m.csv --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --angles 0..90:30 --csv r.csv --json -",
+        true,
+    ),
+    (
+        "materials reflectance gold --wavelengths 400..700:100",
         true,
     ),
     ("materials params gold --as usd -o a.usda --overwrite", true),

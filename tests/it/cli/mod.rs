@@ -7,6 +7,7 @@ mod brought;
 mod budget;
 mod catalogue;
 mod chart;
+mod compare;
 mod cost;
 mod determinism;
 #[cfg(unix)]
@@ -30,6 +31,7 @@ mod materials;
 mod medium;
 pub mod pipelines;
 mod plan;
+mod reflectance;
 mod scene_error;
 mod seen;
 #[cfg(unix)]

@@ -5,6 +5,7 @@
 
 mod baked;
 mod chart;
+mod comparison;
 mod headline;
 mod map;
 mod plan;
@@ -37,9 +38,10 @@ struct PictureFile {
     file: String,
 }
 
-static FACTS: [&[Fact]; 8] = [
+static FACTS: [&[Fact]; 9] = [
     baked::FACTS,
     chart::FACTS,
+    comparison::FACTS,
     headline::FACTS,
     map::FACTS,
     renders::FACTS,
@@ -153,7 +155,7 @@ fn committed_pictures_show_what_a_physicist_knows() {
 }
 
 /// Which commands have a flag that takes a picture or a folder, and what draws them here.
-const DRAW: [(&str, &str); 13] = [
+const DRAW: [(&str, &str); 14] = [
     ("", "tables, as `bake` has them: shaders-generated/lut"),
     (
         "audit",
@@ -173,6 +175,10 @@ const DRAW: [(&str, &str); 13] = [
         "a page without a picture of its own: the test `gallery`",
     ),
     ("generate", "what the program does alone: tables"),
+    (
+        "materials compare",
+        "comparison::measurements_stand_beside_each_other",
+    ),
     (
         "materials show",
         "sheet::sheets_show_what_is_known_of_materials",

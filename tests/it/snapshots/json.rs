@@ -10,13 +10,25 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 22] = [
+const REPORTS: [(&str, &str); 25] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
     ("targets show", "targets show gles --json -"),
     ("materials list", "materials list --json -"),
     ("materials params", "materials params gold --json -"),
+    (
+        "materials compare",
+        "materials compare silver gold --json -",
+    ),
+    (
+        "materials reflectance",
+        "materials reflectance gold --angles 0,60,90 --json -",
+    ),
+    (
+        "materials reflectance by wavelength",
+        "materials reflectance gold --angles 0,60 --wavelengths 450,650 --json -",
+    ),
     (
         "materials coat",
         "materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --json -",
@@ -60,12 +72,15 @@ const REPORTS: [(&str, &str); 22] = [
 ];
 
 /// Reports of [`REPORTS`] whose values no machine has a part in: neither its graphics stacks, nor its compilers, nor its clock.
-const SAME_EVERYWHERE: [&str; 15] = [
+const SAME_EVERYWHERE: [&str; 18] = [
     "methods",
     "methods show",
     "targets",
     "targets show",
     "materials params",
+    "materials compare",
+    "materials reflectance",
+    "materials reflectance by wavelength",
     "materials coat",
     "fit",
     "fit of colours",
