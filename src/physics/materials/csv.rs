@@ -200,7 +200,9 @@ impl<'a> Table<'a> {
 /// A number with a decimal point in place of its decimal comma. Others are returned unchanged.
 fn with_point(cell: &str) -> Cow<'_, str> {
     match cell.split_once(',') {
-        Some((whole, rest)) if rest.starts_with(|c: char| c.is_ascii_digit()) => {
+        Some((whole, rest))
+            if !rest.contains(',') && rest.starts_with(|c: char| c.is_ascii_digit()) =>
+        {
             Cow::Owned(format!("{whole}.{rest}"))
         }
         _ => Cow::Borrowed(cell),
@@ -463,7 +465,7 @@ mod tests {
         let both = "decimal commas and decimal points; one of them is allowed";
         refused("nm;n\n400;1,5\n500;1.5\n", [3, 5], both);
         refused("nm;n\n1,234.5;1\n", [2, 1], both);
-        refused("nm;n\n400;1,234,5\n", [2, 5], "is no number");
+        refused("nm;n\n400;1,234,5\n", [2, 5], "`1,234,5` is no number");
         let says = "a row of 3 numbers; it wants wavelength, n; where numbers have decimal commas, semicolons or tabs must stand between columns";
         refused("nm,n\n400,1,5\n", [2, 1], says);
         refused(

@@ -138,9 +138,7 @@ impl Material {
         let after_brackets = self.reference.split('(').skip(1);
         let mut in_brackets = after_brackets.filter_map(|rest| number(rest.split(')').next()?));
         let words = self.reference.split(|c: char| !c.is_alphanumeric());
-        in_brackets
-            .next()
-            .or_else(|| words.rev().find_map(number))
+        in_brackets.next().or_else(|| words.rev().find_map(number))
     }
 
     /// The licence of the numbers, if it is given.

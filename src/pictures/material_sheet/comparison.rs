@@ -30,8 +30,8 @@ const ANGLE_PANEL: PanelFrame = PanelFrame {
     width: 390.0,
     ..PANEL
 };
-/// Dashes and width of one polarisation.
-const POLARISED: (&str, f64) = ("1.5 2.5", 1.2);
+/// Dashes of s and of p, and the width of both.
+const POLARISED: ([&str; 2], f64) = (["5 3", "1.5 2.5"], 1.2);
 
 /// The picture of these materials in air or in a medium, as SVG text. `command` makes it again and stands at the foot.
 ///
@@ -171,14 +171,14 @@ fn angle_chart(
         };
         add(&one.material.name, style, Reflectance::unpolarised);
         if shown.polarised {
-            let (dashes, width) = POLARISED;
-            let thin = Style::Own(Look::new(style.look().colour, dashes, width));
-            add(&format!("{} s", one.material.name), thin, |both| both.s);
-            add(&format!("{} p", one.material.name), thin, |both| both.p);
+            let ([s, p], width) = POLARISED;
+            let thin = |dashes| Style::Own(Look::new(style.look().colour, dashes, width));
+            add(&format!("{} s", one.material.name), thin(s), |both| both.s);
+            add(&format!("{} p", one.material.name), thin(p), |both| both.p);
         }
     }
     let light = if shown.polarised {
-        "Unpolarised light; dotted above s, below p."
+        "Unpolarised light; thin lines: s above, p below."
     } else {
         "Unpolarised light."
     };

@@ -105,7 +105,10 @@ fn bad_input_says_what_is_allowed() {
             "--wavelengths has 31; at most 12 are drawn",
         ),
         ("gold silver --svg - --json -", "`-` is named twice"),
-        ("gold silver --svg a --png a", "`a` is named twice"),
+        (
+            "gold silver --svg a --png a",
+            "two outputs of this run would be written there",
+        ),
         (
             "gold silver --wavelengths 90000 --svg a.svg",
             "90000 nm is wanted",

@@ -140,7 +140,7 @@ fn bad_input_says_what_is_allowed() {
         ("gold --wavelengths 0", "wavelengths are in nm, between 1 and 1000000, such as 400..700:10 or 450,550"),
         ("gold --wavelengths 550 --space p3", "cannot be used with"),
         ("gold --csv - --json -", "`-` is named twice"),
-        ("gold --csv x --json x", "`x` is named twice"),
+        ("gold --csv x --json x", "two outputs of this run would be written there"),
         ("a/gold.csv --csv a/gold.csv", "this run reads that file"),
         ("a/gold.csv b/gold.csv", "two different materials are named `gold`"),
         ("gold silver --angles 0..90:0.01 --wavelengths 400..700:1", "5418602 rows are wanted; at most 1000000"),
