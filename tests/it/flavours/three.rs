@@ -125,7 +125,7 @@ fn coats(told: &Value) {
         };
         let (stock, ours) = (mean_of(2), mean_of(3));
         println!("{name} under a coat: three's own is off by {stock:.4}, ours by {ours:.4}");
-        assert!(ours < 0.007 && stock > 4.0 * ours, "{name}: {stock} {ours}");
+        assert!(ours < 0.008 && stock > 4.0 * ours, "{name}: {stock} {ours}");
     }
 }
 
