@@ -58,6 +58,7 @@ struct Raw {
     n_formula: Option<Spanned<Formula>>,
 }
 
+/// The fields of a material, those that it must have first.
 const FIELDS: [&str; 15] = [
     "name",
     "summary",
@@ -75,6 +76,7 @@ const FIELDS: [&str; 15] = [
     "k",
     "n_formula",
 ];
+const REQUIRED: usize = 6;
 
 /// A column of a row: name, least value, greatest value.
 type Column = (&'static str, f64, f64);
@@ -103,7 +105,8 @@ impl Material {
         if names_base(text) {
             return Material::parse_stack(file, text);
         }
-        let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error, &FIELDS))?;
+        let raw: Raw = toml::from_str(text)
+            .map_err(|error| place.syntax(&error, &FIELDS, &FIELDS[..REQUIRED]))?;
         check_name("name", &raw.name, &place)?;
         if let Some(substance) = &raw.substance {
             check_name("substance", substance, &place)?;
@@ -365,7 +368,13 @@ impl FileText<'_> {
         Err(self.fault(rgb.span().start, what))
     }
 
-    pub(super) fn syntax(&self, error: &toml::de::Error, fields: &[&str]) -> FileFault {
+    /// The parser's error, with the nearest of these fields for an unknown one, and with all that is missing of the required ones.
+    pub(super) fn syntax(
+        &self,
+        error: &toml::de::Error,
+        fields: &[&str],
+        required: &[&str],
+    ) -> FileFault {
         let mut what = error.message().trim().replace('\n', "; ");
         if let Some(unknown) = what
             .strip_prefix("unknown field `")
@@ -376,9 +385,8 @@ impl FileText<'_> {
             });
             what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         }
-        // All that is missing, in place of the first.
         let table: toml::Table = toml::from_str(self.text).unwrap_or_default();
-        let missing = fields.iter().filter(|field| !table.contains_key(**field));
+        let missing = required.iter().filter(|field| !table.contains_key(**field));
         let missing: Vec<String> = missing.map(|field| format!("`{field}`")).collect();
         if what.starts_with("missing field") && missing.len() > 1 {
             what = format!("missing fields {}", missing.join(", "));

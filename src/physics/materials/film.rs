@@ -196,7 +196,8 @@ impl Material {
     /// Reads the file of a stack. `file` is only for messages.
     pub(super) fn parse_stack(file: &str, text: &str) -> Result<Material, FileFault> {
         let place = FileText { file, text };
-        let raw: RawStack = toml::from_str(text).map_err(|error| place.syntax(&error, &FIELDS))?;
+        let raw: RawStack = toml::from_str(text)
+            .map_err(|error| place.syntax(&error, &FIELDS, &FIELDS[..REQUIRED]))?;
         check_name("name", &raw.name, &place)?;
         for (field, value) in [
             ("summary", &raw.summary),
@@ -274,6 +275,7 @@ fn named(word: &str) -> Result<Material, String> {
     }
 }
 
+/// The fields of a stack, those that it must have first.
 const FIELDS: [&str; 8] = [
     "name",
     "summary",
@@ -284,6 +286,8 @@ const FIELDS: [&str; 8] = [
     "link",
     "note",
 ];
+
+const REQUIRED: usize = 7;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

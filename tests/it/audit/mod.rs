@@ -4,6 +4,7 @@ mod arguments;
 mod charts;
 mod compared;
 mod conventions;
+mod films;
 pub mod published;
 mod ranked;
 mod scopes;
