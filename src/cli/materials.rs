@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::cli::compare::CompareFlags;
 use crate::cli::error::Error;
-use crate::cli::flags::choice::one_of;
+use crate::cli::flags::choice::{format_of_engines, one_of};
 use crate::cli::flags::material::{FilmFlags, MaterialName, MediumFlags};
 use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
@@ -17,7 +17,7 @@ use crate::cli::{compare, import, params, reflectance, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};
 use crate::generator::error::unknown;
-use crate::generator::exchange::{self, Format};
+use crate::generator::exchange::Format;
 use crate::generator::request::check_transparent;
 use crate::generator::request::source::{Loaded, load};
 use crate::physics::foreign::{Foreign, one_line};
@@ -142,7 +142,7 @@ pub struct ParamsFlags {
     #[command(flatten)]
     pub of: SeenFlags,
     /// Write the numbers for an engine or a tool: openpbr, materialx, gltf, usd, blender, unreal, filament
-    #[arg(long = "as", value_name = "FORMAT", value_parser = one_of("format", exchange::ALL.iter().copied(), |format| format.name))]
+    #[arg(long = "as", value_name = "FORMAT", value_parser = format_of_engines())]
     pub format: Option<&'static Format>,
     /// Write that file here, or `-` for stdout [default: stdout]
     #[arg(short = 'o', value_name = "FILE", requires = "format")]

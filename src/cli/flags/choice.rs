@@ -5,6 +5,7 @@ use core::fmt;
 use clap::Args;
 
 use crate::generator::error::RequestFault;
+use crate::generator::exchange::{self, Format};
 use crate::generator::flavours::{self, Flavour};
 use crate::generator::request::Methods;
 use crate::lab::cost::{FAMILIES, Family};
@@ -179,11 +180,32 @@ pub fn target_or_all() -> impl Fn(&str) -> Result<Choice<&'static Target>, Unkno
     one_or_all("target", targets::ALL.iter().copied(), |target| target.name)
 }
 
-/// The parser of a flavour's name.
-pub fn flavour() -> impl Fn(&str) -> Result<&'static Flavour, UnknownName> + Clone {
-    one_of("flavour", flavours::ALL.iter().copied(), |flavour| {
-        flavour.name
-    })
+/// The parser of a flavour's name. A format's name leads to the flag for formats.
+pub fn flavour() -> impl Fn(&str) -> Result<&'static Flavour, String> + Clone {
+    let parse = one_of("flavour", flavours::ALL.iter().copied(), |one| one.name);
+    move |word: &str| {
+        parse(word).map_err(|unknown| match exchange::find(word.trim()) {
+            Some(format) => format!(
+                "{0} takes numbers, and no adapter: fresnel-gen materials params NAME --as {0}",
+                format.name
+            ),
+            None => unknown.to_string(),
+        })
+    }
+}
+
+/// The parser of the name of a format of engines. A flavour's name leads to the flag for adapters.
+pub fn format_of_engines() -> impl Fn(&str) -> Result<&'static Format, String> + Clone {
+    let parse = one_of("format", exchange::ALL.iter().copied(), |one| one.name);
+    move |word: &str| {
+        parse(word).map_err(|unknown| match flavours::find(word.trim()) {
+            Some(flavour) => format!(
+                "{0} takes functions in an adapter: fresnel-gen --flavour {0} --material NAME",
+                flavour.name
+            ),
+            None => unknown.to_string(),
+        })
+    }
 }
 
 /// The parser of a precision's name.

@@ -36,3 +36,8 @@ pub static ALL: &[&Format] = &[
     &usd::FORMAT,
 ];
 // END list
+
+/// The format of this name.
+pub fn find(name: &str) -> Option<&'static Format> {
+    ALL.iter().find(|format| format.name == name).copied()
+}

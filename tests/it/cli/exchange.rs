@@ -697,3 +697,11 @@ fn blender_takes_films() {
     );
     assert!(!oil.contains("bpy.app.version"), "{oil}");
 }
+
+/// Engines with an adapter and formats with numbers have flags of their own, and each names the other.
+#[test]
+fn a_flavour_is_no_format_and_the_other_way_round() {
+    let place = Place::new();
+    place.refused("materials params gold --as three", &["--flavour three"]);
+    place.refused("--flavour gltf --material gold", &["--as gltf"]);
+}
