@@ -227,6 +227,15 @@ impl NumberList {
         let said = |why: String| format!("{why}; {}", allowed());
         let word: String = word.split_whitespace().collect();
         let values = match word.split_once("..") {
+            Some((from, rest)) if from.contains(',') || rest.contains([',']) => {
+                let why = format!("`{from}..{rest}` is a list and a range; one of them is wanted");
+                return Err(said(why));
+            }
+            Some((_, rest)) if rest.starts_with('.') => {
+                return Err(said(format!(
+                    "`{word}` is no range; two dots stand between its ends"
+                )));
+            }
             Some((from, rest)) => {
                 let (to, step) = rest.split_once(':').unwrap_or((rest, "1"));
                 let ends = numbers(&format!("{from},{to},{step}")).map_err(said)?;

@@ -144,7 +144,14 @@ impl Run<'_> {
                 )));
             }
         }
-        Ok(())
+        let is_base = |subject: &&MaterialInMedium| subject.name.ends_with("_under_coat");
+        match subjects.iter().find(is_base) {
+            Some(subject) => Err(RequestFault::refused(format!(
+                "material `{}`: what ends in _under_coat is the base of a clear coat in adapters; give the material another name",
+                subject.name
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// Whether `all` included this material.

@@ -130,6 +130,8 @@ enum WavelengthColumn {
 const TAKEN_AS_UM: std::ops::RangeInclusive<f64> = 0.2..=20.0;
 /// The least wavelength without a unit that is in nanometres.
 const TAKEN_AS_NM: f64 = 150.0;
+/// The largest ratio of neighbouring wavelengths in one unit.
+const MOST_JUMP: f64 = 100.0;
 
 impl<'a> Table<'a> {
     fn cells(&self, row: Line<'a>) -> impl Iterator<Item = &'a str> {
@@ -163,6 +165,10 @@ impl<'a> Table<'a> {
         };
         if least >= TAKEN_AS_NM {
             Ok((Unit::Nm, remark("nanometres")))
+        } else if let Some([low, high]) = self.jump() {
+            Err(format!(
+                "{NO_UNIT}, and wavelengths jump from {low} to {high}: one unit is wanted; name the column wavelength_nm or wavelength_um"
+            ))
         } else if self.wavelength == WavelengthColumn::Wl {
             Ok((Unit::Um, None))
         } else if TAKEN_AS_UM.contains(&least) && TAKEN_AS_UM.contains(&most) {
@@ -174,6 +180,16 @@ impl<'a> Table<'a> {
                 TAKEN_AS_UM.end()
             ))
         }
+    }
+
+    /// The two neighbouring wavelengths between which the unit changes, as micrometres to nanometres would.
+    fn jump(&self) -> Option<[f64; 2]> {
+        let first = |row: &Line<'a>| with_point(self.cells(*row).next()?).parse().ok();
+        let mut all: Vec<f64> = self.rows.iter().filter_map(first).collect();
+        all.retain(|number| *number > 0.0 && number.is_finite());
+        all.sort_by(f64::total_cmp);
+        let mut pairs = all.windows(2).map(|pair| [pair[0], pair[1]]);
+        pairs.find(|[low, high]| high / low > MOST_JUMP)
     }
 
     /// Refuses decimal commas beside decimal points: one of them may separate thousands.
@@ -444,6 +460,8 @@ mod tests {
             &[&taken("150 to 150", "nanometres")],
         );
         // The site's own exports: micrometres without a remark, also beyond these limits.
+        let mixed = Page::parse_csv("m.csv", "wl,n\n0.38,1.5\n0.48,1.5\n500,1.5\n");
+        assert!(mixed.is_err_and(|fault| fault.what.contains("jump from 0.48 to 500")));
         unit_of("wl,n\n0.55,1.5\n", 550.0, &[]);
         unit_of("wl,n\n0.1,1.5\n", 100.0, &[]);
         unit_of("wl,n\n30,1.5\n", 3e4, &[]);

@@ -368,6 +368,17 @@ fn a_base_below_a_coat_makes_both_interfaces() {
     assert!(rows(&["water"])[0].coated.is_none());
 }
 
+#[test]
+fn no_material_has_the_name_of_a_base_of_a_coat() {
+    let place = Place::new();
+    let named = MY_METAL.replace("\"my_metal\"", "\"gold_under_coat\"");
+    place.put("mine.toml", named);
+    place.refused(
+        "--flavour unity --material gold,mine.toml",
+        &["gold_under_coat", "give the material another name"],
+    );
+}
+
 /// Coefficients of adapters beside the law of layers over the spectrum, and beside the four that they would otherwise have.
 #[test]
 fn films_are_followed_better_than_by_four_coefficients() {

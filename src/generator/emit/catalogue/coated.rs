@@ -28,7 +28,9 @@ pub struct Coated {
 impl Coated {
     /// The base of a metal or a semiconductor in air. None for dielectrics, which hardly show below a coat, and in other media.
     pub fn of(subject: &MaterialInMedium, method: &'static Method) -> Option<Coated> {
-        if subject.material.kind == MaterialKind::Dielectric || subject.medium.is_some() {
+        let mut medium = subject.medium.iter();
+        let is_in_air = medium.all(|(_, medium)| medium.name == "air");
+        if subject.material.kind == MaterialKind::Dielectric || !is_in_air {
             return None;
         }
         let surface = &subject.reference.surface;
