@@ -92,7 +92,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("780", "600", "material `my_metal`: n is known from 380 to 600 nm, and 605 nm is wanted"),
     ("my_metal", "schlick", "has the name of a method's function"),
     ("my_metal", "schlick_scalar", "has the name of a method's function"),
-    (MY_METAL, "", "my.toml:1:1: missing field `name`"),
+    (MY_METAL, "", "my.toml:1:1: missing fields `name`, `summary`, `class`, `licence`"),
     (MY_METAL, "\0", "my.toml:1:"),
     (MY_METAL, "{}", "my.toml:1:"),
 ];
