@@ -165,12 +165,13 @@ impl<'a> Table<'a> {
         };
         if least >= TAKEN_AS_NM {
             Ok((Unit::Nm, remark("nanometres")))
-        } else if let Some([low, high]) = self.jump() {
-            Err(format!(
-                "{NO_UNIT}, and wavelengths jump from {low} to {high}: one unit is wanted; name the column wavelength_nm or wavelength_um"
-            ))
         } else if self.wavelength == WavelengthColumn::Wl {
-            Ok((Unit::Um, None))
+            match self.jump() {
+                None => Ok((Unit::Um, None)),
+                Some([low, high]) => Err(format!(
+                    "{NO_UNIT}, and wavelengths jump from {low} to {high}: one unit is wanted; name the column wavelength_nm or wavelength_um"
+                )),
+            }
         } else if TAKEN_AS_UM.contains(&least) && TAKEN_AS_UM.contains(&most) {
             Ok((Unit::Um, remark("micrometres")))
         } else {
