@@ -423,21 +423,13 @@ fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
 fn bake_text(rows: &[BakeRow]) -> String {
     let cells = |row: &BakeRow| {
         let (name, format, texels, axis, file) = match row {
-            BakeRow::Table(row) => (
-                &row.name,
-                row.format,
-                row.texels,
-                row.axis,
-                row.file.clone(),
-            ),
-            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, &*row.axis, row.files()),
-            BakeRow::Film(row) => (
-                &row.name,
-                row.format,
-                row.texels,
-                row.axis,
-                row.file.clone(),
-            ),
+            BakeRow::Table(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, &*row.axis, &row.file),
+            BakeRow::Film(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+        };
+        let file = match row {
+            BakeRow::SplitSum(row) => row.files(),
+            BakeRow::Table(_) | BakeRow::Film(_) => file.clone(),
         };
         let (scale, max_abs, mean_rel) = match row {
             BakeRow::Table(row) => (row.scale, row.max_abs, row.mean_rel),

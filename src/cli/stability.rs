@@ -207,12 +207,10 @@ fn drawn(
         progress(i as u64, mapped.len() as u64, "maps");
         let map = film_map(method, subject, *precision)?;
         let (degrees, nm, error) = map.worst();
+        let own = subject.material.films[0].thickness_nm;
         said.push(format!(
-            "{} for {}, thickness 0 to {} nm: at most {error:.4} from the law, at {degrees} degrees and {nm:.1} nm; the rows above are of {} nm",
-            method.name,
-            subject.name,
-            subject.material.films[0].thickness_nm,
-            subject.material.films[0].thickness_nm,
+            "{} for {}, thickness 0 to {own} nm: at most {error:.4} from the law, at {degrees} degrees and {nm:.1} nm; the rows above are of {own} nm",
+            method.name, subject.name,
         ));
         let over = format!("{}_{}", map.axis.name, subject.name);
         pictures.push((method.name, over, picture(method, &map)?));

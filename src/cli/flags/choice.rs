@@ -183,28 +183,33 @@ pub fn target_or_all() -> impl Fn(&str) -> Result<Choice<&'static Target>, Unkno
 /// The parser of a flavour's name. A format's name leads to the flag for formats.
 pub fn flavour() -> impl Fn(&str) -> Result<&'static Flavour, String> + Clone {
     let parse = one_of("flavour", flavours::ALL.iter().copied(), |one| one.name);
-    move |word: &str| {
-        parse(word).map_err(|unknown| match exchange::find(word.trim()) {
-            Some(format) => format!(
-                "{0} takes numbers, and no adapter: fresnel-gen materials params NAME --as {0}",
-                format.name
-            ),
-            None => unknown.to_string(),
-        })
-    }
+    or_elsewhere(parse, |word| {
+        let name = exchange::find(word)?.name;
+        Some(format!(
+            "{name} takes numbers, and no adapter: fresnel-gen materials params NAME --as {name}"
+        ))
+    })
 }
 
 /// The parser of the name of a format of engines. A flavour's name leads to the flag for adapters.
 pub fn format_of_engines() -> impl Fn(&str) -> Result<&'static Format, String> + Clone {
     let parse = one_of("format", exchange::ALL.iter().copied(), |one| one.name);
+    or_elsewhere(parse, |word| {
+        let name = flavours::find(word)?.name;
+        Some(format!(
+            "{name} takes functions in an adapter: fresnel-gen --flavour {name} --material NAME"
+        ))
+    })
+}
+
+/// The same parser, with another message for an unknown word that is known elsewhere.
+fn or_elsewhere<T>(
+    parse: impl Fn(&str) -> Result<T, UnknownName> + Clone,
+    elsewhere: fn(&str) -> Option<String>,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |word: &str| {
-        parse(word).map_err(|unknown| match flavours::find(word.trim()) {
-            Some(flavour) => format!(
-                "{0} takes functions in an adapter: fresnel-gen --flavour {0} --material NAME",
-                flavour.name
-            ),
-            None => unknown.to_string(),
-        })
+        let said = |unknown: UnknownName| elsewhere(word.trim()).unwrap_or(unknown.to_string());
+        parse(word).map_err(said)
     }
 }
 

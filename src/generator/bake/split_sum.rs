@@ -12,8 +12,8 @@ use super::row::{BakeRow, Baked, ExactTermWeights, SplitSumLookup, SplitSumRow, 
 use crate::generator::command_line::CommandLine;
 use crate::generator::emit::{MARK, comment_lines};
 use crate::generator::lut::{
-    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis,
-    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, check_side, term_range,
+    BetweenSplitSum, Format, LEAST_ROUGHNESS, Orthogonal, Picture, SPLIT_SUM_AXES, SplitSum,
+    SplitSumAxis, SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, check_side, term_range,
 };
 use crate::language::ir::Weights;
 use crate::language::methods::{self, Basis, Method};
@@ -82,9 +82,10 @@ impl SplitSumRequest {
 
     /// Why a format cannot hold the terms: integers end at 0 and 1.
     fn refusal(&self, format: Format) -> Option<Error> {
-        let design = self.design(self.method.basis()?);
-        let [least, most] = term_range(&design.basis);
-        let is_held = least >= LEAST_OF_INTEGERS && most <= 1.0 && design.functions.is_none();
+        let basis = self.method.basis()?;
+        let [least, most] = term_range(&basis);
+        // Orthogonal functions reach below 0.
+        let is_held = least >= LEAST_OF_INTEGERS && most <= 1.0 && Orthogonal::of(&basis).is_none();
         let is_refused = format.depth().largest().is_some() && !is_held;
         is_refused.then(|| Error::Integers {
             method: self.method.name,

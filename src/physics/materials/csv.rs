@@ -149,15 +149,9 @@ impl<'a> Table<'a> {
         if let WavelengthColumn::In(unit) = self.wavelength {
             return Ok((unit, None));
         }
-        let first = |row: &Line<'a>| with_point(self.cells(*row).next()?).parse().ok();
-        // What is no wavelength is a fault of its row.
-        let numbers = self.rows.iter().filter_map(first);
-        let is_wavelength = |nm: &f64| *nm > 0.0 && nm.is_finite();
-        let (least, most) = numbers
-            .filter(is_wavelength)
-            .fold((f64::INFINITY, 0.0), |(low, high), nm: f64| {
-                (low.min(nm), f64::max(high, nm))
-            });
+        let wavelengths = self.wavelengths();
+        let least = wavelengths.first().copied().unwrap_or(f64::INFINITY);
+        let most = wavelengths.last().copied().unwrap_or(0.0);
         let remark = |unit: &str| {
             Some(format!(
                 "{NO_UNIT}: wavelengths from {least} to {most} are taken as {unit}"
@@ -166,7 +160,7 @@ impl<'a> Table<'a> {
         if least >= TAKEN_AS_NM {
             Ok((Unit::Nm, remark("nanometres")))
         } else if self.wavelength == WavelengthColumn::Wl {
-            match self.jump() {
+            match jump(&wavelengths) {
                 None => Ok((Unit::Um, None)),
                 Some([low, high]) => Err(format!(
                     "{NO_UNIT}, and wavelengths jump from {low} to {high}: one unit is wanted; name the column wavelength_nm or wavelength_um"
@@ -183,14 +177,13 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The two neighbouring wavelengths between which the unit changes, as micrometres to nanometres would.
-    fn jump(&self) -> Option<[f64; 2]> {
+    /// Its wavelengths as they stand there, the least first. What is no wavelength is a fault of its row.
+    fn wavelengths(&self) -> Vec<f64> {
         let first = |row: &Line<'a>| with_point(self.cells(*row).next()?).parse().ok();
         let mut all: Vec<f64> = self.rows.iter().filter_map(first).collect();
         all.retain(|number| *number > 0.0 && number.is_finite());
         all.sort_by(f64::total_cmp);
-        let mut pairs = all.windows(2).map(|pair| [pair[0], pair[1]]);
-        pairs.find(|[low, high]| high / low > MOST_JUMP)
+        all
     }
 
     /// Refuses decimal commas beside decimal points: one of them may separate thousands.
@@ -212,6 +205,12 @@ impl<'a> Table<'a> {
         }
         Ok(())
     }
+}
+
+/// The two neighbouring wavelengths between which the unit changes, as micrometres to nanometres would.
+fn jump(wavelengths: &[f64]) -> Option<[f64; 2]> {
+    let mut pairs = wavelengths.windows(2).map(|pair| [pair[0], pair[1]]);
+    pairs.find(|[low, high]| high / low > MOST_JUMP)
 }
 
 /// A number with a decimal point in place of its decimal comma. Others are returned unchanged.
