@@ -6,7 +6,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::coefficients;
+use super::rows;
 use crate::catalogue::evaluated;
 use crate::cli::{OUT, Place, Ran};
 use crate::compilers::Tool;
@@ -73,9 +73,16 @@ fn documents_are_valid_and_become_shaders_that_glslang_accepts() {
     };
     let files = MATERIALS.len() + 1;
     assert_eq!(told["files"].as_array().unwrap().len(), files, "{told}");
-    let documents = ["readme"].into_iter().chain(MATERIALS);
+    let mut documents = vec!["readme".to_owned()];
+    for row in rows(&MATERIALS) {
+        documents.push(row.name.clone());
+        documents.extend(row.coated.map(|_| format!("{}_under_coat", row.name)));
+    }
+    let made = told["shaders"].as_object().unwrap();
+    assert_eq!(made.len(), documents.len(), "{told}");
     let mut all: Vec<(&str, &str)> = documents
-        .flat_map(|document| TARGETS.map(|target| (document, target)))
+        .iter()
+        .flat_map(|document| TARGETS.map(|target| (document.as_str(), target)))
         .collect();
     for &(document, target) in &all {
         let stages = shaders(&told, document, target).len();
@@ -173,21 +180,31 @@ fn shaders_give_the_reflectance_of_the_catalogue() {
     let Some(device) = gpu::device(Backend::Gles) else {
         return;
     };
-    for (material, (method, coefficients)) in MATERIALS.iter().zip(coefficients(&MATERIALS)) {
-        let shader = place.read(&format!("shaders/{material}_essl.frag"));
-        let text = functions(&shader);
-        let want = |points: &[f64]| evaluated(method, &coefficients, points);
-        let count = coefficients.len() / 3;
-        let names: String = (0..count).map(|i| format!("c{i}, ")).collect();
-        let call = format!("NG_fresnel_{method}(cos_theta, {names}reflectance);");
-        let library = off(&device, &text, &call, &uniforms(&coefficients), want);
-        assert!(library <= ROUNDING, "{method}: {library}");
-        let call = format!("NG_fresnel_{material}_{method}(cos_theta, reflectance);");
-        let own = off(&device, &text, &call, &[], want);
-        let factors = if count > 4 { 94.0 } else { 4.0 };
-        assert!(
-            own <= ROUNDING + factors * SIX_DECIMALS,
-            "{material}: {own}"
-        );
+    let flat = |terms: &[[f64; 3]]| -> Vec<f32> {
+        terms.as_flattened().iter().map(|one| *one as f32).collect()
+    };
+    for row in rows(&MATERIALS) {
+        let (material, method) = (&row.name, row.method.name);
+        let bare = ("", flat(&row.coefficients));
+        let coated = row
+            .coated
+            .map(|one| ("_under_coat", flat(&one.coefficients)));
+        for (suffix, coefficients) in [bare].into_iter().chain(coated) {
+            let shader = place.read(&format!("shaders/{material}{suffix}_essl.frag"));
+            let text = functions(&shader);
+            let want = |points: &[f64]| evaluated(method, &coefficients, points);
+            let count = coefficients.len() / 3;
+            let names: String = (0..count).map(|i| format!("c{i}, ")).collect();
+            let call = format!("NG_fresnel_{method}(cos_theta, {names}reflectance);");
+            let library = off(&device, &text, &call, &uniforms(&coefficients), want);
+            assert!(library <= ROUNDING, "{method}: {library}");
+            let call = format!("NG_fresnel_{material}_{method}{suffix}(cos_theta, reflectance);");
+            let own = off(&device, &text, &call, &[], want);
+            let factors = if count > 4 { 94.0 } else { 4.0 };
+            assert!(
+                own <= ROUNDING + factors * SIX_DECIMALS,
+                "{material}{suffix}: {own}"
+            );
+        }
     }
 }

@@ -119,8 +119,14 @@ readme = (FLAVOUR / "README.md").read_text(encoding="utf-8")
 documents = {"readme": document(re.search(r"```xml\n(.*?)```", readme, re.DOTALL)[1])}
 for one in FILES:
     if one != "fresnel.mtlx":
-        (node,) = nodes(including([one])) - nodes(including(["fresnel.mtlx"]))
-        documents[one.removesuffix(".mtlx")] = including([one], UNLIT.format(node=node))
+        name = one.removesuffix(".mtlx")
+        own = nodes(including([one])) - nodes(including(["fresnel.mtlx"]))
+        # A metal has a second node: what it reflects below a clear coat.
+        coated = {node for node in own if "_under_coat" in node}
+        (node,) = own - coated
+        documents[name] = including([one], UNLIT.format(node=node))
+        for node in coated:
+            documents[f"{name}_under_coat"] = including([one], UNLIT.format(node=node))
 count += len(documents)
 
 OUT.mkdir(parents=True, exist_ok=True)
