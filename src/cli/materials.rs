@@ -144,6 +144,9 @@ pub struct ParamsFlags {
     /// Write the numbers for an engine or a tool: openpbr, materialx, gltf, usd, blender, unreal, filament
     #[arg(long = "as", value_name = "FORMAT", value_parser = format_of_engines())]
     pub format: Option<&'static Format>,
+    /// A clear coat of this index on a metal: the base below it, and the coat itself; with --as blender, filament, gltf, materialx, openpbr
+    #[arg(long, value_name = "N", requires = "format", value_parser = index, allow_negative_numbers = true)]
+    pub coat: Option<ConstantIndex>,
     /// Write that file here, or `-` for stdout [default: stdout]
     #[arg(short = 'o', value_name = "FILE", requires = "format")]
     pub output: Option<PathBuf>,

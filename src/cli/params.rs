@@ -74,7 +74,8 @@ fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
         .each("film", loaded.material.film_arguments())
         .list("medium", medium.as_ref().map(|medium| &medium.argument))
         .seen_as(&viewing)
-        .list("as", [format.name]);
+        .list("as", [format.name])
+        .list("coat", flags.coat);
     let typed = |loaded: Loaded| (loaded.argument, loaded.material);
     let subject = MaterialInMedium::new(
         typed(loaded),
@@ -84,7 +85,11 @@ fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
     )?;
     let fault =
         |fault: crate::generator::exchange::ExchangeFault| RequestFault::refused(fault.to_string());
-    let material = EngineMaterial::new(&subject, &viewing).map_err(fault)?;
+    let material = match &flags.coat {
+        Some(coat) => EngineMaterial::below_coat(&subject, &viewing, coat.value()),
+        None => EngineMaterial::new(&subject, &viewing),
+    };
+    let material = material.map_err(fault)?;
     let exported = format
         .export(&material, &String::from(command))
         .map_err(fault)?;

@@ -9,8 +9,9 @@
 //! Thin Film Thickness (nm) and Thin Film IOR belong to dielectrics of the Principled BSDF from 4.2 on, and from 5.0 on to metals and to the
 //! Metallic BSDF too, whose Physical Conductor takes n and k. Before 5.0 a metal has the film's colours.
 
+use super::coat::{ClearCoat, CoatLaw};
 use super::cycles_film::{CyclesBase, CyclesFilm};
-use super::engine_material::{Body, EngineFilm, EngineMaterial};
+use super::engine_material::{Body, EngineFilm, EngineMaterial, rounded};
 use super::format::{self, Format, Notes};
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet, capped_tint};
@@ -19,6 +20,8 @@ use crate::physics::spectra::Space;
 /// The names of the nodes in reports, with how Python finds or makes them.
 const PRINCIPLED: &str = "Principled BSDF";
 const METALLIC: &str = "Metallic BSDF";
+/// Its Physical Conductor.
+const CONDUCTOR: &str = "Metallic BSDF of n and k";
 /// The same of a metal under a film.
 const FILMED: &str = "Principled BSDF with Thin Film";
 const FILMED_CONDUCTOR: &str = "Metallic BSDF with Thin Film";
@@ -29,6 +32,18 @@ pub static FORMAT: Format = Format {
     summary: "Python for Blender 4.3 and later: inputs of Principled BSDF and Metallic BSDF",
     spaces: &Space::ALL,
     has_film: true,
+    coat: Some(ClearCoat {
+        law: CoatLaw::Exact,
+        fields: |index| {
+            vec![
+                Field::number("Coat Weight", 1.0),
+                Field::number("Coat Roughness", 0.0),
+                Field::number("Coat IOR", index),
+            ]
+        },
+        node: PRINCIPLED,
+        remark: None,
+    }),
     sheet,
     text,
 };
@@ -90,8 +105,16 @@ fn metal(material: &EngineMaterial) -> Sheet {
         ),
     ];
     let node = |(name, fields)| Node::new(name, fields, Model::f82_tint(material.f0, tint));
+    let channels = &material.subject.effective.channels;
+    let [n, k] = [channels.n, channels.k].map(|index| index.map(rounded));
+    let conductor = vec![
+        Field::channels("IOR", n),
+        Field::channels("Extinction", k),
+        Field::number("Roughness", 0.0),
+    ];
+    let conductor = Node::new(CONDUCTOR, conductor, Model::conductor(n, k));
     Sheet {
-        nodes: nodes.map(node).into(),
+        nodes: nodes.map(node).into_iter().chain([conductor]).collect(),
         remarks: remark.into_iter().collect(),
     }
 }
@@ -170,7 +193,7 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
         };
         text += head;
         let found: &[&str] = match node.name {
-            METALLIC | FILMED_CONDUCTOR => &[
+            METALLIC | CONDUCTOR | FILMED_CONDUCTOR => &[
                 "",
                 "# Connect its BSDF to the Surface of the output in place of the Principled BSDF.",
                 "node = nodes.new(\"ShaderNodeBsdfMetallic\")",

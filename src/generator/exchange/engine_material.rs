@@ -6,8 +6,11 @@ use crate::generator::fit::{abbe_in, ior_in, known_film};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::{Input, KnownFilm, KnownSurface};
 use crate::physics::foreign::Foreign;
-use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
-use crate::physics::optics::Layer;
+use crate::physics::materials::{
+    Attenuation, Extrapolate, Material, MaterialKind, ViewingConditions,
+};
+use crate::physics::num::each_channel;
+use crate::physics::optics::{Layer, dielectric};
 use crate::physics::spectra::{Gamut, Space, srgb_byte};
 
 /// A material with the numbers that formats take.
@@ -26,6 +29,8 @@ pub struct EngineMaterial<'a> {
     /// The one film on it, with what lies below.
     pub film: Option<EngineFilm>,
     /// The index of the medium, if it is above that of air: then the medium may be a coat.
+    pub medium_index: Option<f64>,
+    /// The index of the clear coat on it. F0 and the tint are then those of what the base adds to the coat.
     pub coat: Option<f64>,
     remarks: Vec<String>,
 }
@@ -64,8 +69,13 @@ pub enum Body {
         abbe: Option<f64>,
         /// Whether light passes.
         is_clear: bool,
+        /// The colour of light that passes, where k is known.
+        attenuation: Option<Attenuation>,
     },
 }
+
+/// Light passes a body that halves it within no less than this, in metres.
+const CLEAR_M: f64 = 1e-4;
 
 /// A number rounded to five decimals, as it is written.
 pub fn rounded(value: f64) -> f64 {
@@ -89,20 +99,56 @@ impl EngineMaterial<'_> {
         subject: &'a MaterialInMedium,
         viewing: &ViewingConditions,
     ) -> Result<EngineMaterial<'a>, ExchangeFault> {
+        EngineMaterial::of(subject, viewing, None)
+    }
+
+    /// A metal or a semiconductor below a clear coat of this index, in air.
+    ///
+    /// # Errors
+    /// It is a dielectric, or lies in a medium.
+    pub fn below_coat<'a>(
+        subject: &'a MaterialInMedium,
+        viewing: &ViewingConditions,
+        coat: f64,
+    ) -> Result<EngineMaterial<'a>, ExchangeFault> {
+        if subject.material.kind == MaterialKind::Dielectric {
+            return Err(ExchangeFault::CoatedDielectric {
+                name: subject.name.clone(),
+            });
+        }
+        if subject.medium.is_some() {
+            return Err(ExchangeFault::CoatInMedium);
+        }
+        EngineMaterial::of(subject, viewing, Some(coat))
+    }
+
+    fn of<'a>(
+        subject: &'a MaterialInMedium,
+        viewing: &ViewingConditions,
+        coat: Option<f64>,
+    ) -> Result<EngineMaterial<'a>, ExchangeFault> {
         let is_spectral = subject.reference.surface.is_spectral();
         let space = is_spectral.then_some(viewing.integration.space);
-        let known = known(subject);
-        let unclipped = subject.reference.clone().before_gamut().at(1.0);
+        let known = known(subject, coat);
+        let surface = &subject.reference.surface;
+        let unclipped = match coat {
+            Some(coat) => surface.through_coat(coat, 1.0).to_array(),
+            None => subject.reference.clone().before_gamut().at(1.0),
+        };
         let f0 = known.f0.map(|value| rounded(value.clamp(0.0, 1.0)));
-        let tint = Input::TINT.value(&known).expect("a surface gives it");
+        let tint = match coat {
+            Some(coat) => tint_below_coat(subject, coat, f0),
+            None => Input::TINT.value(&known).expect("a surface gives it"),
+        };
         Ok(EngineMaterial {
             subject,
             space,
             f0,
             tint: tint.map(rounded),
-            body: body(subject)?,
-            film: film(subject),
-            coat: coat(subject),
+            body: body(subject, viewing.beyond)?,
+            film: film(subject).filter(|_| coat.is_none()),
+            medium_index: medium_index(subject),
+            coat,
             remarks: remarks(subject, viewing, unclipped),
         })
     }
@@ -114,16 +160,46 @@ impl EngineMaterial<'_> {
         (self.space == Some(Space::Srgb)).then_some(hex)
     }
 
+    /// The colour of light that passes, where the body is clear and k is known.
+    pub fn attenuation(&self) -> Option<Attenuation> {
+        match self.body {
+            Body::Dielectric {
+                is_clear: true,
+                attenuation,
+                ..
+            } => attenuation,
+            _ => None,
+        }
+    }
+
+    /// What is seen at a cosine, clipped: of the surface, or of the coat and all that comes through it.
+    pub fn truth(&self, cos_theta: f64) -> [f64; 3] {
+        let Some(coat) = self.coat else {
+            return self.subject.reference.at(cos_theta);
+        };
+        let surface = &self.subject.reference.surface;
+        let own = dielectric(coat, cos_theta).unpolarised();
+        let through = surface.through_coat(coat, cos_theta);
+        surface.gamut.apply(own + (1.0 - own) * through).to_array()
+    }
+
     /// The remarks that every format makes.
     pub fn remarks(&self) -> impl Iterator<Item = String> {
         self.remarks.clone().into_iter()
     }
 }
 
-/// The surface's channels under viewing conditions, clipped.
-fn known(subject: &MaterialInMedium) -> KnownSurface {
+/// The surface's channels under viewing conditions, clipped; below a coat, what it adds to the coat.
+fn known(subject: &MaterialInMedium, coat: Option<f64>) -> KnownSurface {
     let channels = subject.effective.channels;
-    let seen = |cos_theta| subject.reference.at(cos_theta);
+    let surface = &subject.reference.surface;
+    let seen = |cos_theta| match coat {
+        Some(coat) => {
+            let through = surface.through_coat(coat, cos_theta);
+            surface.gamut.apply(through).to_array()
+        }
+        None => subject.reference.at(cos_theta),
+    };
     KnownSurface::with(
         channels.n,
         channels.k,
@@ -132,8 +208,36 @@ fn known(subject: &MaterialInMedium) -> KnownSurface {
     )
 }
 
+/// The tint with which F82-tint of this F0 is nearest to what a base adds to a coat, by the squares over cosines of what is seen of the
+/// base. F82-tint is 1 at grazing, where nothing enters a coat, so no one angle decides:
+///
+/// ```text
+/// F = S - (1 - tint) K      S: Schlick's approximation      K = S(1/7) c (1 - c)^6 / ((1/7) (6/7)^6)
+/// ```
+fn tint_below_coat(subject: &MaterialInMedium, coat: f64, f0: [f64; 3]) -> [f64; 3] {
+    const PARTS: usize = 1024;
+    let surface = &subject.reference.surface;
+    let schlick = |f0: f64, c: f64| f0 + (1.0 - f0) * libm::pow(1.0 - c, 5.0);
+    let bump = |c: f64| c * libm::pow(1.0 - c, 6.0);
+    let (mut products, mut squares) = ([0.0; 3], [0.0; 3]);
+    for part in 1..=PARTS {
+        let c = part as f64 / PARTS as f64;
+        let seen = 1.0 - dielectric(coat, c).unpolarised();
+        let base = surface
+            .gamut
+            .apply(surface.through_coat(coat, c))
+            .to_array();
+        for i in 0..3 {
+            let k = seen * schlick(f0[i], 1.0 / 7.0) * bump(c) / bump(1.0 / 7.0);
+            products[i] += k * seen * (schlick(f0[i], c) - base[i]);
+            squares[i] += k * k;
+        }
+    }
+    each_channel(|i| (1.0 - products[i] / squares[i]).clamp(0.0, 1.0))
+}
+
 /// The medium's index at the d line, or at 555 nm, where the eye is most sensitive.
-fn coat(subject: &MaterialInMedium) -> Option<f64> {
+fn medium_index(subject: &MaterialInMedium) -> Option<f64> {
     const GREEN_NM: f64 = 555.0;
     let (_, medium) = subject.medium.as_ref()?;
     let at_green = || medium.n.at(GREEN_NM, Extrapolate::Hold).ok();
@@ -170,7 +274,7 @@ fn film(subject: &MaterialInMedium) -> Option<EngineFilm> {
     })
 }
 
-fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {
+fn body(subject: &MaterialInMedium, beyond: Extrapolate) -> Result<Body, ExchangeFault> {
     if subject.material.kind != MaterialKind::Dielectric {
         return Ok(Body::Conductor);
     }
@@ -184,10 +288,16 @@ fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {
             index: format!("{ior}"),
         });
     }
+    let attenuation = subject
+        .reference
+        .surface
+        .attenuation(&subject.material, beyond);
+    let k = film(subject).map_or(subject.effective.channels.k, |film| film.k);
     Ok(Body::Dielectric {
         ior,
         abbe: abbe_in(&subject.material, medium).filter(|abbe| *abbe > 0.0),
-        is_clear: film(subject).map_or(subject.effective.channels.k, |film| film.k) == [0.0; 3],
+        is_clear: k == [0.0; 3] || attenuation.is_some_and(|light| light.distance_m >= CLEAR_M),
+        attenuation,
     })
 }
 
@@ -224,7 +334,7 @@ fn remarks(
 }
 
 /// Why a material cannot be exported to a format.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum ExchangeFault {
     /// A dielectric under films, for a format that has no film, or more films than one.
     #[error(
@@ -246,6 +356,38 @@ pub enum ExchangeFault {
         name: String,
         /// Its relative index.
         index: String,
+    },
+    /// A dielectric below a clear coat.
+    #[error(
+        "`{}` is a dielectric, which hardly shows below a clear coat: --coat takes metals and semiconductors; `--medium 1.5` writes a dielectric's numbers within a medium of that index",
+        Foreign(name)
+    )]
+    CoatedDielectric {
+        /// The material.
+        name: String,
+    },
+    /// A coat in a medium.
+    #[error("a clear coat lies in air: leave --medium out")]
+    CoatInMedium,
+    /// A format without a coat.
+    #[error("--as {format} has no clear coat whose formula is known; --coat takes {allowed}")]
+    NoCoat {
+        /// The format.
+        format: &'static str,
+        /// The formats that have one.
+        allowed: String,
+    },
+    /// A coat of an index that the format has not.
+    #[error(
+        "the clear coat of --as {format} has an index of 1.5, and not of {index}; {allowed} take other ones"
+    )]
+    CoatIndex {
+        /// The format.
+        format: &'static str,
+        /// The index requested.
+        index: f64,
+        /// The formats that take it.
+        allowed: String,
     },
     /// A working space that the format does not support.
     #[error("--as {format} takes colours in {allowed}, and not in {space}; change --space")]

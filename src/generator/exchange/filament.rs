@@ -5,6 +5,7 @@
 //! or 1 on phones and in images. A dielectric's F0 is .16 reflectance², at most .16. Where a lit material sets `ior` and no
 //! `reflectance`, F0 is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
 
+use super::coat::{ClearCoat, CoatLaw};
 use super::engine_material::{Body, EngineMaterial, f0_of};
 use super::format::{self, Format, Notes};
 use super::model::Model;
@@ -20,6 +21,19 @@ pub static FORMAT: Format = Format {
     summary: "lines of a Filament material's fragment function",
     spaces: &[Space::Srgb],
     has_film: false,
+    coat: Some(ClearCoat {
+        law: CoatLaw::Schlick,
+        fields: |_| {
+            vec![
+                Field::number("clearCoat", 1.0),
+                Field::number("clearCoatRoughness", 0.0),
+            ]
+        },
+        node: "material",
+        remark: Some(
+            "set clearCoatIorChange : false in the material's definition: baseColor is that below the coat already",
+        ),
+    }),
     sheet,
     text,
 };

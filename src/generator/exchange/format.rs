@@ -1,6 +1,7 @@
 //! The record of an exchange format, a material exported to one, and the lines above the numbers of its file: mark, command, what the
 //! material is, errors, remarks.
 
+use super::coat::ClearCoat;
 use super::engine_material::{Body, EngineMaterial, ExchangeFault};
 use super::model::NodeError;
 use super::sheet::{Node, Sheet};
@@ -18,6 +19,8 @@ pub struct Format {
     pub spaces: &'static [Space],
     /// Whether it has a film of its own.
     pub has_film: bool,
+    /// Its clear coat, if it has one whose formula is known.
+    pub coat: Option<ClearCoat>,
     /// The format's nodes with their numbers, and what was clamped.
     pub sheet: fn(&EngineMaterial) -> Sheet,
     /// The text of the file.
@@ -74,8 +77,17 @@ impl Format {
                 name: material.subject.name.clone(),
             });
         }
-        let sheet = (self.sheet)(material);
-        let error = |node: &Node| NodeError::of(node.name, &node.model, material);
+        let mut sheet = (self.sheet)(material);
+        if let Some(index) = material.coat {
+            let coat = self.coat_of(index)?;
+            sheet.nodes.retain(|node| node.name == coat.node);
+            for node in &mut sheet.nodes {
+                node.fields.extend((coat.fields)(index));
+            }
+            sheet.remarks.extend(coat.remark.map(str::to_owned));
+        }
+        let coat = self.coat.as_ref();
+        let error = |node: &Node| NodeError::of(node.name, &node.model, material, coat);
         let notes = Notes {
             command: command.to_owned(),
             errors: sheet.nodes.iter().map(error).collect(),
@@ -94,6 +106,30 @@ impl Format {
     }
 }
 
+impl Format {
+    /// Its clear coat of this index.
+    fn coat_of(&self, index: f64) -> Result<&ClearCoat, ExchangeFault> {
+        let named = |wanted: fn(&ClearCoat) -> bool| {
+            let formats = super::ALL
+                .iter()
+                .filter(|one| one.coat.as_ref().is_some_and(wanted));
+            formats.map(|one| one.name).collect::<Vec<_>>().join(", ")
+        };
+        let coat = self.coat.as_ref().ok_or_else(|| ExchangeFault::NoCoat {
+            format: self.name,
+            allowed: named(|_| true),
+        })?;
+        match coat.law.only_index() {
+            Some(only) if only != index => Err(ExchangeFault::CoatIndex {
+                format: self.name,
+                index,
+                allowed: named(|coat| coat.law.only_index().is_none()),
+            }),
+            _ => Ok(coat),
+        }
+    }
+}
+
 /// The command as a line.
 pub fn regenerate(notes: &Notes) -> String {
     format!("Regenerate: {}", notes.command)
@@ -104,7 +140,9 @@ pub fn about(format: &Format, material: &EngineMaterial, notes: &Notes) -> Vec<S
     let own = &material.subject.material;
     let around = match &material.subject.medium {
         Some((_, medium)) => format!(", in {}", medium.name),
-        None => String::new(),
+        None => material.coat.map_or_else(String::new, |index| {
+            format!(", below a clear coat of {index}")
+        }),
     };
     let mut lines = vec![
         format!("Licence of this file: {OUTPUT_LICENCE}"),

@@ -2,7 +2,7 @@
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification", version 2.0.1, 2021,
 //! <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, appendix B, and the extensions KHR_materials_ior,
-//! KHR_materials_specular, KHR_materials_transmission, KHR_materials_volume, KHR_materials_dispersion and KHR_materials_iridescence of
+//! KHR_materials_specular, KHR_materials_transmission, KHR_materials_volume, KHR_materials_clearcoat, KHR_materials_dispersion and KHR_materials_iridescence of
 //! the Khronos Group,
 //! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos>.
 //!
@@ -14,6 +14,7 @@
 
 use serde::Serialize;
 
+use super::coat::{ClearCoat, CoatLaw};
 use super::engine_material::{Body, EngineFilm, EngineMaterial, f0_of, rounded};
 use super::format::{self, Format, Notes};
 use super::model::Model;
@@ -28,6 +29,17 @@ pub static FORMAT: Format = Format {
     summary: "a material of glTF 2.0, as a whole asset",
     spaces: &[Space::Srgb],
     has_film: true,
+    coat: Some(ClearCoat {
+        law: CoatLaw::Schlick,
+        fields: |_| {
+            vec![
+                Field::number("clearcoatFactor", 1.0),
+                Field::number("clearcoatRoughnessFactor", 0.0),
+            ]
+        },
+        node: "material",
+        remark: None,
+    }),
     sheet,
     text,
 };
@@ -53,6 +65,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             ior,
             abbe,
             is_clear,
+            attenuation,
         } => {
             let grey = f0_of(ior);
             let own = material.film.map_or(material.f0, |film| film.f0);
@@ -66,6 +79,10 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             if is_clear {
                 fields.push(Field::number("transmissionFactor", 1.0));
                 fields.push(Field::number("thicknessFactor", 1.0));
+                if let Some(light) = attenuation {
+                    fields.push(Field::colour("attenuationColor", light.colour));
+                    fields.push(Field::number("attenuationDistance", light.distance_m));
+                }
                 remarks.push(
                     "thicknessFactor 1 is for closed bodies, in units of the mesh; set your own"
                         .to_owned(),
@@ -113,11 +130,15 @@ fn iridescence(film: &EngineFilm) -> Vec<Field> {
 }
 
 /// The extensions that hold a field. All other fields belong to `pbrMetallicRoughness`.
-const EXTENSIONS: [(&str, &str); 9] = [
+const EXTENSIONS: [(&str, &str); 13] = [
     ("ior", "KHR_materials_ior"),
     ("specularColorFactor", "KHR_materials_specular"),
     ("transmissionFactor", "KHR_materials_transmission"),
     ("thicknessFactor", "KHR_materials_volume"),
+    ("attenuationColor", "KHR_materials_volume"),
+    ("attenuationDistance", "KHR_materials_volume"),
+    ("clearcoatFactor", "KHR_materials_clearcoat"),
+    ("clearcoatRoughnessFactor", "KHR_materials_clearcoat"),
     ("dispersion", "KHR_materials_dispersion"),
     ("iridescenceFactor", "KHR_materials_iridescence"),
     ("iridescenceIor", "KHR_materials_iridescence"),

@@ -8,6 +8,7 @@
 //! Roughness is .05 by default, .3 in OpenPBR. `conductor_bsdf` takes a film, its thickness in nanometres: the same metal bare, under
 //! it. `open_pbr_surface` of 1.39 halves what a metal under a film reflects, and is not written for one.
 
+use super::coat::{ClearCoat, CoatLaw};
 use super::engine_material::{Body, EngineMaterial, rounded};
 use super::format::{self, Format, Notes};
 use super::model::Model;
@@ -22,6 +23,19 @@ pub static FORMAT: Format = Format {
     summary: "a document of MaterialX 1.39, .mtlx",
     spaces: &[Space::Srgb, Space::DisplayP3, Space::AcesCg],
     has_film: true,
+    coat: Some(ClearCoat {
+        law: CoatLaw::Exact,
+        fields: |index| {
+            vec![
+                Field::number("coat_weight", 1.0),
+                Field::number("coat_roughness", 0.0),
+                Field::number("coat_ior", index),
+                Field::number("coat_darkening", 0.0),
+            ]
+        },
+        node: OPEN_PBR,
+        remark: Some(openpbr::NO_DARKENING),
+    }),
     sheet,
     text,
 };
@@ -44,6 +58,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     let (surface, remark) = openpbr::surface(material, OPEN_PBR);
     let mut nodes = vec![surface];
     let mut remarks: Vec<String> = remark.into_iter().collect();
+    remarks.extend(openpbr::transmission(material));
     if material.body == Body::Conductor {
         let channels = &material.subject.effective.channels;
         let [n, k] = [channels.n, channels.k].map(|index| index.map(rounded));

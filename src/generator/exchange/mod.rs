@@ -5,6 +5,7 @@
 //!
 //! To add a format, write its file with a `pub static FORMAT: Format`, and run `tests/lists`.
 
+mod coat;
 mod cycles_film;
 mod engine_material;
 mod format;

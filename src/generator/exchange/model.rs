@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::coat::ClearCoat;
 use super::cycles_film::CyclesFilm;
 use super::engine_material::{EngineFilm, EngineMaterial};
 use crate::generator::fit::{error_of, rounded_up, values_at};
@@ -26,6 +27,9 @@ enum Formula {
     CyclesFilm(CyclesFilm),
 }
 
+/// The number of cosines over which the error below a coat is sought.
+const ANGLES: usize = 1024;
+
 /// The error of a node against the spectrum.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NodeError {
@@ -38,10 +42,21 @@ pub struct NodeError {
     /// The angle of the largest error, in degrees.
     pub worst_degrees: f64,
     /// The same where the medium is a coat, which refracts all light towards the normal.
-    pub below_coat: Option<CoatedError>,
+    pub in_coat: Option<CoatedError>,
+    /// The clear coat above the node. The error is then that of what both reflect together.
+    pub coat: Option<BelowCoat>,
 }
 
-/// The error of a node below a coat, over the angles that occur in the coat.
+/// The coat above a node.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BelowCoat {
+    /// Its index.
+    pub index: f64,
+    /// The mean error of coat and base together over cosines from 0 to 1, of the channel where it is largest.
+    pub mean_abs: f64,
+}
+
+/// The error of a node within a coat, over the angles that occur there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CoatedError {
     /// The largest angle from the normal that occurs in the coat, in degrees.
@@ -120,8 +135,34 @@ impl Model {
         (error.max_abs, libm::acos(error.worst_cos).to_degrees())
     }
 
+    /// The largest error of what the node and the host's coat above it reflect together, the angle in degrees, and the mean over cosines of
+    /// the largest channel.
+    fn error_with_coat(
+        &self,
+        material: &EngineMaterial,
+        coat: &ClearCoat,
+        index: f64,
+    ) -> (f64, f64, f64) {
+        let points: Vec<f64> = (0..=ANGLES).map(|i| i as f64 / ANGLES as f64).collect();
+        let given = self.at(&points);
+        let off = |place: usize| {
+            let cos = points[place];
+            let own = coat.law.reflectance(index, cos);
+            let (base, want) = (given.at(place), material.truth(cos));
+            let apart = each_channel(|i| (own + (1.0 - own) * base[i] - want[i]).abs());
+            (apart.into_iter().fold(0.0, f64::max), cos)
+        };
+        let all: Vec<(f64, f64)> = (0..points.len()).map(off).collect();
+        let mean = all.iter().map(|one| one.0).sum::<f64>() / all.len() as f64;
+        let (most, cos) = all.into_iter().fold(
+            (0.0, 1.0),
+            |most, one| if one.0 > most.0 { one } else { most },
+        );
+        (most, libm::acos(cos).to_degrees(), mean)
+    }
+
     /// The same where its medium is a coat of this index, in air.
-    fn error_below_coat(&self, material: &EngineMaterial, index: f64) -> CoatedError {
+    fn error_in_coat(&self, material: &EngineMaterial, index: f64) -> CoatedError {
         const PARTS: usize = 1024;
         let steepest = libm::asin(1.0 / index);
         let angles: Vec<f64> = (0..=PARTS)
@@ -164,16 +205,28 @@ impl Model {
 
 impl NodeError {
     /// The error of a node for a material.
-    pub fn of(node: &'static str, model: &Model, material: &EngineMaterial) -> NodeError {
-        let (max_abs, worst_degrees) = model.error(material);
+    pub fn of(
+        node: &'static str,
+        model: &Model,
+        material: &EngineMaterial,
+        coat: Option<&ClearCoat>,
+    ) -> NodeError {
+        let ((max_abs, worst_degrees), coat) = match material.coat.zip(coat) {
+            Some((index, coat)) => {
+                let (most, degrees, mean_abs) = model.error_with_coat(material, coat, index);
+                ((most, degrees), Some(BelowCoat { index, mean_abs }))
+            }
+            None => (model.error(material), None),
+        };
         NodeError {
             node,
             model: model.words,
             max_abs,
             worst_degrees,
-            below_coat: material
-                .coat
-                .map(|index| model.error_below_coat(material, index)),
+            in_coat: material
+                .medium_index
+                .map(|index| model.error_in_coat(material, index)),
+            coat,
         }
     }
 
@@ -184,13 +237,21 @@ impl NodeError {
             model,
             max_abs,
             worst_degrees,
-            below_coat,
+            in_coat,
+            coat,
         } = self;
         let most = rounded_up(*max_abs);
-        let coated = below_coat.map_or_else(String::new, |coat| coat.words());
-        format!(
-            "{node} computes {model}: error at most {most} (at {worst_degrees:.2} degrees){coated}"
-        )
+        let coated = in_coat.map_or_else(String::new, |coat| coat.words());
+        match coat {
+            Some(BelowCoat { index, mean_abs }) => format!(
+                "{node} computes {model} below its clear coat: error of both together {} on average, at most {most} (at {worst_degrees:.2} degrees outside; light in a coat of {index} is at most {:.2} degrees from the normal)",
+                rounded_up(*mean_abs),
+                libm::asin(1.0 / index).to_degrees()
+            ),
+            None => format!(
+                "{node} computes {model}: error at most {most} (at {worst_degrees:.2} degrees){coated}"
+            ),
+        }
     }
 }
 

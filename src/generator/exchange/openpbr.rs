@@ -9,6 +9,7 @@
 //! film is written twice, with the film's colours and with the bare metal's under the film. Of how a film is computed the specification
 //! recommends Belcour and Barla's series, with a complex index of the metal. `specular_roughness` is .3 by default.
 
+use super::coat::{ClearCoat, CoatLaw};
 use super::engine_material::{Body, EngineFilm, EngineMaterial};
 use super::format::{self, Format, Notes};
 use super::model::Model;
@@ -21,9 +22,25 @@ pub static FORMAT: Format = Format {
     summary: "parameters of OpenPBR 1.1.1, as TOML",
     spaces: &Space::ALL,
     has_film: true,
+    coat: Some(ClearCoat {
+        law: CoatLaw::Exact,
+        fields: |index| {
+            vec![
+                Field::number("coat_weight", 1.0),
+                Field::number("coat_roughness", 0.0),
+                Field::number("coat_ior", index),
+                Field::number("coat_darkening", 0.0),
+            ]
+        },
+        node: "open_pbr_surface",
+        remark: Some(NO_DARKENING),
+    }),
     sheet,
     text,
 };
+
+/// All reflections between base and coat are in the base's colours.
+pub const NO_DARKENING: &str = "coat_darkening is 0: the colours of the base have all reflections between base and coat in them";
 
 fn sheet(material: &EngineMaterial) -> Sheet {
     let (node, remark) = surface(material, "open_pbr_surface");
@@ -32,7 +49,12 @@ fn sheet(material: &EngineMaterial) -> Sheet {
         "[open_pbr_surface] has the colours of the film, [thin_film] the film itself: take one. The nodes of MaterialX 1.39 halve what a metal reflects under a film"
             .to_owned()
     });
-    let remarks = remark.into_iter().chain(both).chain(of_space(material));
+    let depth = transmission(material);
+    let remarks = remark
+        .into_iter()
+        .chain(both)
+        .chain(of_space(material))
+        .chain(depth);
     Sheet {
         nodes: [node].into_iter().chain(under).collect(),
         remarks: remarks.collect(),
@@ -69,6 +91,13 @@ fn thin_film(film: &EngineFilm) -> Vec<Field> {
     ]
 }
 
+/// A remark on the unit of the depth.
+pub fn transmission(material: &EngineMaterial) -> Option<String> {
+    material
+        .attenuation()
+        .map(|_| "transmission_depth is in metres: turn it into the units of the scene".to_owned())
+}
+
 /// A remark on the space of colours, if it is not the one that OpenPBR takes.
 fn of_space(material: &EngineMaterial) -> Option<String> {
     let has_colours = material.body == Body::Conductor;
@@ -98,6 +127,7 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
             ior,
             abbe,
             is_clear,
+            attenuation,
         } => {
             let mut fields = vec![
                 Field::number("base_metalness", 0.0),
@@ -106,6 +136,10 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
             ];
             if is_clear {
                 fields.push(Field::number("transmission_weight", 1.0));
+                if let Some(light) = attenuation {
+                    fields.push(Field::colour("transmission_color", light.colour));
+                    fields.push(Field::number("transmission_depth", light.distance_m));
+                }
             }
             if let Some(abbe) = abbe.filter(|_| is_clear) {
                 fields.push(Field::number("transmission_dispersion_scale", 1.0));

@@ -23,6 +23,7 @@ pub static FORMAT: Format = Format {
     summary: "inputs of Unreal Engine's Default Lit and of a Substrate slab, as TOML",
     spaces: &Space::ALL,
     has_film: false,
+    coat: None,
     sheet,
     text,
 };

@@ -17,6 +17,7 @@ pub static FORMAT: Format = Format {
     summary: "a UsdPreviewSurface, as a .usda layer",
     spaces: &[Space::Srgb],
     has_film: false,
+    coat: None,
     sheet,
     text,
 };

@@ -29,5 +29,6 @@ pub use material::{ConstantIndex, Index, IndexFault, Material, MaterialKind};
 pub use page::Page;
 pub use reflectance::{ReflectanceRow, ReflectedColour, reflectance_rows, reflected_colours};
 pub use surface::{
-    AtWavelength, Channels, Surface, SurfaceError, THESIS_NM, ViewingConditions, surfaces_of,
+    AtWavelength, Attenuation, Channels, Surface, SurfaceError, THESIS_NM, ViewingConditions,
+    surfaces_of,
 };

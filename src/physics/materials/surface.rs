@@ -80,6 +80,15 @@ pub struct Surface {
     pub extrapolated_nm: (Option<f64>, Option<f64>),
 }
 
+/// The colour of light after a distance in a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attenuation {
+    /// The distance in metres.
+    pub distance_m: f64,
+    /// What is left of each channel.
+    pub colour: [f64; 3],
+}
+
 /// Why a material has no surface under these conditions.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{advice}", crate::physics::foreign::one_line(why))]
@@ -235,6 +244,43 @@ impl Surface {
         });
         let spectrum: Vec<f64> = added.collect();
         self.integrator.colour(&spectrum)
+    }
+
+    /// What passes a material, by Beer's law with k in the material itself:
+    ///
+    /// ```text
+    /// T(λ) = e^(-4π k d / λ)        d: the distance at which the least of the three channels of T is one half
+    /// ```
+    ///
+    /// A renderer raises the colour to the power of distance over d, so no channel may be near 0 there. d is rounded to hundredths of a
+    /// millimetre. None where k is 0 or not known, where d is less, or more than 1000 km.
+    pub fn attenuation(&self, material: &Material, beyond: Extrapolate) -> Option<Attenuation> {
+        let wavelengths = self.integrator.wavelengths.iter();
+        let per_metre = |nm: &f64| {
+            let k = material.index(*nm, beyond).ok()?.k;
+            Some(4.0 * core::f64::consts::PI * k / (nm * 1e-9))
+        };
+        let absorbed: Vec<f64> = wavelengths.map(per_metre).collect::<Option<_>>()?;
+        let passed = |metres: f64| {
+            let part = absorbed.iter().map(|each| libm::exp(-each * metres));
+            self.integrator.colour(&part.collect::<Vec<f64>>())
+        };
+        let is_half = |exponent: f64| passed(libm::exp10(exponent)).min_element() <= 0.5;
+        let (mut short, mut long) = (-5.0, 6.0);
+        if absorbed.iter().all(|each| *each == 0.0) || !is_half(long) || is_half(short) {
+            return None;
+        }
+        for _ in 0..64 {
+            let middle = 0.5 * (short + long);
+            *if is_half(middle) {
+                &mut long
+            } else {
+                &mut short
+            } = middle;
+        }
+        let distance_m = libm::round(libm::exp10(long) * 1e5) / 1e5;
+        let colour = self.gamut.apply(passed(distance_m)).to_array();
+        Some(Attenuation { distance_m, colour })
     }
 
     /// The wavelengths at which the index is extrapolated, in words; none if there are none.

@@ -7,8 +7,10 @@ use serde_json::Value;
 
 use super::Place;
 use super::Ran;
+use crate::flavours::two_interfaces;
 use crate::not_checked;
 use fresnel_gen::generator::exchange;
+use fresnel_gen::physics::optics;
 
 /// A coloured metal, a white one, two dielectrics, a semiconductor.
 const MATERIALS: [&str; 5] = ["gold", "silver", "water", "bk7", "silicon"];
@@ -515,6 +517,14 @@ fn told_by(
         let words = ["materials", "params", material, "--as", format, "-o", file];
         place.run_with(&words).ends(0);
     }
+    let mut files = files;
+    if exchange::find(format).is_some_and(|format| format.coat.is_some()) {
+        files.push(format!("coated{ending}"));
+        let to = &files[files.len() - 1];
+        place.done(&format!(
+            "materials params gold --as {format} --coat 1.5 -o {to}"
+        ));
+    }
     let [command, script] = reader else {
         panic!("a command and its script")
     };
@@ -559,6 +569,11 @@ fn materialx_reads_its_documents() {
         0.0,
     );
     assert!(number("/silicon.mtlx/conductor_bsdf/ior/1") > 3.5);
+    let coat = |name: &str| number(&format!("/coated.mtlx/open_pbr_surface/coat_{name}"));
+    assert_eq!(
+        [coat("weight"), coat("ior"), coat("darkening")],
+        [1.0, 1.5, 0.0]
+    );
     // An index is no colour: a host moves it into no working space.
     let spaces = &told["gold.mtlx"]["colorspaces"];
     assert_eq!(spaces["conductor_bsdf ior"], "none", "{told}");
@@ -601,7 +616,7 @@ fn the_validator_of_gltf_finds_no_fault() {
     ) else {
         return;
     };
-    for material in MATERIALS {
+    for material in MATERIALS.into_iter().chain(["coated"]) {
         let issues = &told[format!("{material}.gltf")];
         let messages = issues["messages"].as_array().unwrap();
         assert!(
@@ -642,6 +657,141 @@ fn what_a_format_leaves_open_is_a_remark() {
         "they belong to acescg"
     ));
     assert!(!says("water --as materialx", words));
+}
+
+/// What a host with the numbers of a format draws of a coated metal, by the formulas that its documents state.
+fn coated(f0: [f64; 3], tint: [f64; 3], coat: f64, cos: f64) -> [f64; 3] {
+    let rest = (1.0 - cos).powi(5);
+    [0, 1, 2].map(|i| {
+        let schlick = f0[i] + (1.0 - f0[i]) * rest;
+        let at_82 = f0[i] + (1.0 - f0[i]) * (6.0_f64 / 7.0).powi(5);
+        let bump = cos * (1.0 - cos).powi(6) / ((1.0 / 7.0) * (6.0_f64 / 7.0).powi(6));
+        let base = schlick - at_82 * (1.0 - tint[i]) * bump;
+        coat + (1.0 - coat) * base
+    })
+}
+
+/// Coat and base in Blender are the formula with which the error is stated: pixels of Cycles (`tests/reference/cycles_coats.py`). Near
+/// grazing Cycles' own coat lets a little less through.
+#[test]
+fn coats_of_blender_are_what_cycles_draws() {
+    let text = include_str!("../../reference/cycles_coats.csv");
+    for line in text.lines().skip(2) {
+        let numbers: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let three = |at: usize| [numbers[at], numbers[at + 1], numbers[at + 2]];
+        let cos = numbers[7].to_radians().cos();
+        let coat = optics::dielectric(numbers[0], cos).unpolarised();
+        let (got, want) = (coated(three(1), three(4), coat, cos), three(8));
+        let within = if numbers[7] > 80.0 { 0.01 } else { 0.002 };
+        for channel in 0..3 {
+            near(got[channel], want[channel], within);
+        }
+    }
+}
+
+/// A coated metal: the base's colours are those below the coat, and coat and base together are nearer to both interfaces than the metal's
+/// colours in air are below the same coat. The error is the one stated.
+#[test]
+fn a_coat_comes_with_the_base_that_belongs_to_it() {
+    let place = Place::new();
+    let error = |name: &str, own: &dyn Fn(f64) -> [f64; 3]| {
+        let cosines: Vec<f64> = (0..=256).map(|i| f64::from(i) / 256.0).collect();
+        let off = |cos: &f64| {
+            let (got, want) = (own(*cos), two_interfaces(name, *cos));
+            (0..3).map(|i| (got[i] - want[i]).abs()).fold(0.0, f64::max)
+        };
+        cosines.iter().map(off).sum::<f64>() / cosines.len() as f64
+    };
+    for name in ["gold", "copper", "platinum"] {
+        let text = place
+            .done(&format!("materials params {name} --as openpbr --coat 1.5"))
+            .out;
+        let surface = toml(&text)["open_pbr_surface"].as_table().unwrap().clone();
+        let three = |field: &str| {
+            let values = surface[field].as_array().unwrap();
+            [0, 1, 2].map(|i| values[i].as_float().unwrap())
+        };
+        let given = [
+            "coat_weight",
+            "coat_ior",
+            "coat_roughness",
+            "coat_darkening",
+        ];
+        assert_eq!(
+            given.map(|field| surface[field].as_float().unwrap()),
+            [1.0, 1.5, 0.0, 0.0]
+        );
+        let (f0, tint) = (three("base_color"), three("specular_color"));
+        let bare = &params(&place, name);
+        let in_air = |field: &str| [0, 1, 2].map(|i| bare[field][i].as_f64().unwrap().min(1.0));
+        let coat = |cos: f64| optics::dielectric(1.5, cos).unpolarised();
+        let ours = error(name, &|cos| coated(f0, tint, coat(cos), cos));
+        let air = error(name, &|cos| {
+            coated(in_air("f0"), in_air("f82_tint"), coat(cos), cos)
+        });
+        println!("{name} below a coat: {ours:.4} on average, with its colours in air {air:.4}");
+        assert!(ours < 0.5 * air, "{name}: {ours} {air}");
+        let text = joined(&text);
+        let said = text.split("error of both together ").nth(1).unwrap();
+        let said: f64 = said.split_whitespace().next().unwrap().parse().unwrap();
+        near(said, ours, 2e-3);
+    }
+    for format in ["blender", "filament", "gltf", "materialx"] {
+        place.done(&format!("materials params gold --as {format} --coat 1.5"));
+    }
+    let text = place.done("materials params gold --as gltf --coat 1.5").out;
+    let asset: Value = serde_json::from_str(&text).unwrap();
+    let material = &asset["materials"][0];
+    let green = material["pbrMetallicRoughness"]["baseColorFactor"][1]
+        .as_f64()
+        .unwrap();
+    near(0.04 + 0.96 * green, two_interfaces("gold", 1.0)[1], 1e-5);
+    let coat = &material["extensions"]["KHR_materials_clearcoat"];
+    assert_eq!(coat["clearcoatFactor"], 1.0, "{text}");
+    for (line, words) in [
+        (
+            "gold --as usd --coat 1.5",
+            "blender, filament, gltf, materialx, openpbr",
+        ),
+        (
+            "gold --as gltf --coat 1.4",
+            "an index of 1.5, and not of 1.4",
+        ),
+        ("water --as gltf --coat 1.5", "metals and semiconductors"),
+        (
+            "gold --as gltf --coat 1.5 --medium water",
+            "leave --medium out",
+        ),
+        ("gold --coat 1.5", "--as"),
+    ] {
+        place.refused(&format!("materials params {line}"), &[words]);
+    }
+}
+
+/// Clear bodies whose k is known have the colour of light that passes: of water red goes first, of window glass too.
+#[test]
+fn bodies_that_absorb_say_what_passes() {
+    let place = Place::new();
+    for (name, metres) in [("water", 2.1), ("soda_lime_glass", 0.048)] {
+        let text = written(&place, name, "gltf").out;
+        let asset: Value = serde_json::from_str(&text).unwrap();
+        let volume = &asset["materials"][0]["extensions"]["KHR_materials_volume"];
+        let distance = volume["attenuationDistance"].as_f64().unwrap();
+        near(distance, metres, 0.05 * metres);
+        let colour = [0, 1, 2].map(|i| volume["attenuationColor"][i].as_f64().unwrap());
+        near(colour[0], 0.5, 1e-3);
+        assert!(colour[1] > 0.7 && colour[2] > 0.7, "{name}: {colour:?}");
+        let surface = toml(&written(&place, name, "openpbr").out);
+        let surface = surface["open_pbr_surface"].as_table().unwrap();
+        near(
+            surface["transmission_depth"].as_float().unwrap(),
+            distance,
+            1e-9,
+        );
+    }
+    // Measured without k.
+    let text = written(&place, "diamond", "gltf").out;
+    assert!(!text.contains("attenuation"), "{text}");
 }
 
 /// The model of Blender's films beside pixels of Cycles (`tests/reference/cycles_films.py`).

@@ -291,6 +291,7 @@ const USED: [(&str, bool); 57] = [
     ),
     ("materials params gold --as usd -o a.usda --overwrite", true),
     ("materials params gold --wavelengths 600,550,450", true),
+    ("materials params gold --as gltf --coat 1.5", true),
     (
         "materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --index 1.4 --json -",
         true,
