@@ -12,8 +12,8 @@
 //     FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 2], FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 3]), with the library
 //     function of the material's method. By a constant it costs nothing. If the material is known at run time
 //     only, do not index the array: some compilers copy it into the memory of each invocation. Read the same
-//     numbers from a buffer (catalogue.std430.bin) or a texture (catalogue.f32.ktx2). A run without flags writes
-//     both
+//     numbers from a buffer (catalogue.std430.bin) or a texture (catalogue.f32.ktx2), where the fourth number of
+//     c0 is 1 for fitted and 2 for fitted_dielectric. A run without flags writes both
 // Truth: reflectance integrated over 380-780 nm in steps of 5 nm, CIE 1931 2 degree observer, D65, linear sRGB,
 //     mirror = 1, clipped to [0, 1]
 // Model error: beside each material, over all angles and channels; the largest is zinc_querry's, at most 0.05174

@@ -17,11 +17,11 @@ use crate::generator::bake::{
     viewing_flags,
 };
 use crate::generator::command_line::CommandLine;
-use crate::generator::emit::Artifact;
+use crate::generator::emit::{Artifact, Naming};
 use crate::generator::envelope::Report;
 use crate::generator::error::RequestFault;
-use crate::generator::generate::provenance;
 use crate::generator::generate::tables::{artifacts, table_materials};
+use crate::generator::generate::{generate, provenance};
 use crate::generator::lut::{
     Format, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSumAxis, SplitSumLayout, TableAxis, check_size,
 };
@@ -30,6 +30,7 @@ use crate::generator::output::manifest::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::generator::request::Request;
+use crate::language::effects::Effect;
 use crate::language::methods::{self, Method, TEXELS};
 use crate::language::targets::{self, Finish, Target};
 use crate::physics::foreign;
@@ -38,14 +39,12 @@ use crate::physics::names::UnknownName;
 use crate::pictures::table;
 
 /// Flags that conflict with `--dfg`.
-const NO_MATERIAL: [&str; 9] = [
+const NO_MATERIAL: [&str; 7] = [
     "material",
     "medium",
     "gamut",
     "atlas",
     "budget",
-    "target",
-    "prefix",
     "ViewingFlags",
     "ColourFlags",
 ];
@@ -104,8 +103,8 @@ pub struct BakeFlags {
         allow_negative_numbers = true
     )]
     pub budget: Option<f64>,
-    /// Write a function that reads the table, beside it, in these languages: gles, glsl, hlsl, msl, wgsl; all means those
-    /// written by default [default: none]
+    /// Write the function that reads the table, beside it, in these languages: gles, glsl, hlsl, msl, wgsl; all means those
+    /// written by default; with --dfg those of the effect image_light [default: none]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = target)]
     pub target: Vec<Choice<&'static Target>>,
     /// Goes before the names of these functions
@@ -231,7 +230,8 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     };
     try_places(flags.report.json(), None)?;
     let baked = bake(&request, progress)?;
-    finished(flags, request.command_line(), baked, &left_out, announce)
+    let command = request.command_line();
+    finished(flags, command, baked, Vec::new(), &left_out, announce)
 }
 
 /// The most texels of a row of a table by thickness: its error is sought between them too.
@@ -294,7 +294,8 @@ fn film_table(
     };
     try_places(flags.report.json(), None)?;
     let baked = bake_film_thickness(&request, progress)?;
-    finished(flags, request.command_line(), vec![baked], &[], announce)
+    let command = request.command_line();
+    finished(flags, command, vec![baked], Vec::new(), &[], announce)
 }
 
 /// Bakes the split-sum table of a method.
@@ -311,9 +312,29 @@ fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Resul
             formats(flags)
         },
     };
+    let targets = targets(&flags.target);
+    if let Some(why) = request.without_functions().filter(|_| !targets.is_empty()) {
+        return Err(Error::usage(why));
+    }
     try_places(flags.report.json(), None)?;
     let baked = bake_split_sum(&request, progress)?;
-    finished(flags, request.command_line(), vec![baked], &[], announce)
+    let command = request
+        .command_line()
+        .list("target", targets.iter().map(|target| target.name))
+        .list("prefix", Naming::flag_of_prefix(&flags.prefix));
+    let functions = match targets.is_empty() {
+        true => Vec::new(),
+        false => {
+            generate(&Request {
+                targets,
+                effects: vec![Effect::IMAGE_LIGHT],
+                prefix: flags.prefix.clone(),
+                ..Request::default()
+            })?
+            .artifacts
+        }
+    };
+    finished(flags, command, vec![baked], functions, &[], announce)
 }
 
 /// Writes the baked files and reports on them.
@@ -321,12 +342,14 @@ fn finished(
     flags: &BakeFlags,
     command: CommandLine,
     baked: Vec<Baked>,
+    functions: Vec<Artifact>,
     left_out: &[String],
     announce: Announce,
 ) -> Result<Output, Error> {
     let out_dir = folder_or_current(&flags.tree.out_dir);
     let rows: Vec<BakeRow> = baked.iter().flat_map(|one| one.rows.clone()).collect();
-    let files: Vec<Artifact> = baked.into_iter().flat_map(artifacts).collect();
+    let tables = baked.into_iter().flat_map(artifacts);
+    let files: Vec<Artifact> = tables.chain(functions).collect();
     let mut lock = Lock::take(out_dir, announce);
     let plan = plan(out_dir, &files, &Scope::default(), &provenance(Vec::new()))?;
     refuse_within_tree(&plan, flags.report.json())?;

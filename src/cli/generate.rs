@@ -76,6 +76,9 @@ pub struct GenerateFlags {
     /// Write one function per material: the cheapest whose largest error over angles and channels is at most this
     #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
     pub budget: Option<f64>,
+    /// Write the catalogue of these materials, in this order, in place of a function for each: coefficients as constants, buffer, textures and JSON, and the functions that take them
+    #[arg(long, requires = "material", conflicts_with_all = ["method", "effect", "flavour", "film", "plan", "budget", "output", "matching_angle"])]
+    pub catalogue: bool,
     /// GPU family whose recorded costs --budget compares: rdna2, adreno330 ... as for `cost` [default: rdna2]
     #[arg(long, value_name = "NAME", requires = "budget", value_parser = family())]
     pub gpu: Option<&'static Family>,
@@ -242,6 +245,7 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         viewing: flags.viewing.conditions()?,
         header: flags.header,
         tables: false,
+        catalogue: flags.catalogue,
     })
 }
 
@@ -431,13 +435,18 @@ fn first_function<'g>(
         return Vec::new();
     };
     let file = out_dir.join(&artifact.path);
+    let next = if flags.catalogue {
+        "next: element 4 i + j of a catalogue's buffer, or texel (j, i) of its texture, is c_j of the material i, counted from 0; the fourth number of c_0 is 1 where fitted takes it, 2 where fitted_dielectric does".to_owned()
+    } else {
+        next_step(flags)
+    };
     vec![
         format!(
             "for example {}: {}",
             foreign::path(&file),
             function.signature
         ),
-        next_step(flags),
+        next,
     ]
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::cli::Place;
 use fresnel_gen::generator::emit::{Artifact, CatalogueRow, fingerprint, recorded_catalogue};
 use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::catalogue::{add_catalogue, derived_rows};
@@ -124,10 +125,13 @@ fn floats(bytes: &[u8]) -> Vec<f32> {
         .collect()
 }
 
-/// The colours among numbers that come in fours, the last of which is 1.
+/// The colours among numbers that come in fours. The fourth of c0 is the number of the method, of the others 1.
 #[track_caller]
 fn colours(fours: &[f32]) -> Vec<f32> {
-    assert!(fours.chunks_exact(4).all(|four| four[3] == 1.0));
+    for four in fours.chunks_exact(16) {
+        assert!([1.0, 2.0].contains(&four[3]));
+        assert_eq!([four[7], four[11], four[15]], [1.0; 3]);
+    }
     let colours = fours.chunks_exact(4).flat_map(|four| &four[..3]);
     colours.copied().collect()
 }
@@ -200,7 +204,7 @@ fn rows_are_those_of_the_constants() {
     let (json, _) = files();
     let (array, row_of) = array_of_wgsl();
     let buffer = shared("catalogue.std430.bin");
-    assert_eq!(json["schema"], 2);
+    assert_eq!(json["schema"], 3);
     assert_eq!(json["buffer"]["stride"], 64);
     assert_eq!(json["first_dielectric"], row_of("first_dielectric"));
     for material in json["materials"].as_array().unwrap() {
@@ -215,7 +219,85 @@ fn rows_are_those_of_the_constants() {
         let is_dielectric = row >= row_of("first_dielectric");
         let method = ["fitted", "fitted_dielectric"][usize::from(is_dielectric)];
         assert_eq!(material["method"], method, "{name}");
+        let number = 1.0 + f32::from(u8::from(is_dielectric));
+        assert_eq!(floats(own)[3], number, "{name}");
+        let of_json = json["methods"].as_array().unwrap().iter();
+        let mut of_json = of_json.filter(|one| one["number"] == number);
+        assert_eq!(of_json.next().unwrap()["name"], method, "{name}");
     }
+}
+
+const ALLOY: &str = "wl,n,k\n0.36,1.2,2.5\n0.5,0.9,3.2\n0.83,1.5,5\n";
+const OWN: [&str; 4] = ["alloy", "water", "gold", "diamond"];
+
+/// A user's own materials, in their order, in each file; and no function of a material.
+#[test]
+fn a_catalogue_of_ones_own_has_the_order_given() {
+    let place = Place::new();
+    place.put("alloy.csv", ALLOY);
+    for precision in ["f32", "f16"] {
+        let folder = format!("own_{precision}");
+        let line = format!(
+            "--material alloy.csv,water,gold,diamond --catalogue --target wgsl,gles --precision {precision} --out-dir {folder}"
+        );
+        let told = place.done(&line);
+        assert!(told.err.contains("the fourth number of c_0"), "{told:?}");
+        place.done(&format!("{line} --check"));
+        let json: Value =
+            serde_json::from_str(&place.read(&format!("{folder}/catalogue.json"))).unwrap();
+        let names = json["materials"].as_array().unwrap().iter();
+        let names: Vec<&str> = names.map(|one| one["name"].as_str().unwrap()).collect();
+        assert_eq!(names, OWN);
+        assert_eq!(json["first_dielectric"], Value::Null);
+        let text = place.read(&format!("{folder}/wgsl/catalogue.wgsl"));
+        assert!(
+            text.contains("const FRESNEL_GOLD: u32 = 8u;") && !text.contains("FIRST_DIELECTRIC"),
+            "{text}"
+        );
+        let array = numbers(&text);
+        let bytes = std::fs::read(place.path(&format!("{folder}/catalogue.std430.bin"))).unwrap();
+        assert_eq!(colours(&floats(&bytes)), array);
+        let of_c0: Vec<f32> = floats(&bytes)
+            .chunks_exact(16)
+            .map(|four| four[3])
+            .collect();
+        assert_eq!(of_c0, [1.0, 2.0, 1.0, 2.0]);
+        let halves = place.path(&format!("{folder}/catalogue.f16.std430.bin"));
+        if precision == "f16" {
+            let bytes = std::fs::read(halves).unwrap();
+            assert_eq!(bytes.len(), OWN.len() * 32);
+            let half = |pair: &[u8]| half::f16::from_le_bytes(pair.try_into().unwrap()).to_f32();
+            let read: Vec<f32> = bytes.chunks_exact(2).map(half).collect();
+            assert_eq!(
+                colours(&read),
+                array,
+                "half floats hold what was fitted as such"
+            );
+        } else {
+            assert!(!halves.exists());
+        }
+        let suffix = if precision == "f16" { "_f16" } else { "" };
+        let files = std::fs::read_dir(place.path(&format!("{folder}/wgsl"))).unwrap();
+        let mut of_wgsl: Vec<String> = files
+            .map(|file| file.unwrap().file_name().into_string().unwrap())
+            .collect();
+        of_wgsl.sort();
+        let want = [
+            "catalogue".to_owned(),
+            format!("fresnel_fitted{suffix}"),
+            format!("fresnel_fitted_dielectric{suffix}"),
+        ];
+        let mut want = want.map(|name| format!("{name}.wgsl"));
+        want.sort();
+        assert_eq!(of_wgsl, want);
+        // Fitted as half floats, gold errs by little more.
+        let error = json["materials"][2]["max_abs"].as_f64().unwrap();
+        assert!(error < 0.0042, "{precision}: {error}");
+    }
+    place.refused("--material gold,air --catalogue", &["`air`", "gas"]);
+    place.refused("--material oil_on_water --catalogue", &["six coefficients"]);
+    place.refused("--catalogue", &["--material"]);
+    place.refused("--material gold --catalogue --method fitted", &["--method"]);
 }
 
 /// A method of a material with these coefficients, at these cosines, in f64.
@@ -232,9 +314,9 @@ pub fn evaluated(method: &str, coefficients: &[f32], cosines: &[f64]) -> Vec<[f6
     (0..cosines.len()).map(|point| values.at(point)).collect()
 }
 
-/// The coefficients of these materials of the catalogue, with their methods and rows.
-pub fn rows_named(names: &[&str]) -> Vec<(usize, String, Vec<f32>)> {
-    let (json, _) = files();
+/// The coefficients of these materials of a `catalogue.json`, with their methods and rows.
+pub fn rows_named(json: &Path, names: &[&str]) -> Vec<(usize, String, Vec<f32>)> {
+    let json: Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
     let materials = json["materials"].as_array().unwrap();
     let row = |name: &&str| {
         let row = materials.iter().find(|row| row["name"] == *name).unwrap();

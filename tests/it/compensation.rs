@@ -1,7 +1,7 @@
 //! What microfacets reflect more than once, as the templates of flavours compute it: a geometric series of bounces. The formula and
 //! its source stand in `lut/split_sum.rs`.
 
-use fresnel_gen::generator::lut::WHITE_MEAN_LOST;
+use fresnel_gen::language::effects::WHITE_MEAN_LOST;
 use fresnel_gen::physics::num::{Legendre, each_channel};
 use fresnel_gen::physics::optics::Ggx;
 

@@ -148,7 +148,6 @@ fn counts_are_those_of_the_catalogue() {
     let (materials, methods) = ("docs/materials.md", "docs/methods.md");
     check_stated(vec![
         stated("README.md", "**", " spectra of n and k** are", spectra),
-        stated("README.md", "of a run without flags: ", " materials", rows),
         stated(materials, "\n", " spectra of n and k come along", spectra),
         stated(materials, "The catalogue has ", " spectra: ", spectra),
         stated(materials, "`catalogue.*` has ", ": ", rows),

@@ -93,6 +93,28 @@ impl SplitSumRequest {
         })
     }
 
+    /// Why the functions of the effect `image_light` do not read this table; none if they do.
+    pub fn without_functions(&self) -> Option<&'static str> {
+        let basis = self.method.basis()?;
+        let terms = basis.terms();
+        let keeps_all = |format: &Format| terms < 4 || *format == Format::Ktx2;
+        if self.layout != SplitSumLayout::Terms {
+            Some("an engine that binds its own layout has its own function: leave --target out")
+        } else if self.axes != SPLIT_SUM_AXES {
+            Some("the functions of --target read tables along square roots: leave --axis out")
+        } else if terms > 4 || Orthogonal::of(&basis).is_some() {
+            Some(
+                "the functions of --target read tables of four terms at most, such as those of fitted, fitted_dielectric and f82_tint",
+            )
+        } else if !self.formats().iter().any(keeps_all) {
+            Some(
+                "the functions of --target read the fourth term in alpha, which only ktx2 keeps: name it in --format",
+            )
+        } else {
+            None
+        }
+    }
+
     fn design(&self, basis: Basis) -> SplitSumDesign {
         match self.layout {
             SplitSumLayout::Terms => SplitSumDesign::square(basis, self.size, self.axes),

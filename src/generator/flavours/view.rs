@@ -13,8 +13,9 @@ use crate::generator::emit::{
     library_functions, xml_comment,
 };
 use crate::generator::fit::rounded_up;
-use crate::generator::lut::{Depth, Orthogonal, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
+use crate::generator::lut::{Depth, Orthogonal, SplitSum, SplitSumDesign};
 use crate::generator::reference::FITTED_IN_ENGINES;
+use crate::language::effects::WHITE_MEAN_LOST;
 use crate::language::methods::{self, Class, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::materials::MaterialKind;

@@ -1,5 +1,6 @@
 //! The catalogue of fitted coefficients: an array in each language, JSON, a storage buffer, and textures. A run that names
-//! neither methods nor materials writes the arrays. A run without flags also writes the files that belong to no language.
+//! neither methods nor materials writes the arrays. A run without flags also writes the files that belong to no language. A run with
+//! `--catalogue` writes all of them of its own materials.
 
 use serde::Serialize;
 
@@ -7,19 +8,23 @@ use crate::generator::command_line::CommandLine;
 use crate::generator::emit::Artifact;
 use crate::generator::emit::{
     self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail,
-    CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
+    CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, HALF_BUFFER, Naming, OUTPUT_LICENCE,
+    RowOrder,
 };
 use crate::generator::envelope::{Origin, TOOL, json_text};
-use crate::generator::error::Error;
-use crate::generator::generate::Generated;
+use crate::generator::error::{Error, RequestFault};
+use crate::generator::generate::{Generated, KeptMethods, Run, generate_beside};
 use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
+use crate::generator::output::contents::has_no_room_for_mark;
 use crate::generator::output::ownership::SHARED;
 use crate::generator::reference::MaterialInMedium;
-use crate::generator::request::{Materials, Request, Source};
+use crate::generator::request::{Materials, Methods, Request, Source};
+use crate::physics::foreign::Foreign;
 use crate::physics::spectra::Space;
 
-/// The version of the format of `catalogue.json`. In version 1, coefficients were grouped by channel.
-const SCHEMA: u32 = 2;
+/// The version of the format of `catalogue.json`. In version 1, coefficients were grouped by channel, in version 2 the fourth numbers were
+/// all 1.
+const SCHEMA: u32 = 3;
 
 /// Adds the arrays of the run's languages, and in a run without flags the files that belong to no language. The run owns all of
 /// them.
@@ -31,15 +36,96 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
         Some(rows) => (rows, request.viewing.reference_in_words()),
         None => derived_rows(request)?,
     };
+    let with_shared = generated.scope.whole;
+    add_rows(
+        generated,
+        &rows,
+        RowOrder::ByMethod,
+        &reference,
+        with_shared,
+        request,
+    )
+}
+
+/// The catalogue of a request's own materials: their rows in the order in which they are named, as arrays of the request's languages and
+/// as the files that belong to no language, and the library functions that take these rows. All materials together are in the order of
+/// the usual catalogue.
+///
+/// # Errors
+/// A material has no fitted method of four coefficients, or is not known under the request's viewing conditions; or a language refuses a
+/// name.
+pub fn own_catalogue(request: &Request) -> Result<Generated, Error> {
+    let run = Run::new(request)?;
+    let subjects: Vec<MaterialInMedium> = run.subjects.iter().map(|(one, _)| one.clone()).collect();
+    let (rows, order) = match request.materials {
+        Materials::All => {
+            let rows = emit::catalogue_rows(&subjects, &request.naming())?;
+            (rows, RowOrder::ByMethod)
+        }
+        _ => (rows_as_named(request, subjects)?, RowOrder::AsGiven),
+    };
+    let library = Request {
+        catalogue: false,
+        materials: Materials::None,
+        methods: Methods::These(emit::methods_of(&rows)),
+        ..request.clone()
+    };
+    let mut generated = generate_beside(&library, &KeptMethods::new())?;
+    generated.provenance = run.provenance();
+    generated.left_out.clone_from(&run.left_out);
+    let first = run.subjects.first();
+    let reference = first.map(|(subject, _)| subject.reference.surface.seen.clone());
+    add_rows(
+        &mut generated,
+        &rows,
+        order,
+        &reference.unwrap_or_default(),
+        true,
+        request,
+    )?;
+    Ok(generated)
+}
+
+/// The rows of the materials in the order in which the request names them.
+fn rows_as_named(
+    request: &Request,
+    mut subjects: Vec<MaterialInMedium>,
+) -> Result<Vec<CatalogueRow>, Error> {
+    let sources = request.materials.sources();
+    let named = sources.iter().map(Source::argument);
+    let named = named.collect::<Result<Vec<String>, Error>>()?;
+    let place = |subject: &MaterialInMedium| named.iter().position(|one| *one == subject.argument);
+    subjects.sort_by_key(place);
+    emit::rows_in_order(&subjects, &request.naming())?.map_err(|place| {
+        let subject = &subjects[place];
+        let (name, why) = (Foreign(&subject.name), subject.has_films());
+        let why = if why {
+            "lies under films, and its fitted method has six coefficients: a row has four"
+        } else {
+            "has no fitted method of four coefficients: it is a gas, or rarer than its medium"
+        };
+        RequestFault::refused(format!("`{name}` {why}; leave it out of --catalogue")).into()
+    })
+}
+
+/// Adds the arrays of the run's languages and, if they are wanted, the files that belong to no language.
+fn add_rows(
+    generated: &mut Generated,
+    rows: &[CatalogueRow],
+    order: RowOrder,
+    reference: &str,
+    with_shared: bool,
+    request: &Request,
+) -> Result<(), Error> {
     for target in request.targets_or_default() {
         let command = command(request, Some(target.name))?;
-        let file = emit::catalogue_array(target, &rows, &request.naming(), &reference, &command)?;
+        let naming = request.naming();
+        let file = emit::catalogue_array(target, rows, order, &naming, reference, &command)?;
         generated.artifacts.extend(file);
     }
-    if generated.scope.whole {
-        generated
-            .artifacts
-            .extend(shared(&rows, &reference, request)?);
+    if with_shared {
+        let files = shared(rows, order, reference, request)?;
+        generated.artifacts.extend(files);
         let targets = SHARED.map(|(_, target)| target.to_owned());
         generated.scope.targets.extend(targets);
     }
@@ -84,10 +170,35 @@ pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Er
 fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
     let medium = request.medium.as_ref();
     let medium = medium.map(Source::argument).transpose()?;
+    let sources = match &request.materials {
+        _ if !request.catalogue => Vec::new(),
+        Materials::All => vec!["all".to_owned()],
+        materials => {
+            let sources = materials.sources();
+            let words = sources.iter().map(Source::argument);
+            words.collect::<Result<_, Error>>()?
+        }
+    };
+    // The files that belong to no language come with each language.
+    let all = request.targets.iter().map(|one| one.name);
+    let targets: Vec<&str> = match target {
+        Some(target) => vec![target],
+        None if request.catalogue => all.collect(),
+        None => Vec::new(),
+    };
     Ok(CommandLine::new(TOOL)
-        .list("target", target)
+        .list("target", targets)
+        .list("material", sources)
+        .switch("catalogue", request.catalogue)
         .list("medium", medium)
         .list("prefix", Naming::flag_of_prefix(&request.prefix))
+        .list(
+            "precision",
+            request
+                .precision
+                .is_half()
+                .then(|| request.precision.name()),
+        )
         .seen_as(&request.viewing)
         .into())
 }
@@ -102,8 +213,10 @@ struct CatalogueFile<'a> {
     space: Option<&'static str>,
     licence: &'static str,
     order: &'static str,
-    first_dielectric: usize,
+    first_dielectric: Option<usize>,
+    precision: &'static str,
     buffer: BufferDetail,
+    half_buffer: Option<BufferDetail>,
     textures: [CatalogueTextureDetail; 2],
     methods: Vec<CatalogueMethod>,
     materials: Vec<CatalogueMaterial<'a>>,
@@ -112,6 +225,7 @@ struct CatalogueFile<'a> {
 /// The files that belong to no language; empty if no material has a fitted method.
 fn shared(
     rows: &[CatalogueRow],
+    order: RowOrder,
     reference: &str,
     request: &Request,
 ) -> Result<Vec<Artifact>, Error> {
@@ -121,36 +235,49 @@ fn shared(
     let command = command(request, None)?;
     let is_spectral = request.viewing.wavelengths_nm.is_none();
     let space = is_spectral.then_some(request.viewing.integration.space);
-    let files = SHARED.map(|(path, target)| {
+    let is_half = request.precision.is_half();
+    let wanted = SHARED.into_iter();
+    let wanted = wanted.filter(|(path, _)| is_half || *path != HALF_BUFFER);
+    let files = wanted.map(|(path, target)| {
         let texture = CatalogueTexture::ALL.into_iter();
         let mut texture = texture.filter(|texture| texture.file() == path);
         let bytes = match texture.next() {
             Some(texture) => texture.encode(rows, space),
             None if path == CATALOGUE_BUFFER => emit::catalogue_buffer(rows),
-            None => as_json(rows, reference, space, &command).into_bytes(),
+            None if path == HALF_BUFFER => emit::half_buffer(rows),
+            None => as_json(rows, order, reference, space, request, &command).into_bytes(),
         };
         let detail = Detail::Catalogue(CatalogueDetail {
             command: command.clone(),
             array: None,
             materials: rows.len(),
-            rows: (path == CATALOGUE_BUFFER).then_some(COEFFICIENTS * rows.len()),
+            rows: has_no_room_for_mark(path).then_some(COEFFICIENTS * rows.len()),
             seen: reference.to_owned(),
             licence: OUTPUT_LICENCE,
         });
         Artifact::new(target, path.to_owned(), bytes, detail)
     });
-    Ok(files.into())
+    Ok(files.collect())
 }
 
-fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command: &str) -> String {
+fn as_json(
+    rows: &[CatalogueRow],
+    order: RowOrder,
+    reference: &str,
+    space: Option<Space>,
+    request: &Request,
+    command: &str,
+) -> String {
     let file = CatalogueFile {
         origin: Origin::new(command).with_schema(SCHEMA),
         truth: reference,
         space: space.map(Space::name),
         licence: OUTPUT_LICENCE,
         order: COEFFICIENT_ORDER,
-        first_dielectric: emit::first_dielectric(rows),
+        first_dielectric: (order == RowOrder::ByMethod).then(|| emit::first_dielectric(rows)),
+        precision: request.precision.name(),
         buffer: BufferDetail::ENTRY,
+        half_buffer: request.precision.is_half().then_some(BufferDetail::HALF),
         textures: CatalogueTexture::ALL.map(|texture| texture.detail(rows)),
         methods: CatalogueMethod::all(rows),
         materials: CatalogueMaterial::all(rows),
@@ -161,7 +288,6 @@ fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generator::request::Methods;
     use crate::language::methods::Method;
     use crate::language::targets::Target;
     use crate::physics::num::Precision;

@@ -114,6 +114,9 @@ impl Generated {
 /// # Errors
 /// As [`generate()`].
 pub fn generate_beside(request: &Request, kept: &KeptMethods) -> Result<Generated, Error> {
+    if request.catalogue {
+        return catalogue::own_catalogue(request);
+    }
     let run = Run::new(request)?;
     let mut artifacts: Vec<Artifact> = made(&run, kept)?
         .into_iter()

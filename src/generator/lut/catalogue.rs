@@ -7,7 +7,7 @@ use super::axis::TableAxis;
 use super::ktx2::ktx2;
 use super::picture::Picture;
 use super::texel::Depth;
-use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
+use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH, fourths};
 use crate::physics::spectra::Space;
 
 /// The number type of the catalogue's texels.
@@ -27,7 +27,7 @@ pub struct CatalogueTextureDetail {
     width: usize,
     height: usize,
     texel: &'static str,
-    alpha: f32,
+    alpha: &'static str,
 }
 
 impl CatalogueTexture {
@@ -73,7 +73,7 @@ impl CatalogueTexture {
             width: COEFFICIENTS,
             rows: rows.iter().map(|row| row.name.clone()).collect(),
             texels: texels.collect(),
-            alpha: Some(vec![FOURTH; COEFFICIENTS * rows.len()]),
+            alpha: Some(fourths(rows).collect()),
             space,
             about: Vec::new(),
         })

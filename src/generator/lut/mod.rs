@@ -36,8 +36,7 @@ pub use orthogonal::Orthogonal;
 pub use picture::Picture;
 pub use search::{BetweenTexels, TableKind, smallest, table_error};
 pub use split_sum::{
-    BetweenSplitSum, LEAST_ROUGHNESS, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, WHITE_MEAN_LOST,
-    term_range,
+    BetweenSplitSum, LEAST_ROUGHNESS, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, term_range,
 };
 pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{Stored, Table};

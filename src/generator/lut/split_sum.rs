@@ -208,10 +208,6 @@ impl BetweenSplitSum {
     }
 }
 
-/// The coefficients a to d of 1 - Ē = r³ (a + r (b + r (c + r d))) over the roughness r, for GGX with height-correlated Smith
-/// masking and α = r²: within .0007.
-pub const WHITE_MEAN_LOST: [f64; 4] = [0.20275, 3.50269, -4.97845, 1.8645];
-
 #[cfg(test)]
 mod tests {
     use super::super::split_sum_design::SplitSumAxis;

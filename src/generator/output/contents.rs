@@ -1,7 +1,7 @@
 //! Contents of files: compared, and those of a file of a run as it is in the folder and as it will be. Line ends do not count in
 //! text, since version control changes them.
 
-use crate::generator::emit::CATALOGUE_BUFFER;
+use crate::generator::emit::{CATALOGUE_BUFFER, HALF_BUFFER};
 use crate::generator::lut::Format;
 use crate::language::targets::{self, Finish};
 use crate::physics::digest::sha256;
@@ -21,9 +21,9 @@ pub fn is_same(path: &str, one: &[u8], other: &[u8]) -> bool {
 }
 
 /// Whether the format of this path has no room for a mark. These are SPIR-V modules, from which tools drop what is not code, and
-/// the bare numbers of the catalogue's buffer.
+/// the bare numbers of the catalogue's buffers.
 pub fn has_no_room_for_mark(path: &str) -> bool {
-    path == CATALOGUE_BUFFER || is_module(path)
+    [CATALOGUE_BUFFER, HALF_BUFFER].contains(&path) || is_module(path)
 }
 
 fn is_binary(path: &str) -> bool {

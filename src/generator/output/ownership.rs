@@ -14,7 +14,7 @@ use std::fs;
 use std::path::Path;
 
 use super::manifest::Scope;
-use crate::generator::emit::{Artifact, CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
+use crate::generator::emit::{Artifact, CATALOGUE, CATALOGUE_BUFFER, EFFECTS, HALF_BUFFER, MARK};
 use crate::generator::error::Error;
 use crate::generator::flavours;
 use crate::generator::lut::{CatalogueTexture, Format, KTX2_MARK, TABLES};
@@ -28,9 +28,10 @@ use crate::physics::num::Precision;
 const JSON: &str = "json";
 
 /// The files that belong to no language, each with what is given as its target.
-pub const SHARED: [(&str, &str); 4] = [
+pub const SHARED: [(&str, &str); 5] = [
     ("catalogue.json", JSON),
     (CATALOGUE_BUFFER, "std430"),
+    (HALF_BUFFER, "std430"),
     (CatalogueTexture::Half.file(), "ktx2"),
     (CatalogueTexture::Float.file(), "ktx2"),
 ];
@@ -52,8 +53,8 @@ const EXR: &[u8] = b"\x76\x2f\x31\x01";
 const SPIRV: [u8; 4] = 0x0723_0203_u32.to_le_bytes();
 /// The generator's word in a SPIR-V module of naga.
 const NAGA: [u8; 4] = 28_u32.to_le_bytes();
-/// A material's row in the catalogue's buffer: four floats.
-const ROW_BYTES: u64 = 16;
+/// A row in the catalogue's buffers: four floats, or four half floats.
+const ROW_BYTES: [(&str, u64); 2] = [(CATALOGUE_BUFFER, 16), (HALF_BUFFER, 8)];
 
 /// Whether the head of a file says that this program wrote it. In text, the first line must say so: a function pasted into
 /// another file brings its own head along.
@@ -159,8 +160,11 @@ fn has_form_without_mark(entry: &Entry, bytes: &[u8]) -> bool {
         return bytes.starts_with(&SPIRV) && bytes.get(8..12) == Some(&NAGA);
     }
     let rows = entry.detail.get("rows").and_then(serde_json::Value::as_u64);
-    entry.file == CATALOGUE_BUFFER
-        && rows.is_some_and(|rows| rows.checked_mul(ROW_BYTES) == Some(bytes.len() as u64))
+    let mut buffers = ROW_BYTES.iter();
+    buffers.any(|(file, row)| {
+        entry.file == *file
+            && rows.is_some_and(|rows| rows.checked_mul(*row) == Some(bytes.len() as u64))
+    })
 }
 
 /// Whether this program could have written this path for this entry. It must know the method and the effect, from this version or

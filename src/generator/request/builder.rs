@@ -132,6 +132,15 @@ impl Request {
         self
     }
 
+    /// The catalogue of the materials in the order in which they were added, in place of a function for each: their coefficients as
+    /// constants, as a buffer, as textures and as JSON, and the library functions that take them. With [`Precision::F16`] the
+    /// coefficients are fitted as half floats.
+    #[must_use]
+    pub fn catalogue(mut self) -> Request {
+        self.catalogue = true;
+        self
+    }
+
     /// The files that it was made from, for `cargo::rerun-if-changed`.
     pub fn inputs(&self) -> Vec<&str> {
         let materials = match &self.materials {

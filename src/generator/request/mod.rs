@@ -54,6 +54,9 @@ pub struct Request {
     /// Whether lookup tables of the materials are written too.
     #[doc(hidden)]
     pub tables: bool,
+    /// Whether the catalogue of the request's materials, in their order, is written in place of a function for each.
+    #[doc(hidden)]
+    pub catalogue: bool,
 }
 
 impl Default for Request {
@@ -73,6 +76,7 @@ impl Default for Request {
             viewing: ViewingConditions::default(),
             header: HeaderForm::default(),
             tables: false,
+            catalogue: false,
         }
     }
 }

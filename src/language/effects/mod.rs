@@ -14,6 +14,8 @@ use crate::physics::names::{UnknownName, named};
 
 mod effect;
 
+pub use image_light::WHITE_MEAN_LOST;
+
 pub use effect::{Argument, BuiltEffect, Domain, Effect, EffectFunction, Reflectance};
 use effect::{
     Arguments, ETA, INCIDENT, NORMAL, UV_SCALE_BIAS, VIEW_PROJECTION, cross, length, mirrored,
@@ -26,6 +28,7 @@ mod coat;
 mod complex_f0;
 mod dispersion;
 mod ggx_specular;
+mod image_light;
 mod interface;
 mod interior;
 mod normal_mapping;
@@ -40,6 +43,7 @@ pub static ALL: &[&Effect] = &[
     &complex_f0::EFFECT,
     &dispersion::EFFECT,
     &ggx_specular::EFFECT,
+    &image_light::EFFECT,
     &interface::EFFECT,
     &interior::EFFECT,
     &normal_mapping::EFFECT,
@@ -56,6 +60,7 @@ impl Effect {
     pub const COMPLEX_F0: &'static Effect = &complex_f0::EFFECT;
     pub const DISPERSION: &'static Effect = &dispersion::EFFECT;
     pub const GGX_SPECULAR: &'static Effect = &ggx_specular::EFFECT;
+    pub const IMAGE_LIGHT: &'static Effect = &image_light::EFFECT;
     pub const INTERFACE: &'static Effect = &interface::EFFECT;
     pub const INTERIOR: &'static Effect = &interior::EFFECT;
     pub const NORMAL_MAPPING: &'static Effect = &normal_mapping::EFFECT;

@@ -7,7 +7,8 @@ use fresnel_gen::generator::generate;
 use fresnel_gen::generator::generate::catalogue::add_catalogue;
 use fresnel_gen::generator::request::{Materials, Request};
 use fresnel_gen::lab::verify::compilers::{is_here, verdict};
-use fresnel_gen::language::targets::{self, Finish};
+use fresnel_gen::language::targets::{self, Finish, Target};
+use fresnel_gen::physics::num::Precision;
 
 /// A function that reads the array by constants and one that reads it by what only a run knows.
 fn users(target: &str) -> String {
@@ -73,6 +74,42 @@ fn the_catalogue_is_accepted_with_what_uses_it() {
     if msl::COMPILER.is_here("the syntax of msl") {
         msl::judge(&[program("msl")]).unwrap();
     }
+}
+
+/// The function that `docs/shaders.md` shows for rows of half floats, below the functions that take them.
+#[test]
+fn rows_of_half_floats_are_accepted_with_what_reads_them() {
+    let request = Request::new()
+        .target(Target::WGSL)
+        .material("gold")
+        .material("water")
+        .precision(Precision::F16)
+        .catalogue();
+    let files = generate(&request).unwrap().artifacts;
+    let text = |name: &str| {
+        let file = files
+            .iter()
+            .find(|file| file.path == format!("wgsl/{name}.wgsl"));
+        String::from_utf8(file.expect(name).bytes.clone()).unwrap()
+    };
+    let second = text("fresnel_fitted_dielectric_f16").replace("enable f16;", "");
+    let page = include_str!("../../../docs/shaders.md");
+    let blocks = page.split("```wgsl\n").skip(1);
+    let mut blocks = blocks.map(|block| block.split("```").next().unwrap());
+    let example = blocks
+        .find(|block| block.contains("catalogue.f16.std430.bin"))
+        .unwrap();
+    let text = text("fresnel_fitted_f16") + &second + &text("catalogue") + example;
+    let here = Target::WGSL
+        .validators
+        .iter()
+        .filter(|v| is_here(v.compiler));
+    accepted(&here.collect::<Vec<_>>(), |validator| {
+        match verdict(validator, "catalogue.wgsl", text.as_bytes()) {
+            Ok(()) => Ok(String::new()),
+            Err(fault) => Err(format!("{}: {fault}", validator.name)),
+        }
+    });
 }
 
 #[test]

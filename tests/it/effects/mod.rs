@@ -3,6 +3,7 @@
 mod bounds;
 mod coat;
 mod functions;
+mod image_light;
 mod one_r;
 mod sphere;
 mod text;

@@ -1,6 +1,8 @@
 //! The catalogue from a storage buffer and from a texture: the functions that `docs/shaders.md` shows, on real stacks with the
 //! committed files, against an evaluation on the CPU.
 
+use std::path::{Path, PathBuf};
+
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::json;
@@ -24,21 +26,34 @@ fn cosines() -> Vec<f32> {
     (0..=POINTS).map(|i| i as f32 / POINTS as f32).collect()
 }
 
-/// A file of the committed tree.
-fn committed(path: &str) -> Vec<u8> {
-    let root = env!("CARGO_MANIFEST_DIR");
-    std::fs::read(format!("{root}/shaders-generated/{path}")).expect(path)
+/// The committed tree.
+fn committed() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders-generated")
 }
 
-/// The committed files of a language that the example stands below, and the example: the one that reads this file.
-fn example(folder: &str, language: &str, extension: &str, reads: &str) -> String {
+/// A tree with a catalogue of these materials in an order that mixes methods.
+fn own(place: &Place) -> PathBuf {
+    place.done("--material gold,water,silver,diamond --catalogue --target wgsl,gles --out-dir own");
+    place.path("own")
+}
+
+fn read(root: &Path, path: &str) -> Vec<u8> {
+    std::fs::read(root.join(path)).expect(path)
+}
+
+fn rows(root: &Path) -> Vec<(usize, String, Vec<f32>)> {
+    rows_named(&root.join("catalogue.json"), &MATERIALS)
+}
+
+/// The files of a language that the example stands below, and the example: the one that reads this file.
+fn example(root: &Path, folder: &str, language: &str, extension: &str, reads: &str) -> String {
     let page = include_str!("../../../docs/shaders.md");
     let fence = format!("```{language}\n");
     let blocks = page.split(&fence).skip(1);
     let mut blocks = blocks.map(|after| after.split_once("```").expect("it ends").0);
     let example = blocks.find(|block| block.contains(reads)).expect(reads);
     let names = ["catalogue", "fresnel_fitted", "fresnel_fitted_dielectric"];
-    let files = names.map(|name| committed(&format!("{folder}/{name}.{extension}")));
+    let files = names.map(|name| read(root, &format!("{folder}/{name}.{extension}")));
     String::from_utf8(files.concat()).unwrap() + example
 }
 
@@ -68,10 +83,19 @@ fn check(name: &str, got: &[[f32; 3]], method: &str, coefficients: &[f32]) {
 
 #[test]
 fn a_storage_buffer_in_wgsl() {
+    a_storage_buffer_of(&committed());
+}
+
+#[test]
+fn a_storage_buffer_of_ones_own_order_in_wgsl() {
+    a_storage_buffer_of(&own(&Place::new()));
+}
+
+fn a_storage_buffer_of(root: &Path) {
     let Some(device) = device(Backend::Vulkan) else {
         return;
     };
-    let bytes = committed("catalogue.std430.bin");
+    let bytes = read(root, "catalogue.std430.bin");
     let words = bytes.chunks_exact(4);
     let words: Vec<f32> = words
         .map(|word| f32::from_le_bytes(word.try_into().unwrap()))
@@ -82,7 +106,7 @@ fn a_storage_buffer_in_wgsl() {
         .collect();
     let first = points.len();
     // What is asked stands in the same buffer, behind the catalogue: the device has one for what it reads.
-    let example = example("wgsl", "wgsl", "wgsl", "catalogue.std430.bin");
+    let example = example(root, "wgsl", "wgsl", "wgsl", "catalogue.std430.bin");
     let example = example.replace("@binding(0)", "@binding(1)");
     let program = format!(
         "{example}
@@ -97,7 +121,7 @@ fn main(@builtin(global_invocation_id) invocation: vec3<u32>) {{
 }}
 "
     );
-    let rows = rows_named(&MATERIALS);
+    let rows = rows(root);
     for (row, _, _) in &rows {
         points.extend(cosines().iter().map(|c| [*row as f32, *c, 0.0, 0.0]));
     }
@@ -111,9 +135,9 @@ fn main(@builtin(global_invocation_id) invocation: vec3<u32>) {{
     }
 }
 
-/// The texels of a committed file, and the format that they are uploaded as.
-fn texels(path: &str) -> (Vec<[f32; 4]>, TextureFormat) {
-    let bytes = committed(path);
+/// The texels of a file, and the format that they are uploaded as.
+fn texels(root: &Path, path: &str) -> (Vec<[f32; 4]>, TextureFormat) {
+    let bytes = read(root, path);
     let reader = ktx2::Reader::new(&bytes).unwrap();
     let level = reader.levels().next().unwrap();
     let half = |pair: &[u8]| half::f16::from_le_bytes(pair.try_into().unwrap()).to_f32();
@@ -136,11 +160,11 @@ fn texels(path: &str) -> (Vec<[f32; 4]>, TextureFormat) {
 }
 
 /// Each material by the function that reads a texture, with the texels of a file; the coefficients as its numbers hold them.
-fn check_texture(path: &str, rounded: fn(f32) -> f32) {
+fn check_texture(root: &Path, path: &str, rounded: fn(f32) -> f32) {
     let Some(device) = device(Backend::Gles) else {
         return;
     };
-    let example = example("gles", "glsl", "glsl", "catalogue.f32.ktx2");
+    let example = example(root, "gles", "glsl", "glsl", "catalogue.f32.ktx2");
     let program = format!(
         "#version 300 es
 {example}
@@ -165,7 +189,7 @@ void main() {{
         texture: Some(TextureShape::Flat),
     });
     let kernel = kernel.unwrap();
-    let (texels, format) = texels(path);
+    let (texels, format) = texels(root, path);
     let texture = Texture {
         width: 4,
         texels: &texels,
@@ -174,7 +198,7 @@ void main() {{
         shape: TextureShape::Flat,
         filter: TextureFilter::Nearest,
     };
-    for (name, (row, method, coefficients)) in MATERIALS.iter().zip(rows_named(&MATERIALS)) {
+    for (name, (row, method, coefficients)) in MATERIALS.iter().zip(rows(root)) {
         let got = match kernel.run(&cosines(), &row_uniform(row), Some(&texture)) {
             Err(fault @ Fault::Absent(_)) => {
                 return crate::not_checked(&fault.to_string());
@@ -188,12 +212,17 @@ void main() {{
 
 #[test]
 fn a_texture_in_gles() {
-    check_texture("catalogue.f32.ktx2", |value| value);
+    check_texture(&committed(), "catalogue.f32.ktx2", |value| value);
+}
+
+#[test]
+fn a_texture_of_ones_own_order_in_gles() {
+    check_texture(&own(&Place::new()), "catalogue.f32.ktx2", |value| value);
 }
 
 #[test]
 fn a_texture_of_halves_in_gles() {
-    check_texture("catalogue.f16.ktx2", |value| {
+    check_texture(&committed(), "catalogue.f16.ktx2", |value| {
         half::f16::from_f32(value).to_f32()
     });
 }
@@ -204,7 +233,8 @@ fn a_texture_in_a_browser() {
     if !CHROMIUM.is_here("the catalogue by WebGL 2") {
         return;
     }
-    let example = example("gles", "glsl", "glsl", "catalogue.f32.ktx2");
+    let root = &committed();
+    let example = example(root, "gles", "glsl", "glsl", "catalogue.f32.ktx2");
     let fragment = format!(
         "#version 300 es
 precision highp float;
@@ -216,12 +246,12 @@ void main() {{
 }}
 "
     );
-    let rows = rows_named(&MATERIALS);
+    let rows = rows(root);
     let asked: Vec<usize> = rows.iter().map(|(row, ..)| *row).collect();
     let hands = format!(
         "<body><script>const FRAGMENT = {}, BYTES = {}, ROWS = {};\n{}</script></body></html>",
         json!(fragment),
-        json!(BASE64_STANDARD.encode(committed("catalogue.std430.bin"))),
+        json!(BASE64_STANDARD.encode(read(root, "catalogue.std430.bin"))),
         json!({ "rows": asked, "points": cosines().len() }),
         include_str!("catalogue_page.js")
     );

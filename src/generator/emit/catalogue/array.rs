@@ -9,7 +9,9 @@
 
 use serde::Serialize;
 
-use super::row::{CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of};
+use super::row::{
+    CATALOGUE, COEFFICIENTS, CatalogueRow, first_dielectric, method_number, methods_of,
+};
 use crate::generator::emit::artifact::{Artifact, CatalogueDetail, Detail};
 use crate::generator::emit::comment;
 use crate::generator::emit::error::Error;
@@ -32,7 +34,7 @@ struct CatalogueView {
     size: usize,
     materials: Vec<MaterialView>,
     dielectrics_doc: Vec<String>,
-    dielectrics: PlaceView,
+    dielectrics: Option<PlaceView>,
 }
 
 #[derive(Serialize)]
@@ -57,13 +59,14 @@ struct RowView {
 }
 
 /// The file of a target; none where the language has no constants, or there is no material. The rows of one method stand
-/// together. `seen` is the viewing conditions in words.
+/// together, unless they are in an order of their own. `seen` is the viewing conditions in words.
 ///
 /// # Errors
 /// A name is a keyword of the language, or the language refuses a text.
 pub fn catalogue_array(
     target: &'static Target,
     rows: &[CatalogueRow],
+    order: RowOrder,
     naming: &Naming,
     seen: &str,
     command: &str,
@@ -71,7 +74,7 @@ pub fn catalogue_array(
     let Some(template) = target.catalogue.filter(|_| !rows.is_empty()) else {
         return Ok(None);
     };
-    let view = view(target, rows, naming, seen, command);
+    let view = view(target, rows, order, naming, seen, command);
     check_names(&view)?;
     let name = format!("{CATALOGUE}.{}", target.extension);
     let bytes = render_template(template, &view, target.finish, &name)?;
@@ -90,6 +93,7 @@ pub fn catalogue_array(
 fn view(
     target: &Target,
     rows: &[CatalogueRow],
+    order: RowOrder,
     naming: &Naming,
     seen: &str,
     command: &str,
@@ -97,7 +101,7 @@ fn view(
     let is_last = |i: usize| i + 1 == rows.len();
     let all = rows.iter().enumerate();
     CatalogueView {
-        header: comments(target, &header(rows, naming, seen, command)),
+        header: comments(target, &header(rows, order, naming, seen, command)),
         guard: guard(target, &constant(naming, CATALOGUE)),
         name: constant(naming, CATALOGUE),
         size: COEFFICIENTS * rows.len(),
@@ -105,10 +109,10 @@ fn view(
             .map(|(i, row)| material(target, naming, i, row, is_last(i)))
             .collect(),
         dielectrics_doc: comments(target, &comment::lines(vec![where_methods_change(rows)])),
-        dielectrics: PlaceView {
+        dielectrics: (order == RowOrder::ByMethod).then(|| PlaceView {
             constant: constant(naming, DIELECTRICS),
             row: first_dielectric(rows),
-        },
+        }),
     }
 }
 
@@ -169,10 +173,18 @@ fn where_methods_change(rows: &[CatalogueRow]) -> String {
     }
 }
 
-fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> Vec<String> {
+fn header(
+    rows: &[CatalogueRow],
+    order: RowOrder,
+    naming: &Naming,
+    seen: &str,
+    command: &str,
+) -> Vec<String> {
     let mut lines = start(command);
     let array = constant(naming, CATALOGUE);
     let row = constant(naming, &rows[0].name);
+    let suffix = naming.precision.suffix();
+    let function = format!("{}{}{suffix}", naming.prefix, rows[0].method.name);
     lines.push(format!(
         "{CATALOGUE}: coefficients fitted to {} materials, four rows of {array} each, c0 to c3",
         rows.len()
@@ -184,12 +196,21 @@ fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> 
     }
     lines.push(source(rows[0].method));
     lines.push(format!(
-        "Use: {}{}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
+        "Use: {function}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
          function of the material's method. By a constant it costs nothing. If the material is known at run time only, do not \
          index the array: some compilers copy it into the memory of each invocation. Read the same numbers from a buffer \
-         ({CATALOGUE_BUFFER}) or a texture ({CATALOGUE}.f32.ktx2). A run without flags writes both",
-        naming.prefix, rows[0].method.name
+         ({CATALOGUE_BUFFER}) or a texture ({CATALOGUE}.f32.ktx2), where the fourth number of c0 is 1 for fitted and 2 for \
+         fitted_dielectric. {}",
+        match order {
+            RowOrder::ByMethod => "A run without flags writes both",
+            RowOrder::AsGiven => "They lie beside this folder",
+        }
     ));
+    if naming.precision.is_half() {
+        lines.push(
+            "Half precision: the coefficients were fitted as half floats, and each file holds them exactly".to_owned(),
+        );
+    }
     lines.push(format!("Truth: {seen}"));
     lines.push(worst(rows));
     lines.push(
@@ -222,18 +243,37 @@ fn worst(rows: &[CatalogueRow]) -> String {
 /// Checks that the constants' names are free in every language, as functions' names are.
 fn check_names(view: &CatalogueView) -> Result<(), Error> {
     let materials = view.materials.iter().map(|material| &material.constant);
-    let mut names = materials.chain([&view.name, &view.dielectrics.constant]);
+    let first = view.dielectrics.as_ref().map(|place| &place.constant);
+    let mut names = materials.chain([&view.name]).chain(first);
     match names.find_map(|name| targets::name_fault(name)) {
         Some(what) => Err(Error::Name { what }),
         None => Ok(()),
     }
 }
 
+/// The order of the rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowOrder {
+    /// By method, then by name. The row where the method changes has a constant.
+    ByMethod,
+    /// The order in which materials were named.
+    AsGiven,
+}
+
 /// The file's name.
 pub const CATALOGUE_BUFFER: &str = "catalogue.std430.bin";
-/// The fourth number of a `vec4`, and alpha in textures. With 1, image readers that multiply by alpha change nothing.
-pub const FOURTH: f32 = 1.0;
+/// The name of the file in half floats.
+pub const HALF_BUFFER: &str = "catalogue.f16.std430.bin";
 const ELEMENT: usize = 16;
+/// The fourth numbers, in words.
+pub const FOURTH: &str = "of c0 the method's number, of c1 to c3 1";
+
+/// The fourth numbers of all rows, in the buffers and the textures: of c0 the method's number, otherwise 1. None is 0, so that readers of
+/// images that multiply by alpha lose nothing.
+pub fn fourths(rows: &[CatalogueRow]) -> impl Iterator<Item = f32> {
+    let of = |row: &CatalogueRow| [f32::from(method_number(row.method)), 1.0, 1.0, 1.0];
+    rows.iter().flat_map(of)
+}
 
 /// The entry of the buffer's file in `catalogue.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -241,10 +281,18 @@ pub struct BufferDetail {
     file: &'static str,
     layout: &'static str,
     stride: usize,
-    fourth: f32,
+    fourth: &'static str,
 }
 
 impl BufferDetail {
+    /// The entry of the file in half floats.
+    pub const HALF: BufferDetail = BufferDetail {
+        file: HALF_BUFFER,
+        layout: "std430, little endian, no header: array<vec4<f16>>, c0 to c3 of each material",
+        stride: COEFFICIENTS * ELEMENT / 2,
+        fourth: FOURTH,
+    };
+
     /// The entry, which is the same for every catalogue.
     pub const ENTRY: BufferDetail = BufferDetail {
         file: CATALOGUE_BUFFER,
@@ -256,9 +304,19 @@ impl BufferDetail {
 
 /// The file's bytes: rows in the order of the array.
 pub fn catalogue_buffer(rows: &[CatalogueRow]) -> Vec<u8> {
+    numbers(rows).flat_map(f32::to_le_bytes).collect()
+}
+
+/// The bytes of the file in half floats.
+pub fn half_buffer(rows: &[CatalogueRow]) -> Vec<u8> {
+    let halves = numbers(rows).map(half::f16::from_f32);
+    halves.flat_map(half::f16::to_le_bytes).collect()
+}
+
+fn numbers(rows: &[CatalogueRow]) -> impl Iterator<Item = f32> {
     let colours = rows.iter().flat_map(|row| &row.coefficients);
-    let numbers = colours.flat_map(|[r, g, b]| [*r as f32, *g as f32, *b as f32, FOURTH]);
-    numbers.flat_map(f32::to_le_bytes).collect()
+    let fours = colours.zip(fourths(rows));
+    fours.flat_map(|([r, g, b], fourth)| [*r as f32, *g as f32, *b as f32, fourth])
 }
 
 /// The byte offset of the material with this index.

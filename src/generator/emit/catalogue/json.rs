@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::array;
-use super::row::{COEFFICIENTS, CatalogueRow, methods_of};
+use super::row::{COEFFICIENTS, CatalogueRow, method_number, methods_of};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueMethod {
+    number: u8,
     name: &'static str,
     formula: &'static [&'static str],
     source: String,
@@ -18,6 +19,7 @@ impl CatalogueMethod {
     pub fn all(rows: &[CatalogueRow]) -> Vec<CatalogueMethod> {
         let methods = methods_of(rows).into_iter();
         let about = methods.map(|method| CatalogueMethod {
+            number: method_number(method),
             name: method.name,
             formula: method.formula,
             source: method.source_in_full(),

@@ -89,6 +89,24 @@ pub fn catalogue_rows(
     rows_by_method(subjects, naming, MaterialInMedium::fitted_with_four, false)
 }
 
+/// The row of each material, in this order; the index of the first one without a fitted method of four coefficients is the error within.
+///
+/// # Errors
+/// As [`specialised_function`].
+pub fn rows_in_order(
+    subjects: &[MaterialInMedium],
+    naming: &Naming,
+) -> Result<Result<Vec<CatalogueRow>, usize>, Error> {
+    let four = |subject: &MaterialInMedium| {
+        let fits = !subject.has_films();
+        subject.fitted_with_four().filter(|_| fits)
+    };
+    if let Some(place) = subjects.iter().position(|subject| four(subject).is_none()) {
+        return Ok(Err(place));
+    }
+    rows_of(subjects, naming, four, false).map(Ok)
+}
+
 /// The same rows for adapters, in which a material under films has the method that follows films, and metals have their base of a clear
 /// coat too.
 ///
@@ -108,6 +126,17 @@ fn rows_by_method(
     method_of: fn(&MaterialInMedium) -> Option<&'static str>,
     with_coats: bool,
 ) -> Result<Vec<CatalogueRow>, Error> {
+    let mut rows = rows_of(subjects, naming, method_of, with_coats)?;
+    rows.sort_by(|a, b| (a.method.name, &a.name).cmp(&(b.method.name, &b.name)));
+    Ok(rows)
+}
+
+fn rows_of(
+    subjects: &[MaterialInMedium],
+    naming: &Naming,
+    method_of: fn(&MaterialInMedium) -> Option<&'static str>,
+    with_coats: bool,
+) -> Result<Vec<CatalogueRow>, Error> {
     let bounds = Bounds::recorded();
     let row = |i: usize| {
         let subject = &subjects[i];
@@ -119,12 +148,7 @@ fn rows_by_method(
         Some(row)
     };
     let found = in_parallel(subjects.len(), &row, &mut |_, _| {});
-    let mut rows = found
-        .into_iter()
-        .flatten()
-        .collect::<Result<Vec<_>, Error>>()?;
-    rows.sort_by(|a, b| (a.method.name, &a.name).cmp(&(b.method.name, &b.name)));
-    Ok(rows)
+    found.into_iter().flatten().collect()
 }
 
 fn catalogue_row(
@@ -162,6 +186,7 @@ fn within_gamut(subject: &MaterialInMedium, emitted: EmittedFunction) -> Emitted
     }
     let aim = FitObjective {
         gamut,
+        precision: emitted.precision,
         ..FitObjective::default()
     };
     let found = coefficients_and_error(emitted.method, &FitCurve::of(subject), aim);
@@ -207,15 +232,22 @@ fn closer_fit(
     }))
 }
 
+/// The number of a row's method, which the fourth number of its c0 holds in the buffer and the textures: 1 for `fitted`, 2 for
+/// `fitted_dielectric`.
+pub fn method_number(method: &Method) -> u8 {
+    1 + u8::from(method.name != Method::FITTED.name)
+}
+
 /// The first row of the array that takes `fitted_dielectric`; the one after the last where all take the same method.
 pub fn first_dielectric(rows: &[CatalogueRow]) -> usize {
     let first = |row: &CatalogueRow| row.method.name == rows[0].method.name;
     COEFFICIENTS * rows.partition_point(first)
 }
 
-/// The methods of the rows, each once. Rows of one method stand together.
-pub(super) fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
+/// The methods of the rows, each once, by number.
+pub fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
+    methods.sort_by_key(|method| method_number(method));
     methods.dedup_by_key(|method| method.name);
     methods
 }
