@@ -74,7 +74,7 @@ pub struct BakeFlags {
     /// f82_tint, hoffman_f82, fitted_f82, fitted, fitted_dielectric [default: fitted; schlick with --layout]
     #[arg(long, value_name = "NAME", requires = "dfg", conflicts_with_all = NO_MATERIAL, value_parser = split_sum_method)]
     pub method: Option<&'static Method>,
-    /// What an engine binds in place of its own table: filament (128 x 128), unreal (128 x 32); of schlick
+    /// What an engine binds in place of its own table: bevy, filament and three (128 x 128), unreal (128 x 32); of schlick
     #[arg(long, value_name = "NAME", requires = "dfg", conflicts_with_all = ["size", "axis", "material", "medium"], value_parser = in_any_case(one_of("layout", SplitSumLayout::ENGINES, SplitSumLayout::name)))]
     pub layout: Option<SplitSumLayout>,
     /// Texels of a table, 2 to 16384 [default: 64; a side of --dfg, 2 to 1024: 128]

@@ -336,7 +336,7 @@ fn cost_text(families: &[Vec<CostRow>]) -> String {
             let body = beside(several);
             let sources: String = several.iter().map(|rows| about(rows) + "\n").collect();
             format!(
-                "{body}\nIn per cent of dielectric_exact, its argument from a uniform; a + is a texture fetch.\n{sources}"
+                "{body}\nEach cell: the cost in the unit of its column, as README, `audit` and charts print it, and in brackets per cent of dielectric_exact, its argument from a uniform; a + is a texture fetch.\n{sources}"
             )
         }
     }
@@ -379,11 +379,18 @@ fn beside(families: &[Vec<CostRow>]) -> String {
     let count = families.first().map_or(0, Vec::len);
     let line = |place: usize| -> Vec<String> {
         let label = families[0][place].id.label();
-        let shares = families.iter().map(|rows| percent(&rows[place]));
-        [label].into_iter().chain(shares).collect()
+        let cells = families.iter().map(|rows| cost_and_share(&rows[place]));
+        [label].into_iter().chain(cells).collect()
     };
     let lines: Vec<Vec<String>> = (0..count).map(line).collect();
     table::text_table(&head, &lines)
+}
+
+fn cost_and_share(row: &CostRow) -> String {
+    match &row.figures {
+        Ok(figures) => format!("{} ({})", short(Some(figures.cost())), percent(row)),
+        Err(_) => percent(row),
+    }
 }
 
 /// The compiler of a family's figures, and the family's description.

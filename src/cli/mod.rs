@@ -9,6 +9,7 @@
 mod audit;
 mod bake;
 mod chart;
+mod clean;
 mod compare;
 mod completions;
 mod cost;
@@ -138,6 +139,8 @@ pub enum Command {
     Plan(Box<plan::PlanFlags>),
     /// Write a page that draws every effect live, beside the exact law, with the functions to copy
     Gallery(gallery::GalleryFlags),
+    /// Remove what fresnel-gen wrote into a folder, and nothing else
+    Clean(clean::CleanFlags),
     /// Write a completion script for a shell to stdout
     #[command(
         after_help = "Examples:\n  fresnel-gen completions bash > ~/.local/share/bash-completion/completions/fresnel-gen\n  fresnel-gen completions fish > ~/.config/fish/completions/fresnel-gen.fish"
@@ -155,7 +158,7 @@ impl Cli {
         };
         match command {
             Command::Generate(flags) => named.generation(flags),
-            Command::Completions(_) => {}
+            Command::Clean(_) | Command::Completions(_) => {}
             Command::Methods(flags) => named.write(&flags.report.json),
             Command::Effects(flags) => named.write(&flags.report.json),
             Command::Targets(flags) => named.write(&flags.report.json),
@@ -243,6 +246,7 @@ fn run_command(cli: &Cli, progress: Progress, announce: Announce) -> Result<Outp
     match &cli.command {
         None => generate::run(&cli.generate, announce),
         Some(Command::Generate(flags)) => generate::run(flags, announce),
+        Some(Command::Clean(flags)) => clean::run(flags, announce),
         Some(Command::Completions(flags)) => Ok(Output {
             stdout: completions(flags.shell).into_bytes(),
             is_file: true,

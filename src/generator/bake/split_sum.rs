@@ -200,7 +200,7 @@ const ENGINES_METHOD: &str = "schlick";
 pub fn usual_method(layout: SplitSumLayout) -> &'static Method {
     let name = match layout {
         SplitSumLayout::Terms => "fitted",
-        SplitSumLayout::Filament | SplitSumLayout::Unreal => ENGINES_METHOD,
+        _ => ENGINES_METHOD,
     };
     methods::find(name).expect("it is in the list of methods")
 }
@@ -255,7 +255,7 @@ impl DescribedTable<'_> {
             SplitSumLayout::Filament => {
                 "red the mean of w, green the mean of 1, w = (1 - h.v)^5; blue nothing".to_owned()
             }
-            SplitSumLayout::Unreal => {
+            SplitSumLayout::Bevy | SplitSumLayout::Three | SplitSumLayout::Unreal => {
                 "red the mean of 1 - w, green the mean of w, w = (1 - h.v)^5; blue nothing"
                     .to_owned()
             }
@@ -271,7 +271,9 @@ impl DescribedTable<'_> {
     fn albedo(&self) -> String {
         match self.request.layout {
             SplitSumLayout::Filament => "mix(red, green, f0)".to_owned(),
-            SplitSumLayout::Unreal => "f0 red + green".to_owned(),
+            SplitSumLayout::Bevy | SplitSumLayout::Three | SplitSumLayout::Unreal => {
+                "f0 red + green".to_owned()
+            }
             SplitSumLayout::Terms => {
                 let numbers = self.numbers().into_iter().enumerate();
                 let term = |(i, number): (usize, String)| {
@@ -321,9 +323,17 @@ impl DescribedTable<'_> {
 
     fn places(&self) -> [String; 2] {
         let design = &self.design;
+        let of = [
+            (design.cosine, "cos_theta_v"),
+            (design.roughness, "roughness"),
+        ];
+        let [(u, along_u), (v, along_v)] = match design.is_transposed() {
+            true => [of[1], of[0]],
+            false => of,
+        };
         [
-            self.place(design.cosine, "cos_theta_v", design.width),
-            self.place(design.roughness, "roughness", design.height),
+            self.place(u, along_u, design.width),
+            self.place(v, along_v, design.height),
         ]
     }
 
@@ -332,9 +342,7 @@ impl DescribedTable<'_> {
             SplitSumLayout::Unreal => {
                 "GGX, height-correlated Smith masking with c (1 - alpha) + alpha in place of roots"
             }
-            SplitSumLayout::Terms | SplitSumLayout::Filament => {
-                "GGX, height-correlated Smith masking"
-            }
+            _ => "GGX, height-correlated Smith masking",
         }
     }
 
@@ -346,6 +354,10 @@ impl DescribedTable<'_> {
         terms: Range<usize>,
     ) -> Picture {
         let [u, v] = self.places();
+        let first = match self.design.is_transposed() {
+            true => "grazing",
+            false => "the smoothest",
+        };
         let about = vec![
             format!(
                 "{MARK}: fresnel-gen {}",
@@ -362,7 +374,7 @@ impl DescribedTable<'_> {
                 self.channels(format)
             ),
             format!(
-                "Lookup: u = {u}, v = {v}; the first row is the smoothest; filter: linear; wrap: clamp to edge; no mipmaps, level 0."
+                "Lookup: u = {u}, v = {v}; the first row is {first}; filter: linear; wrap: clamp to edge; no mipmaps, level 0."
             ),
             format!(
                 "Error of a channel's filtered lookup, weights in steps of 1/256, from roughness {LEAST_ROUGHNESS} on: at most {:.6}. CC0-1.0.",
@@ -370,8 +382,11 @@ impl DescribedTable<'_> {
             ),
         ];
         let rows = (0..self.design.height).map(|j| {
-            let (_, roughness) = self.design.at(0.0, j as f64);
-            format!("roughness {roughness:.6}")
+            let (cos_v, roughness) = self.design.at(0.0, j as f64);
+            match self.design.is_transposed() {
+                true => format!("cos_theta_v {cos_v:.6}"),
+                false => format!("roughness {roughness:.6}"),
+            }
         });
         Picture::of_terms(
             &self.part(&terms),

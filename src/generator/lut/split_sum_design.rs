@@ -1,17 +1,21 @@
 //! The design of a split-sum table: its axes, size, masking and channels, and the layouts that engines bind.
 //!
-//! The layouts of two engines are taken from their shaders. Both take n·v along u and roughness along v, both linear, with texel
-//! i of N at (i + 1/2)/N and the smoothest row first. Both have two terms of Schlick's approximation, w = (1 - h·v)⁵:
+//! The layouts of four engines are taken from their shaders. All take n·v along u and roughness along v, both linear, with texel
+//! i of N at (i + 1/2)/N and the smoothest row first; three.js has roughness along u and n·v along v. All have two terms of Schlick's
+//! approximation, w = (1 - h·v)⁵:
 //!
 //! | engine | red | green | texels | masking |
 //! |---|---|---|---|---|
-//! | Filament | ∫ w | ∫ 1 | 128 × 128 | height-correlated Smith |
+//! | Bevy | ∫ (1 - w) | ∫ w | 128 × 128 | height-correlated Smith |
+//! | Filament | ∫ w | ∫ 1 | 128 × 128 | the same |
+//! | three.js | ∫ (1 - w) | ∫ w | 128 × 128, its own 16 × 16 | the same |
 //! | Unreal | ∫ (1 - w) | ∫ w | 128 × 32 | the same with roots replaced by lines: Λ is linear in α |
 //!
 //! Sources: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>,
 //! and its `cmgen --ibl-dfg-multiscatter`, whose own rows are shifted by one texel: it integrates row i at (i + 3/2)/N. Karis,
 //! "Real Shading in Unreal Engine 4", 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>, `PreIntegratedGF`
-//! and `Vis_SmithJointApprox`.
+//! and `Vis_SmithJointApprox`. Bevy's `pbr_lighting.wgsl`, `F_AB` with `DFG_LUT`, which reads `environment_map/dfg.ktx2`; three.js's
+//! `DFGLUTData.js` and `lights_physical_pars_fragment.glsl.js` (r184 to r187).
 
 use super::orthogonal::Orthogonal;
 use super::split_sum::TERMS;
@@ -79,20 +83,31 @@ impl SplitSumAxis {
 pub enum SplitSumLayout {
     /// One term per channel: the factor of each of a material's numbers.
     Terms,
+    /// The layout of Bevy.
+    Bevy,
     /// The layout of Filament.
     Filament,
+    /// The layout of three.js.
+    Three,
     /// The layout of Unreal Engine.
     Unreal,
 }
 
 impl SplitSumLayout {
     /// The layouts of engines.
-    pub const ENGINES: [SplitSumLayout; 2] = [SplitSumLayout::Filament, SplitSumLayout::Unreal];
+    pub const ENGINES: [SplitSumLayout; 4] = [
+        SplitSumLayout::Bevy,
+        SplitSumLayout::Filament,
+        SplitSumLayout::Three,
+        SplitSumLayout::Unreal,
+    ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             SplitSumLayout::Terms => "terms",
+            SplitSumLayout::Bevy => "bevy",
+            SplitSumLayout::Three => "three",
             SplitSumLayout::Filament => "filament",
             SplitSumLayout::Unreal => "unreal",
         }
@@ -104,7 +119,9 @@ impl SplitSumLayout {
         match self {
             SplitSumLayout::Terms => {}
             SplitSumLayout::Filament => [terms[0], terms[1]] = [grazing, white],
-            SplitSumLayout::Unreal => [terms[0], terms[1]] = [white - grazing, grazing],
+            SplitSumLayout::Bevy | SplitSumLayout::Three | SplitSumLayout::Unreal => {
+                [terms[0], terms[1]] = [white - grazing, grazing];
+            }
         }
     }
 }
@@ -118,9 +135,9 @@ pub struct SplitSumDesign {
     pub functions: Option<Orthogonal>,
     /// The meaning of each channel. An engine's layout also decides how masking is computed and where texels lie.
     pub layout: SplitSumLayout,
-    /// Texels along n·v.
+    /// Texels along u: n·v, or roughness in three.js's layout.
     pub width: usize,
-    /// Texels along roughness.
+    /// Texels along v: roughness, or n·v.
     pub height: usize,
     /// The axis of cosines.
     pub cosine: SplitSumAxis,
@@ -149,7 +166,7 @@ impl SplitSumDesign {
     pub fn of_engine(basis: Basis, layout: SplitSumLayout) -> Self {
         let height = match layout {
             SplitSumLayout::Unreal => 32,
-            SplitSumLayout::Filament | SplitSumLayout::Terms => 128,
+            _ => 128,
         };
         SplitSumDesign {
             basis,
@@ -166,13 +183,18 @@ impl SplitSumDesign {
     pub fn channels(&self) -> usize {
         match self.layout {
             SplitSumLayout::Terms => self.basis.terms(),
-            SplitSumLayout::Filament | SplitSumLayout::Unreal => 2,
+            _ => 2,
         }
     }
 
     /// Whether the first and last texel lie at 0 and 1. An engine's texel i of N lies at (i + 1/2)/N.
     fn ends_are_centres(&self) -> bool {
         self.layout == SplitSumLayout::Terms
+    }
+
+    /// Whether roughness lies along u.
+    pub fn is_transposed(&self) -> bool {
+        self.layout == SplitSumLayout::Three
     }
 
     /// The scale and offset that turn the place on an axis into u: u = scale place + offset.
@@ -193,10 +215,9 @@ impl SplitSumDesign {
                 (texel + 0.5) / texels as f64
             }
         };
-        (
-            self.cosine.value(place(column, self.width)),
-            self.roughness.value(place(row, self.height)),
-        )
+        let (u, v) = (place(column, self.width), place(row, self.height));
+        let (cosine, roughness) = if self.is_transposed() { (v, u) } else { (u, v) };
+        (self.cosine.value(cosine), self.roughness.value(roughness))
     }
 
     /// The column and the row of a cosine and a roughness, both clamped to [0, 1]. Texels are clamped to the edge.
@@ -209,10 +230,14 @@ impl SplitSumDesign {
                 (place * texels as f64 - 0.5).clamp(0.0, last)
             }
         };
-        (
-            texel(self.cosine.place(cos_v.clamp(0.0, 1.0)), self.width),
-            texel(self.roughness.place(roughness.clamp(0.0, 1.0)), self.height),
-        )
+        let cosine = self.cosine.place(cos_v.clamp(0.0, 1.0));
+        let roughness = self.roughness.place(roughness.clamp(0.0, 1.0));
+        let (u, v) = if self.is_transposed() {
+            (roughness, cosine)
+        } else {
+            (cosine, roughness)
+        };
+        (texel(u, self.width), texel(v, self.height))
     }
 
     /// What the channels hold at a cosine and a roughness, both in [0, 1]; α is roughness².
@@ -239,7 +264,7 @@ impl SplitSumDesign {
         rule.each_lit(cos_v, alpha, |cos_h, light, weight| {
             let weight = match self.layout {
                 SplitSumLayout::Unreal => weight * lines_for_roots(cos_v, light, alpha),
-                SplitSumLayout::Terms | SplitSumLayout::Filament => weight,
+                _ => weight,
             };
             self.basis.add(cos_h, weight, sums);
         });
@@ -279,6 +304,8 @@ mod tests {
         for design in [
             &engines[0],
             &engines[1],
+            &engines[2],
+            &engines[3],
             &SplitSumDesign::square(basis, 9, axes),
         ] {
             for (column, row) in [(0.0, 0.0), (3.5, 2.0), (8.0, 7.25)] {
@@ -287,6 +314,11 @@ mod tests {
                 assert!((x - column).abs() < 1e-9 && (y - row).abs() < 1e-9);
             }
         }
-        assert_eq!(engines[1].at(0.0, 0.0), (0.5 / 128.0, 0.5 / 32.0));
+        assert_eq!(engines[3].at(0.0, 0.0), (0.5 / 128.0, 0.5 / 32.0));
+        assert_eq!(
+            engines[2].at(3.5, 0.0),
+            (0.5 / 128.0, 4.0 / 128.0),
+            "roughness lies along u"
+        );
     }
 }

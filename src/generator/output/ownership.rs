@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use super::manifest::Scope;
+use super::manifest::{self, Scope};
 use crate::generator::emit::{Artifact, CATALOGUE, CATALOGUE_BUFFER, EFFECTS, HALF_BUFFER, MARK};
 use crate::generator::error::Error;
 use crate::generator::flavours;
@@ -253,6 +253,18 @@ pub fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
     })?;
     remove_empty_folders(out_dir, &path);
     Ok(true)
+}
+
+/// Removes the manifest where all that it listed is gone: a file with exactly these bytes, which this program has just written.
+///
+/// # Errors
+/// The disk refuses.
+pub fn remove_manifest(out_dir: &Path, written: &[u8]) -> Result<(), Error> {
+    let path = out_dir.join(manifest::FILE);
+    if !folder::is_plain_file(&path) || folder::read(&path)?.as_deref() != Some(written) {
+        return Ok(());
+    }
+    fs::remove_file(&path).map_err(|source| Error::Remove { path, source })
 }
 
 /// Removes a temporary file that a killed run left behind, and the folders that it leaves empty. A failure does no harm.

@@ -23,6 +23,8 @@ pub struct Competitor {
     pub form: &'static str,
     /// How many numbers describe a material in it.
     pub inputs: usize,
+    /// Whether it takes a number that a user's function does not have, and that does not follow from those it has.
+    pub is_foreign: bool,
     /// Its cost on a GPU, and its largest error.
     pub point: CostAndError,
 }
@@ -58,7 +60,8 @@ impl Comparison<'_> {
 }
 
 /// The methods that are no worse than a user's function, the best first. The first list takes no more numbers than the function
-/// does and dominates it. The second takes more, and so pays for its gain and dominates nothing.
+/// does, and none that the function has not, and dominates it. The second takes more or others, and so pays for its gain and dominates
+/// nothing.
 pub fn dominating<'a>(
     own: &Own,
     competitors: &'a [Competitor],
@@ -76,7 +79,7 @@ pub fn dominating<'a>(
     });
     found
         .into_iter()
-        .partition(|one| one.other.inputs <= own.inputs)
+        .partition(|one| one.other.inputs <= own.inputs && !one.other.is_foreign)
 }
 
 /// A sentence: which method dominates a user's function, or that none does, and which would with more inputs.
@@ -93,9 +96,12 @@ pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
     let more = with_more.first().map(|best| {
         let (method, inputs, own) = (best.other.method, best.other.inputs, own.inputs);
         let (error, cost) = multiples(best);
-        format!(
-            "; beside {method} it errs {error} and costs {cost}, but {method} takes {inputs} inputs instead of {own}"
-        )
+        let takes = if inputs > own {
+            format!("{inputs} inputs instead of {own}")
+        } else {
+            "other inputs, which do not follow from its own".to_owned()
+        };
+        format!("; beside {method} it errs {error} and costs {cost}, but {method} takes {takes}")
     });
     among_as_few + &more.unwrap_or_default()
 }
@@ -229,6 +235,7 @@ mod tests {
             method,
             form: "library",
             inputs,
+            is_foreign: false,
             point: CostAndError { cost, error },
         };
         [
@@ -287,6 +294,7 @@ mod tests {
             method: "constant_f0",
             form: "library",
             inputs: 3,
+            is_foreign: false,
             point: CostAndError {
                 cost: 0.0,
                 error: 0.66,
@@ -340,6 +348,17 @@ mod tests {
         assert_eq!(
             sentence(&own(3, 0.2, 28.0), &competitors),
             "dominated by schlick: this function errs 2 times as much and costs 2.8 times as much; beside fitted it errs 20 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
+        );
+    }
+    /// A method whose numbers nobody can make from the function's own dominates nothing, though it takes no more of them.
+    #[test]
+    fn a_method_of_other_inputs_dominates_nothing() {
+        let mut all = competitors();
+        all[2].is_foreign = true;
+        let said = sentence(&own(3, 0.2, 28.0), &all);
+        assert_eq!(
+            said,
+            "every method of ours with as few inputs errs more or costs more; beside schlick it errs 2 times as much and costs 2.8 times as much, but schlick takes other inputs, which do not follow from its own"
         );
     }
 }

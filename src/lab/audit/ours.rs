@@ -11,7 +11,7 @@ use crate::lab::cost::{
 };
 use crate::lab::process::{Pool, Surroundings};
 use crate::language::ir::{Checked, Column, Value, evaluate};
-use crate::language::methods::{self, Method};
+use crate::language::methods::{self, Input, InputSource, Method, find_input};
 use crate::physics::num::{Precision, each_channel};
 
 /// A method with its error, and its cost on each family where it is known.
@@ -25,16 +25,38 @@ pub struct Ours {
 }
 
 impl Ours {
-    /// As a competitor of a user's function, on the family with this index.
-    pub fn competitor(&self, place: usize) -> Option<Competitor> {
+    /// As a competitor of a user's function that has these inputs of our methods, on the family with this index.
+    pub fn competitor(&self, place: usize, had: &[&str]) -> Option<Competitor> {
         let (cost, error) = (self.costs[place]?, self.error);
         Some(Competitor {
             method: self.method,
             form: self.form,
             inputs: self.inputs,
+            is_foreign: self.inputs > 0 && takes_others(self.method, had),
             point: CostAndError { cost, error },
         })
     }
+}
+
+/// Whether a method takes a number that does not follow from these. All numbers of a material follow from its index and from what was
+/// fitted to its spectrum, and F82 from its tint.
+fn takes_others(method: &str, had: &[&str]) -> bool {
+    let says_all = |name: &&str| {
+        let is_fitted = |input: &Input| matches!(input.source, InputSource::Fit);
+        ["eta", "n"].contains(name) || find_input(name).is_some_and(is_fitted)
+    };
+    if had.is_empty() || had.iter().any(says_all) {
+        return false;
+    }
+    let follows = |input: &Input| {
+        let same = match input.name {
+            "f82" => "tint",
+            "tint" => "f82",
+            name => name,
+        };
+        had.iter().any(|name| [input.name, same].contains(name))
+    };
+    methods::find(method).is_some_and(|method| !method.inputs.iter().all(follows))
 }
 
 /// The methods that can replace a user's function, with their costs, for all materials.

@@ -296,6 +296,8 @@ impl Audited<'_> {
     /// known.
     fn compare(&self, row: &mut AuditRow) {
         let Ok(ran) = self.ran else { return };
+        let quantities = self.bound.arguments.iter().filter_map(|one| one.quantity);
+        let had: Vec<&str> = quantities.map(|one| one.input.name).collect();
         for (place, cost) in self.costs.iter().enumerate() {
             let Some(net) = cost.net else { continue };
             let own = Own {
@@ -307,7 +309,8 @@ impl Audited<'_> {
                 fails: row.status == Status::Fail,
             };
             let all = self.ours.iter().filter(|_| row.is_cost_comparable);
-            let all: Vec<Competitor> = all.filter_map(|ours| ours.competitor(place)).collect();
+            let all = all.filter_map(|ours| ours.competitor(place, &had));
+            let all: Vec<Competitor> = all.collect();
             let dominates = |one: &Comparison| Dominating {
                 method: one.other.method,
                 form: one.other.form,

@@ -318,7 +318,7 @@ fn texel_from_end(bytes: &[u8], from_end: usize) -> [f64; 4] {
 #[test]
 fn engines_get_a_table_in_their_order() {
     let place = Place::new();
-    for (layout, rows) in [("filament", 128), ("unreal", 32)] {
+    for (layout, rows) in [("bevy", 128), ("filament", 128), ("unreal", 32)] {
         let ran = place.done(&format!(
             "bake --dfg --layout {layout} --format ktx2 --json -"
         ));
@@ -346,6 +346,10 @@ fn engines_get_a_table_in_their_order() {
         assert!(rough[grazing] < 0.05 && smooth[grazing] < 0.01);
         assert_eq!(rough[2..], [0.0, 1.0]);
     }
+    let ran = place.done("bake --dfg --layout three --format ktx2 --json -");
+    let lookup = &ran.json()["rows"][0]["lookup"];
+    assert_eq!(lookup["u"], "clamp(roughness, 0.0, 1.0)");
+    assert_eq!(lookup["v"], "clamp(cos_theta_v, 0.0, 1.0)");
     place.refused("bake --dfg --layout unrel", &["unreal", "filament"]);
     place.refused(
         "bake --dfg --layout unreal --method fitted",
@@ -526,4 +530,28 @@ fn rows_that_leave_an_atlas_are_named() {
     // A run without flags writes its own atlas there.
     let usual = place.done("generate");
     assert!(usual.err.contains("lut/atlas.json"), "{usual:?}");
+}
+
+/// The table and the functions that read it: the effect's own files, listed like those of a run that names it.
+#[test]
+fn functions_come_with_the_split_sum_table() {
+    let place = Place::new();
+    place.done("bake --dfg --method fitted --size 16 --format ktx2 --target wgsl,gles");
+    let text = place.read(&format!("{OUT}/wgsl/effects/image_light.wgsl"));
+    assert!(text.contains("fn fresnel_image_reflectance("), "{text}");
+    place.done("--effect image_light --target wgsl,gles --check");
+    let listed = place.listed();
+    for file in ["lut/dfg_fitted.ktx2", "gles/effects/image_light.glsl"] {
+        assert!(listed.contains(&file.to_owned()), "{listed:?}");
+    }
+    for (line, words) in [
+        ("--layout unreal --target wgsl", "leave --target out"),
+        ("--axis fourth-root --target wgsl", "leave --axis out"),
+        ("--method fitted_film --target wgsl", "four terms at most"),
+        ("--format png16 --target wgsl", "ktx2"),
+    ] {
+        place.refused(&format!("bake --dfg {line}"), &[words]);
+    }
+    // Two terms lie in any file.
+    place.done("bake --dfg --method schlick --size 16 --format png16 --target hlsl");
 }

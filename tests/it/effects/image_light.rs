@@ -21,12 +21,18 @@ const BLUE: [f64; 4] = [0.3348, 0.3663, 0.4302, -0.1325];
 static TABLE: LazyLock<StoredSplitSum> = LazyLock::new(|| {
     let basis = Method::FITTED.basis().unwrap();
     let design = SplitSumDesign::square(basis, SPLIT_SUM_SIZE, SPLIT_SUM_AXES);
-    SplitSum::new(&design, &mut |_, _| {}).unwrap().stored(Depth::Half)
+    SplitSum::new(&design, &mut |_, _| {})
+        .unwrap()
+        .stored(Depth::Half)
 });
 
 fn mean(c: [f64; 4]) -> f64 {
     let averages = Method::FITTED.basis().unwrap().averages();
-    c.iter().zip(averages).map(|(c, mean)| c * mean).sum::<f64>().clamp(0.0, 1.0)
+    c.iter()
+        .zip(averages)
+        .map(|(c, mean)| c * mean)
+        .sum::<f64>()
+        .clamp(0.0, 1.0)
 }
 
 /// What a function gives for a grey surface at each pair of cosine and roughness.
@@ -53,7 +59,9 @@ fn given(name: &str, c: [f64; 4]) -> Vec<(f64, f64, f64)> {
     arguments.push(vector([mean(c); 3]));
     let result = evaluate(&function(name), &arguments);
     let pairs = pairs.into_iter().enumerate();
-    pairs.map(|(i, (cos, roughness))| (cos, roughness, result.at(i)[0])).collect()
+    pairs
+        .map(|(i, (cos, roughness))| (cos, roughness, result.at(i)[0]))
+        .collect()
 }
 
 /// E_F, E and F_ms as the table and the series have them.
@@ -83,9 +91,18 @@ fn metals_reflect_what_the_terms_and_the_bounces_give_and_lamps_get_the_factor()
         for ((cos, roughness, image), (_, _, factor)) in images.into_iter().zip(factors) {
             let [once, white, more] = wanted(c, cos, roughness);
             let all = once + (1.0 - white) * more;
-            assert!((image - all).abs() < 1e-6, "{cos} {roughness}: {image} {all}");
-            assert!((factor * once - all).abs() < 1e-6, "{cos} {roughness}: {factor}");
-            assert!(factor >= 1.0 && image <= 1.0005, "{cos} {roughness}: {factor} {image}");
+            assert!(
+                (image - all).abs() < 1e-6,
+                "{cos} {roughness}: {image} {all}"
+            );
+            assert!(
+                (factor * once - all).abs() < 1e-6,
+                "{cos} {roughness}: {factor}"
+            );
+            assert!(
+                factor >= 1.0 && image <= 1.0005,
+                "{cos} {roughness}: {factor} {image}"
+            );
         }
     }
     // A rough coloured metal loses less of the channel that it reflects well, and so grows more saturated in all.

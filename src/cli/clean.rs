@@ -1,0 +1,66 @@
+//! `clean`: removes what this program wrote into a folder, and nothing else.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::error::Error;
+use crate::cli::generate::named;
+use crate::cli::output::Output;
+use crate::cli::places::folder_or_current;
+use crate::generator::error::RequestFault;
+use crate::generator::generate::provenance;
+use crate::generator::output::lock::{Announce, Lock};
+use crate::generator::output::manifest::{Manifest, Scope};
+use crate::generator::output::ownership::remove_manifest;
+use crate::generator::output::tree::plan;
+use crate::generator::output::write::write;
+use crate::physics::foreign;
+
+/// The flags of `clean`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Example:\n  fresnel-gen clean --list\n\nA file goes if manifest.json lists it and it is as fresnel-gen wrote it. Others stay, and are named."
+)]
+pub struct CleanFlags {
+    /// The folder with the manifest.json
+    #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
+    pub out_dir: PathBuf,
+    /// Print the names of the files that would go, and remove nothing
+    #[arg(long)]
+    pub list: bool,
+}
+
+/// Removes. `announce` gets what a person should know before the run ends.
+pub fn run(flags: &CleanFlags, announce: Announce) -> Result<Output, Error> {
+    let out_dir = folder_or_current(&flags.out_dir);
+    let folder = foreign::path(&out_dir);
+    if Manifest::in_folder(out_dir)?.is_none() {
+        let why = format!(
+            "there is no manifest.json in {folder}: nothing there is known to be fresnel-gen's"
+        );
+        return Err(RequestFault::refused(why).into());
+    }
+    let mut lock = (!flags.list).then(|| Lock::take(out_dir, announce));
+    let all = Scope {
+        alone: true,
+        ..Scope::default()
+    };
+    let plan = plan(out_dir, &[], &all, &provenance(Vec::new()))?;
+    let stay = named(&plan, false, "removed");
+    let Some(lock) = &mut lock else {
+        let files = plan.orphans.iter().map(|entry| entry.file.clone() + "\n");
+        return Ok(Output {
+            stdout: files.collect::<String>().into_bytes(),
+            remarks: stay,
+            ..Output::default()
+        });
+    };
+    let counts = write(&plan, &[], false, lock)?;
+    remove_manifest(out_dir, &plan.manifest.new)?;
+    let removed = format!("{folder}: {} removed", counts.removed);
+    Ok(Output {
+        remarks: stay.into_iter().chain([removed]).collect(),
+        ..Output::default()
+    })
+}
