@@ -78,6 +78,16 @@ fn listed(kind: &str, all: &[&str]) -> String {
     }
 }
 
+/// Words that people use for classes of materials, and the class.
+const MEANT: [(&str, &str); 6] = [
+    ("alloy", "metal"),
+    ("conductor", "metal"),
+    ("glass", "dielectric"),
+    ("insulator", "dielectric"),
+    ("plastic", "dielectric"),
+    ("liquid", "dielectric"),
+];
+
 /// The names most similar to this one, best first: up to three that are alike or contain it. If none is and the list is short,
 /// the best one that shares a letter with it.
 pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
@@ -85,6 +95,10 @@ pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
         return Vec::new();
     }
     let name = name.to_lowercase();
+    let mut meant = MEANT.iter().filter(|(word, _)| *word == name);
+    if let Some((_, other)) = meant.find(|(_, other)| all.contains(other)) {
+        return vec![(*other).to_owned()];
+    }
     let score = |other: &str| {
         let other = other.to_lowercase();
         let score = strsim::jaro_winkler(&name, &other);

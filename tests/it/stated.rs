@@ -251,10 +251,14 @@ fn gain_table() -> String {
     let [own, kept] = gains();
     let library = |name: &str| units(name, "rdna2");
     format!(
-        "| the function's numbers | cost on AMD's RDNA 2: Schlick's, `fitted` | error of `fitted`, of {} metals, and of gold |\n\
+        "Metals in your shader, {:.0} times nearer to measurement than with Schlick's approximation, for {} cycles more: fresnel-gen turns\nmeasured optical \
+         constants (n and k by wavelength) into short reflectance functions. One of them, `fitted`, beside Schlick's:\n\n\
+         | the function's numbers | cost on AMD's RDNA 2: Schlick's, `fitted` | error of `fitted`, of {} metals, and of gold |\n\
          |---|---:|---:|\n\
          | constants in the code | {}, {} | {:.0} times less than Schlick's, {:.0} times |\n\
          | read at run time from the catalogue | {}, {} | {:.0} times less, {:.0} times |\n",
+        own.medians,
+        units_of_gold("fitted") - units_of_gold("schlick"),
         class(MaterialClass::Metals).len(),
         units_of_gold("schlick"),
         units_of_gold("fitted"),

@@ -54,7 +54,7 @@ const LEAST_SHARE: f64 = 1e-3;
 /// α = r²: our fit, within .0007.
 pub const WHITE_MEAN_LOST: [f64; 4] = [0.20275, 3.50269, -4.97845, 1.8645];
 
-const ARGUMENTS: [Argument; 9] = [DFG, TEXELS, COS_V, ROUGHNESS, C0, C1, C2, C3, AVERAGE];
+const ARGUMENTS: [Argument; 9] = [COS_V, ROUGHNESS, C0, C1, C2, C3, AVERAGE, TEXELS, DFG];
 
 /// The record of this effect.
 pub static EFFECT: Effect = Effect {

@@ -7,12 +7,13 @@
 
 use core::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 use thiserror::Error;
 
 use super::decimal::short;
 use super::film::Film;
 use super::formula::{DispersionCurve, Extrapolate, Formula};
+use crate::physics::names::named;
 
 /// The least n. Below it the exact forms lose their last digits in f32.
 pub const LEAST_N: f64 = 1e-3;
@@ -53,7 +54,7 @@ pub struct Material {
 }
 
 /// The class of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MaterialKind {
     /// It conducts; k is large.
@@ -79,6 +80,15 @@ impl MaterialKind {
             MaterialKind::Semiconductor => "semiconductor",
             MaterialKind::Dielectric => "dielectric",
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for MaterialKind {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<MaterialKind, D::Error> {
+        let word = String::deserialize(from)?;
+        let all = MaterialKind::ALL.into_iter();
+        let found = all.clone().find(|kind| kind.name() == word);
+        named("class", &word, found, all.map(MaterialKind::name)).map_err(de::Error::custom)
     }
 }
 
@@ -245,6 +255,7 @@ impl fmt::Display for ConstantIndex {
 mod tests {
     use super::*;
     use crate::physics::materials::name_fault;
+    use crate::physics::names::named;
     use crate::physics::optics;
 
     #[test]

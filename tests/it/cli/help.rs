@@ -223,7 +223,7 @@ fn bash_completes_names_and_flags() {
 
 /// Lines in which each flag that a command offers does its work. Those of a graphics stack or of minutes are parsed only; tests of
 /// their own run them.
-const USED: [(&str, bool); 59] = [
+const USED: [(&str, bool); 60] = [
     (
         "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
         true,
@@ -296,6 +296,7 @@ const USED: [(&str, bool); 59] = [
         "--material gold --catalogue --target wgsl --out-dir numbered",
         true,
     ),
+    ("clean --list --out-dir numbered", true),
     (
         "materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --index 1.4 --json -",
         true,

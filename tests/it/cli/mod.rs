@@ -7,6 +7,7 @@ mod brought;
 mod budget;
 mod catalogue;
 mod chart;
+mod clean;
 mod compare;
 mod cost;
 mod determinism;

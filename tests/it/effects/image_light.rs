@@ -48,15 +48,11 @@ fn given(name: &str, c: [f64; 4]) -> Vec<(f64, f64, f64)> {
         .flat_map(|cos| ROUGHNESS.map(|roughness| (*cos, roughness)))
         .collect();
     let (cosines, roughness): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
-    let mut arguments = vec![
-        Value::Texture(Some(texels)),
-        numbers(&[SPLIT_SUM_SIZE as f64]),
-        numbers(&cosines),
-        numbers(&roughness),
-    ];
-    arguments[1] = Value::each(vec![SPLIT_SUM_SIZE as f64; pairs.len()]);
+    let mut arguments = vec![numbers(&cosines), numbers(&roughness)];
     arguments.extend(c.map(|c| vector([c; 3])));
     arguments.push(vector([mean(c); 3]));
+    arguments.push(Value::each(vec![SPLIT_SUM_SIZE as f64; pairs.len()]));
+    arguments.push(Value::Texture(Some(texels)));
     let result = evaluate(&function(name), &arguments);
     let pairs = pairs.into_iter().enumerate();
     pairs
