@@ -25,9 +25,6 @@
 #define FRESNEL_EFFECTS_IMAGE_LIGHT_EFFECT_HLSL
 
 // fresnel_image_reflectance: the share of the image's light that is reflected, once and more often, 0 to 1
-//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
-//       and clamps to the edge
-//   texels: texels of a side of the table: 128 unless --size said another number
 //   cos_v: dot(normal, view)
 //   roughness: 0 to 1; GGX's alpha is its square
 //   c0: what the table's red is multiplied by: c0 of the method, F0 of f82_tint
@@ -36,19 +33,22 @@
 //   c3: what its alpha is multiplied by; 0 if there is no fourth number
 //   average: the mean of F over the hemisphere, 2 int F c dc: fresnel_fitted_average(c0, c1, c2, c3), or `average`
 //       of catalogue.json
+//   texels: texels of a side of the table: 128 unless --size said another number
+//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
+//       and clamps to the edge
 // Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 73 operations
 float3 fresnel_image_reflectance(
-    Texture2D<float4> dfg,
-    SamplerState dfg_sampler,
-    float texels,
     float cos_v,
     float roughness,
     float3 c0,
     float3 c1,
     float3 c2,
     float3 c3,
-    float3 average
+    float3 average,
+    float texels,
+    Texture2D<float4> dfg,
+    SamplerState dfg_sampler
 )
 {
     float part_1 = texels - 1.0;
@@ -69,9 +69,6 @@ float3 fresnel_image_reflectance(
 }
 
 // fresnel_lamp_factor: what the light of lamps is multiplied by, so that lamps and image agree: 1 or more
-//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
-//       and clamps to the edge
-//   texels: texels of a side of the table: 128 unless --size said another number
 //   cos_v: dot(normal, view)
 //   roughness: 0 to 1; GGX's alpha is its square
 //   c0: what the table's red is multiplied by: c0 of the method, F0 of f82_tint
@@ -80,19 +77,22 @@ float3 fresnel_image_reflectance(
 //   c3: what its alpha is multiplied by; 0 if there is no fourth number
 //   average: the mean of F over the hemisphere, 2 int F c dc: fresnel_fitted_average(c0, c1, c2, c3), or `average`
 //       of catalogue.json
+//   texels: texels of a side of the table: 128 unless --size said another number
+//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
+//       and clamps to the edge
 // Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 79 operations
 float3 fresnel_lamp_factor(
-    Texture2D<float4> dfg,
-    SamplerState dfg_sampler,
-    float texels,
     float cos_v,
     float roughness,
     float3 c0,
     float3 c1,
     float3 c2,
     float3 c3,
-    float3 average
+    float3 average,
+    float texels,
+    Texture2D<float4> dfg,
+    SamplerState dfg_sampler
 )
 {
     float part_1 = texels - 1.0;

@@ -22,9 +22,6 @@
 // Wrong: Where less than .001 is reflected at once the factor for lamps ends.
 
 // fresnel_image_reflectance: the share of the image's light that is reflected, once and more often, 0 to 1
-//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
-//       and clamps to the edge
-//   texels: texels of a side of the table: 128 unless --size said another number
 //   cos_v: dot(normal, view)
 //   roughness: 0 to 1; GGX's alpha is its square
 //   c0: what the table's red is multiplied by: c0 of the method, F0 of f82_tint
@@ -33,19 +30,22 @@
 //   c3: what its alpha is multiplied by; 0 if there is no fourth number
 //   average: the mean of F over the hemisphere, 2 int F c dc: fresnel_fitted_average(c0, c1, c2, c3), or `average`
 //       of catalogue.json
+//   texels: texels of a side of the table: 128 unless --size said another number
+//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
+//       and clamps to the edge
 // Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 73 operations
 fn fresnel_image_reflectance(
-    dfg: texture_2d<f32>,
-    dfg_sampler: sampler,
-    texels: f32,
     cos_v: f32,
     roughness: f32,
     c0: vec3<f32>,
     c1: vec3<f32>,
     c2: vec3<f32>,
     c3: vec3<f32>,
-    average: vec3<f32>
+    average: vec3<f32>,
+    texels: f32,
+    dfg: texture_2d<f32>,
+    dfg_sampler: sampler
 ) -> vec3<f32> {
     let part_1 = texels - 1.0;
     let u = (sqrt(saturate(cos_v)) * part_1 + 0.5) / texels; // from texel centre to texel centre
@@ -64,9 +64,6 @@ fn fresnel_image_reflectance(
 }
 
 // fresnel_lamp_factor: what the light of lamps is multiplied by, so that lamps and image agree: 1 or more
-//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
-//       and clamps to the edge
-//   texels: texels of a side of the table: 128 unless --size said another number
 //   cos_v: dot(normal, view)
 //   roughness: 0 to 1; GGX's alpha is its square
 //   c0: what the table's red is multiplied by: c0 of the method, F0 of f82_tint
@@ -75,19 +72,22 @@ fn fresnel_image_reflectance(
 //   c3: what its alpha is multiplied by; 0 if there is no fourth number
 //   average: the mean of F over the hemisphere, 2 int F c dc: fresnel_fitted_average(c0, c1, c2, c3), or `average`
 //       of catalogue.json
+//   texels: texels of a side of the table: 128 unless --size said another number
+//   dfg: the table of `bake --dfg`, four channels: cosine along x, roughness along y; the sampler filters linearly
+//       and clamps to the edge
 // Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 79 operations
 fn fresnel_lamp_factor(
-    dfg: texture_2d<f32>,
-    dfg_sampler: sampler,
-    texels: f32,
     cos_v: f32,
     roughness: f32,
     c0: vec3<f32>,
     c1: vec3<f32>,
     c2: vec3<f32>,
     c3: vec3<f32>,
-    average: vec3<f32>
+    average: vec3<f32>,
+    texels: f32,
+    dfg: texture_2d<f32>,
+    dfg_sampler: sampler
 ) -> vec3<f32> {
     let part_1 = texels - 1.0;
     let u = (sqrt(saturate(cos_v)) * part_1 + 0.5) / texels; // from texel centre to texel centre
