@@ -255,7 +255,6 @@ impl fmt::Display for ConstantIndex {
 mod tests {
     use super::*;
     use crate::physics::materials::name_fault;
-    use crate::physics::names::named;
     use crate::physics::optics;
 
     #[test]

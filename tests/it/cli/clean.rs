@@ -51,7 +51,7 @@ fn a_forged_manifest_removes_nothing() {
     entry["file"] = "wgsl/fresnel_mine.wgsl".into();
     place.put(&format!("{OUT}/wgsl/fresnel_mine.wgsl"), "fn mine() {}\n");
     json["files"].as_array_mut().unwrap().push(entry);
-    place.put(&manifest, &json.to_string());
+    place.put(&manifest, json.to_string());
     let told = place.run("clean");
     assert!(
         place
