@@ -436,7 +436,7 @@ fn first_function<'g>(
     };
     let file = out_dir.join(&artifact.path);
     let next = if flags.catalogue {
-        "next: element 4 i + j of a catalogue's buffer, or texel (j, i) of its texture, is c_j of the material i, counted from 0; the fourth number of c_0 is 1 where fitted takes it, 2 where fitted_dielectric does".to_owned()
+        "next: element 4 i + j of a catalogue's buffer, or texel (j, i) of its texture, is c_j of the material i, counted from 0; the fourth number of c_0 is 1 where fitted takes it, 2 where fitted_dielectric does; for image light `fresnel-gen bake --dfg --method fitted` and `--method fitted_dielectric`, a table for each".to_owned()
     } else {
         next_step(flags)
     };

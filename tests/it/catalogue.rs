@@ -297,6 +297,25 @@ fn a_catalogue_of_ones_own_has_the_order_given() {
     place.refused("--material gold,air --catalogue", &["`air`", "gas"]);
     place.refused("--material oil_on_water --catalogue", &["six coefficients"]);
     place.refused("--catalogue", &["--material"]);
+    place.refused(
+        "--material gold,alloy.csv,gold --catalogue",
+        &["named twice"],
+    );
+    place.refused(
+        "--material alloy.csv,./alloy.csv --catalogue",
+        &["named twice"],
+    );
+    // Other numbers in a folder are said; and both functions are there for metals alone.
+    let told = place.done("--material gold,silver --catalogue --target wgsl --out-dir own_f32");
+    assert!(
+        told.err.contains("leave it: alloy, water, diamond"),
+        "{told:?}"
+    );
+    assert!(
+        place
+            .path("own_f32/wgsl/fresnel_fitted_dielectric.wgsl")
+            .exists()
+    );
     place.refused("--material gold --catalogue --method fitted", &["--method"]);
 }
 

@@ -81,11 +81,12 @@ impl Detail {
         }
     }
 
-    /// The materials of an atlas, in the order of its rows; empty for other files.
+    /// The materials of an atlas or of the catalogue's buffer, in the order of its rows; empty for other files.
     pub fn row_materials(&self) -> &[String] {
         match self {
             Detail::Table(file) => &file.row_materials,
-            Detail::Functions(_) | Detail::Catalogue(_) | Detail::Adapter(_) => &[],
+            Detail::Catalogue(file) => &file.row_materials,
+            Detail::Functions(_) | Detail::Adapter(_) => &[],
         }
     }
 
@@ -129,6 +130,9 @@ pub struct CatalogueDetail {
     /// The number of rows of the array or the buffer, four per material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows: Option<usize>,
+    /// The materials in the order of the rows, in the entry of the buffer; empty for the other files.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub row_materials: Vec<String>,
     /// The viewing conditions of the materials, in words.
     pub seen: String,
     /// The licence of the file.

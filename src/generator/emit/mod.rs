@@ -30,7 +30,7 @@ pub use catalogue::{
     BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COAT, COEFFICIENT_ORDER, COEFFICIENTS,
     CatalogueMaterial, CatalogueMethod, CatalogueRow, FOURTH, HALF_BUFFER, RowOrder, adapter_rows,
     catalogue_array, catalogue_buffer, catalogue_rows, first_dielectric, fourths, half_buffer,
-    methods_of, recorded_catalogue, rows_in_order,
+    recorded_catalogue, rows_in_order,
 };
 pub use code_bound::{Bounds, CodeBound, PLAIN_ULP, fingerprint};
 pub use comment::lines as comment_lines;

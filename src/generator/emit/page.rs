@@ -246,8 +246,9 @@ pub fn guard(target: &Target, stem: &str) -> String {
 /// The text is not valid WGSL.
 pub fn validate(text: &str) -> Result<(naga::Module, ModuleInfo), String> {
     let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
-    // f16 is allowed only in files that say `enable f16;`.
-    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16);
+    // f16 is allowed only in files that say `enable f16;`; every file may unpack halves (`unpack2x16float`).
+    let halves = Capabilities::SHADER_FLOAT16 | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+    let mut validator = Validator::new(ValidationFlags::all(), halves);
     let info = validator
         .validate(&module)
         .map_err(|error| error.emit_to_string(text))?;

@@ -49,7 +49,7 @@ const DISPERSION: f64 = 20.0;
 
 fn sheet(material: &EngineMaterial) -> Sheet {
     let mut remarks = vec![
-        "the asset holds a material and no mesh: put it among the `materials` of a file with meshes of your own"
+        "the asset holds a material and no mesh: put it among the `materials` of a file with meshes of your own, and the names of its extensions into that file's `extensionsUsed`"
             .to_owned(),
     ];
     let (fields, f0) = match material.body {

@@ -19,6 +19,7 @@ use crate::generator::output::contents::has_no_room_for_mark;
 use crate::generator::output::ownership::SHARED;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Methods, Request, Source};
+use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
 use crate::physics::spectra::Space;
 
@@ -67,7 +68,8 @@ pub fn own_catalogue(request: &Request) -> Result<Generated, Error> {
     let library = Request {
         catalogue: false,
         materials: Materials::None,
-        methods: Methods::These(emit::methods_of(&rows)),
+        // Both, so that what reads rows compiles whichever materials are in the list.
+        methods: Methods::These(vec![Method::FITTED, Method::FITTED_DIELECTRIC]),
         ..request.clone()
     };
     let mut generated = generate_beside(&library, &KeptMethods::new())?;
@@ -94,6 +96,13 @@ fn rows_as_named(
     let sources = request.materials.sources();
     let named = sources.iter().map(Source::argument);
     let named = named.collect::<Result<Vec<String>, Error>>()?;
+    if let [argument, ..] = twice(&named, &subjects).as_slice() {
+        let name = Foreign(argument);
+        let why = format!(
+            "`{name}` is named twice: each material has one row, so that those behind it would have other numbers than their places; name it once"
+        );
+        return Err(RequestFault::refused(why).into());
+    }
     let place = |subject: &MaterialInMedium| named.iter().position(|one| *one == subject.argument);
     subjects.sort_by_key(place);
     emit::rows_in_order(&subjects, &request.naming())?.map_err(|place| {
@@ -106,6 +115,15 @@ fn rows_as_named(
         };
         RequestFault::refused(format!("`{name}` {why}; leave it out of --catalogue")).into()
     })
+}
+
+/// The words that name a material which another word before them names.
+fn twice(named: &[String], subjects: &[MaterialInMedium]) -> Vec<String> {
+    let is_first = |i: usize| !named[..i].contains(&named[i]);
+    // Of two words for one material one is left among the subjects.
+    let is_known = |word: &String| subjects.iter().any(|subject| subject.argument == *word);
+    let words = (0..named.len()).filter(|i| !is_first(*i) || !is_known(&named[*i]));
+    words.map(|i| named[i].clone()).collect()
 }
 
 /// Adds the arrays of the run's languages and, if they are wanted, the files that belong to no language.
@@ -252,6 +270,10 @@ fn shared(
             array: None,
             materials: rows.len(),
             rows: has_no_room_for_mark(path).then_some(COEFFICIENTS * rows.len()),
+            row_materials: match path == CATALOGUE_BUFFER {
+                true => rows.iter().map(|row| row.name.clone()).collect(),
+                false => Vec::new(),
+            },
             seen: reference.to_owned(),
             licence: OUTPUT_LICENCE,
         });
@@ -288,7 +310,6 @@ fn as_json(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::methods::Method;
     use crate::language::targets::Target;
     use crate::physics::num::Precision;
 

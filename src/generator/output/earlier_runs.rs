@@ -55,7 +55,7 @@ fn seen_otherwise(artifact: &Artifact, entry: &Entry) -> Option<String> {
     })
 }
 
-/// The atlases whose rows differ from those that the manifest lists, each with all of its files.
+/// The atlases and catalogues whose rows differ from those that the manifest lists, each with all of its files.
 fn changed_rows(pairs: &[(&Artifact, &Entry)]) -> Vec<String> {
     let mut changed: Vec<([Vec<&str>; 2], Vec<&str>)> = Vec::new();
     for (artifact, entry) in pairs {
@@ -96,7 +96,7 @@ fn rows_in_words(files: &[&str], old: &[&str], new: &[&str]) -> String {
         .map(|(row, name)| format!("{row} {}", Foreign(name)))
         .collect();
     one_line(&format!(
-        "{}: {lost}; its rows are {}. --out-dir writes another atlas elsewhere",
+        "{}: {lost}; its rows are {}. --out-dir writes other ones elsewhere",
         listed(files),
         rows.join(", ")
     ))

@@ -102,6 +102,13 @@ fn rows_of_half_floats_are_accepted_with_what_reads_them() {
         .unwrap();
     let text = text("fresnel_fitted_f16") + &second + &text("catalogue") + example;
     validate_wgsl(&text).unwrap();
+    // The same buffer without `enable f16;`.
+    let unpacked = "vec4<f32>(unpack2x16float(v.x), unpack2x16float(v.y))";
+    assert!(page.contains(unpacked));
+    validate_wgsl(&format!(
+        "fn halves(v: vec2<u32>) -> vec4<f32> {{ return {unpacked}; }}"
+    ))
+    .unwrap();
 }
 
 #[test]

@@ -83,6 +83,7 @@ pub fn catalogue_array(
         array: Some(view.name),
         materials: rows.len(),
         rows: Some(view.size),
+        row_materials: Vec::new(),
         seen: seen.to_owned(),
         licence: OUTPUT_LICENCE,
     });

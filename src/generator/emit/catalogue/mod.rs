@@ -13,5 +13,5 @@ pub use coated::COAT;
 pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
 pub use row::{
     CATALOGUE, COEFFICIENTS, CatalogueRow, adapter_rows, catalogue_rows, first_dielectric,
-    methods_of, recorded_catalogue, rows_in_order,
+    recorded_catalogue, rows_in_order,
 };

@@ -245,7 +245,7 @@ pub fn first_dielectric(rows: &[CatalogueRow]) -> usize {
 }
 
 /// The methods of the rows, each once, by number.
-pub fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
+pub(super) fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
     methods.sort_by_key(|method| method_number(method));
     methods.dedup_by_key(|method| method.name);
