@@ -29,7 +29,7 @@ use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::manifest::Scope;
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
-use crate::generator::request::Request;
+use crate::generator::request::{Materials, Methods, Request};
 use crate::language::effects::Effect;
 use crate::language::methods::{self, Method, TEXELS};
 use crate::language::targets::{self, Finish, Target};
@@ -39,8 +39,9 @@ use crate::physics::names::UnknownName;
 use crate::pictures::table;
 
 /// Flags that conflict with `--dfg`.
-const NO_MATERIAL: [&str; 7] = [
+const NO_MATERIAL: [&str; 8] = [
     "material",
+    "film",
     "medium",
     "gamut",
     "atlas",
@@ -325,13 +326,19 @@ fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Resul
     let functions = match targets.is_empty() {
         true => Vec::new(),
         false => {
-            generate(&Request {
-                targets,
-                effects: vec![Effect::IMAGE_LIGHT],
+            let of = |effects, methods| Request {
+                targets: targets.clone(),
+                effects,
+                methods,
+                materials: Materials::None,
                 prefix: flags.prefix.clone(),
                 ..Request::default()
-            })?
-            .artifacts
+            };
+            // The effect reads the table; the method has F for lamps, and its mean.
+            let effect = of(vec![Effect::IMAGE_LIGHT], Methods::Default);
+            let method = of(Vec::new(), Methods::These(vec![request.method]));
+            let files = [generate(&effect)?.artifacts, generate(&method)?.artifacts];
+            files.concat()
         }
     };
     finished(flags, command, vec![baked], functions, &[], announce)

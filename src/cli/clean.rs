@@ -5,17 +5,17 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::error::Error;
-use crate::cli::generate::named;
 use crate::cli::output::Output;
 use crate::cli::places::folder_or_current;
+use crate::generator::envelope::json_text;
 use crate::generator::error::RequestFault;
 use crate::generator::generate::provenance;
 use crate::generator::output::lock::{Announce, Lock};
-use crate::generator::output::manifest::{Manifest, Scope};
-use crate::generator::output::ownership::remove_manifest;
+use crate::generator::output::manifest::{self, Entry, Manifest, Scope};
+use crate::generator::output::ownership::{KeptFile, remove_manifest};
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
-use crate::physics::foreign;
+use crate::physics::foreign::{self, Foreign};
 
 /// The flags of `clean`.
 #[derive(Args, Debug)]
@@ -35,21 +35,36 @@ pub struct CleanFlags {
 pub fn run(flags: &CleanFlags, announce: Announce) -> Result<Output, Error> {
     let out_dir = folder_or_current(&flags.out_dir);
     let folder = foreign::path(&out_dir);
-    if Manifest::in_folder(out_dir)?.is_none() {
+    let Some((mut manifest, _)) = Manifest::in_folder(out_dir)? else {
         let why = format!(
             "there is no manifest.json in {folder}: nothing there is known to be fresnel-gen's"
         );
         return Err(RequestFault::refused(why).into());
-    }
+    };
     let mut lock = (!flags.list).then(|| Lock::take(out_dir, announce));
     let all = Scope {
         alone: true,
         ..Scope::default()
     };
-    let plan = plan(out_dir, &[], &all, &provenance(Vec::new()))?;
-    let stay = named(&plan, false, "removed");
+    let mut plan = plan(out_dir, &[], &all, &provenance(Vec::new()))?;
+    // What stays keeps its entry, so that it can be cleaned when it is again as it was written.
+    let stays = |entry: &Entry| plan.kept.iter().any(|kept| kept.path == entry.file);
+    manifest.files.retain(stays);
+    let is_all = manifest.files.is_empty();
+    if !is_all {
+        plan.manifest.new = json_text(&manifest).into_bytes();
+    }
+    let left = |kept: &KeptFile| {
+        format!(
+            "left alone: {}: it is not as fresnel-gen wrote it",
+            Foreign(&kept.path)
+        )
+    };
+    let stay: Vec<String> = plan.kept.iter().map(left).collect();
     let Some(lock) = &mut lock else {
-        let files = plan.orphans.iter().map(|entry| entry.file.clone() + "\n");
+        let files = plan.orphans.iter().map(|entry| entry.file.as_str());
+        let files = files.chain(is_all.then_some(manifest::FILE));
+        let files = files.map(|file| format!("{file}\n"));
         return Ok(Output {
             stdout: files.collect::<String>().into_bytes(),
             remarks: stay,
@@ -57,8 +72,10 @@ pub fn run(flags: &CleanFlags, announce: Announce) -> Result<Output, Error> {
         });
     };
     let counts = write(&plan, &[], false, lock)?;
-    remove_manifest(out_dir, &plan.manifest.new)?;
-    let removed = format!("{folder}: {} removed", counts.removed);
+    if is_all {
+        remove_manifest(out_dir, &plan.manifest.new)?;
+    }
+    let removed = format!("{folder}: {} removed", counts.removed + usize::from(is_all));
     Ok(Output {
         remarks: stay.into_iter().chain([removed]).collect(),
         ..Output::default()

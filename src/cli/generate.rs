@@ -152,6 +152,9 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
             kept(&manifest, request.precision)
         })
     };
+    if request.catalogue {
+        refuse_stale_arrays(request, out_dir)?;
+    }
     let mut generated = generate_beside(request, &kept)?;
     if request.selects_nothing() {
         add_catalogue(&mut generated, request)?;
@@ -181,6 +184,32 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
     match &mut lock {
         Some(lock) => written(flags, request, &generated, &plan, lock),
         None => Ok(checked(flags, &plan)),
+    }
+}
+
+/// Refuses to leave arrays of a catalogue beside the buffer of another one: those of languages that this run does not write.
+fn refuse_stale_arrays(request: &Request, out_dir: &Path) -> Result<(), Error> {
+    let Some((manifest, _)) = Manifest::in_folder(out_dir)? else {
+        return Ok(());
+    };
+    let targets = request.targets_or_default();
+    let is_written = |name: &str| targets.iter().any(|target| target.name == name);
+    let is_array = |file: &str| {
+        file.split('/')
+            .nth(1)
+            .is_some_and(|name| name.starts_with("catalogue."))
+    };
+    let mut stale = manifest.files.iter();
+    match stale.find(|entry| is_array(&entry.file) && !is_written(&entry.target)) {
+        None => Ok(()),
+        Some(entry) => {
+            let (file, target) = (Foreign(&entry.file), Foreign(&entry.target));
+            let folder = foreign::path(&out_dir);
+            let why = format!(
+                "{folder} holds {file}, whose rows would not be those of the new buffer: name {target} with --target too, or another folder with --out-dir"
+            );
+            Err(RequestFault::refused(why).into())
+        }
     }
 }
 

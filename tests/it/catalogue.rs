@@ -295,6 +295,18 @@ fn a_catalogue_of_ones_own_has_the_order_given() {
         assert!(error < 0.0042, "{precision}: {error}");
     }
     place.refused("--material gold,air --catalogue", &["`air`", "gas"]);
+    place.refused(
+        "--material gold --catalogue --target hlsl --out-dir own_f16",
+        &["whose rows would not be those", "--target", "--out-dir"],
+    );
+    place.refused("--material none --catalogue", &["wants materials"]);
+    place.put("catalogue_gles.csv", ALLOY);
+    place.refused(
+        "--material catalogue_gles.csv --catalogue",
+        &["rename the material"],
+    );
+    let told = place.done("--material all --catalogue --target wgsl --out-dir every");
+    assert!(told.err.contains("left out: `air`"), "{told:?}");
     place.refused("--material oil_on_water --catalogue", &["six coefficients"]);
     place.refused("--catalogue", &["--material"]);
     place.refused(

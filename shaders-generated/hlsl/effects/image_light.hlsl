@@ -12,8 +12,8 @@
 // Source: Kulla, Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course Physically Based
 //     Shading in Theory and Practice, 2017.
 //     https://blog.selfshadow.com/publications/s2017-shading-course/imageworks/s2017_pbs_imageworks_slides_v2.pdf
-// The table: `fresnel-gen bake --dfg --method fitted`, its file .ktx2, along its usual axes. Methods with fewer
-//     numbers leave the last ones 0.
+// The table is that of the method whose numbers c0 to c3 are: `fresnel-gen bake --dfg --method fitted`, its file
+//     .ktx2, along its usual axes. Each method has its own. Methods with fewer numbers leave the last ones 0.
 // An image: its radiance, blurred for this roughness, times image_reflectance. A lamp: D G F / (4 n.l n.v) times
 //     lamp_factor.
 // PNG and EXR have the fourth channel in a file of its own: its alpha is 1, and c3 would be counted whole.

@@ -359,7 +359,7 @@ pub enum ExchangeFault {
     },
     /// A dielectric below a clear coat.
     #[error(
-        "`{}` is a dielectric, which hardly shows below a clear coat: --coat takes metals and semiconductors; `--medium 1.5` writes a dielectric's numbers within a medium of that index",
+        "`{}` is a dielectric, which hardly shows below a clear coat: --coat takes metals and semiconductors",
         Foreign(name)
     )]
     CoatedDielectric {

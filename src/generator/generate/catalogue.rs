@@ -58,6 +58,11 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
 pub fn own_catalogue(request: &Request) -> Result<Generated, Error> {
     let run = Run::new(request)?;
     let subjects: Vec<MaterialInMedium> = run.subjects.iter().map(|(one, _)| one.clone()).collect();
+    if subjects.is_empty() {
+        let why = "--catalogue wants materials: name them, or all";
+        return Err(RequestFault::refused(why.to_owned()).into());
+    }
+    let subjects_named: Vec<String> = subjects.iter().map(|one| one.name.clone()).collect();
     let (rows, order) = match request.materials {
         Materials::All => {
             let rows = emit::catalogue_rows(&subjects, &request.naming())?;
@@ -73,6 +78,12 @@ pub fn own_catalogue(request: &Request) -> Result<Generated, Error> {
         ..request.clone()
     };
     let mut generated = generate_beside(&library, &KeptMethods::new())?;
+    let without_row = subjects_named
+        .iter()
+        .filter(|name| rows.iter().all(|row| row.name != **name));
+    let without_row =
+        without_row.map(|name| format!("`{name}`, which has no row of four coefficients"));
+    generated.refused.extend(without_row);
     generated.provenance = run.provenance();
     generated.left_out.clone_from(&run.left_out);
     let first = run.subjects.first();
@@ -96,7 +107,12 @@ fn rows_as_named(
     let sources = request.materials.sources();
     let named = sources.iter().map(Source::argument);
     let named = named.collect::<Result<Vec<String>, Error>>()?;
-    if let [argument, ..] = twice(&named, &subjects).as_slice() {
+    let typed = sources
+        .iter()
+        .zip(&named)
+        .filter(|(source, _)| !source.is_brought_along());
+    let typed: Vec<String> = typed.map(|(_, argument)| argument.clone()).collect();
+    if let [argument, ..] = twice(&typed, &subjects).as_slice() {
         let name = Foreign(argument);
         let why = format!(
             "`{name}` is named twice: each material has one row, so that those behind it would have other numbers than their places; name it once"
@@ -105,13 +121,21 @@ fn rows_as_named(
     }
     let place = |subject: &MaterialInMedium| named.iter().position(|one| *one == subject.argument);
     subjects.sort_by_key(place);
+    // `all` means those that have a row.
+    let brought = sources
+        .iter()
+        .zip(&named)
+        .filter(|(source, _)| source.is_brought_along());
+    let brought: Vec<&String> = brought.map(|(_, argument)| argument).collect();
+    let has_row = |one: &MaterialInMedium| !one.has_films() && one.fitted_with_four().is_some();
+    subjects.retain(|subject| has_row(subject) || !brought.contains(&&subject.argument));
     emit::rows_in_order(&subjects, &request.naming())?.map_err(|place| {
         let subject = &subjects[place];
         let (name, why) = (Foreign(&subject.name), subject.has_films());
         let why = if why {
             "lies under films, and its fitted method has six coefficients: a row has four"
         } else {
-            "has no fitted method of four coefficients: it is a gas, or rarer than its medium"
+            "has no fitted method of four coefficients: its index is too near to its medium's, as that of a gas, or below it"
         };
         RequestFault::refused(format!("`{name}` {why}; leave it out of --catalogue")).into()
     })

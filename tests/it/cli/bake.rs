@@ -552,6 +552,11 @@ fn functions_come_with_the_split_sum_table() {
     ] {
         place.refused(&format!("bake --dfg {line}"), &[words]);
     }
+    assert!(
+        listed.contains(&"wgsl/fresnel_fitted.wgsl".to_owned()),
+        "{listed:?}"
+    );
+    place.refused("bake --dfg --film titanium_dioxide:60nm", &["--film"]);
     // Two terms lie in any file.
     place.done("bake --dfg --method schlick --size 16 --format png16 --target hlsl");
 }

@@ -17,7 +17,7 @@ fn what_was_written_goes_and_nothing_else() {
     );
     assert!(listed.out.contains("lut/dfg_schlick.ktx2\n"), "{listed:?}");
     assert!(
-        !listed.out.contains("mine.wgsl") && !listed.out.contains("gles/"),
+        !listed.out.contains("mine.wgsl") && !listed.out.contains("gles/materials"),
         "{listed:?}"
     );
     assert!(
@@ -32,7 +32,11 @@ fn what_was_written_goes_and_nothing_else() {
     );
     let stay = |path: &str| place.path(&format!("{OUT}/{path}")).exists();
     assert!(stay("wgsl/mine.wgsl") && stay("gles/materials/gold.glsl"));
-    assert!(!stay("wgsl/materials") && !stay("lut") && !stay("manifest.json"));
+    assert!(!stay("wgsl/materials") && !stay("lut") && stay("manifest.json"));
+    // As it was again, it goes too, and the manifest with it.
+    place.put(&edited, place.read(&edited).replace("// my line\n", ""));
+    place.done("clean");
+    assert!(stay("wgsl/mine.wgsl") && !stay("gles") && !stay("manifest.json"));
     place.refused("clean", &["there is no manifest.json"]);
     // A folder that holds nothing else goes with its last file.
     place.done("--target wgsl --material gold --method fitted --out-dir alone");

@@ -246,6 +246,15 @@ fn check_names(view: &CatalogueView) -> Result<(), Error> {
     let materials = view.materials.iter().map(|material| &material.constant);
     let first = view.dielectrics.as_ref().map(|place| &place.constant);
     let mut names = materials.chain([&view.name]).chain(first);
+    // The array's own name, and names that begin as the guards of its files do.
+    let own = |name: &str| name == view.name || name.starts_with(&format!("{}_", view.name));
+    if let Some(material) = view.materials.iter().find(|one| own(&one.constant)) {
+        let what = format!(
+            "`{}` is a name of the catalogue's own; rename the material",
+            material.constant
+        );
+        return Err(Error::Name { what });
+    }
     match names.find_map(|name| targets::name_fault(name)) {
         Some(what) => Err(Error::Name { what }),
         None => Ok(()),
