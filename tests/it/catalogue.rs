@@ -318,7 +318,8 @@ fn a_catalogue_of_ones_own_has_the_order_given() {
         &["named twice"],
     );
     // Other numbers in a folder are said; and both functions are there for metals alone.
-    let told = place.done("--material gold,silver --catalogue --target wgsl --out-dir own_f32");
+    let told =
+        place.done("--material gold,silver --catalogue --target wgsl,gles --out-dir own_f32");
     assert!(
         told.err.contains("leave it: alloy, water, diamond"),
         "{told:?}"
