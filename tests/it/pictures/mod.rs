@@ -155,7 +155,7 @@ fn committed_pictures_show_what_a_physicist_knows() {
 }
 
 /// Which commands have a flag that takes a picture or a folder, and what draws them here.
-const DRAW: [(&str, &str); 14] = [
+const DRAW: [(&str, &str); 15] = [
     ("", "tables, as `bake` has them: shaders-generated/lut"),
     (
         "audit",
@@ -168,6 +168,10 @@ const DRAW: [(&str, &str); 14] = [
     (
         "chart",
         "chart::every_function_stands_at_its_error_and_cost",
+    ),
+    (
+        "clean",
+        "nothing: it removes what a folder's manifest lists",
     ),
     ("cost", "chart::bars_are_as_long_as_what_they_stand_for"),
     (
