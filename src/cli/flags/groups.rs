@@ -8,8 +8,19 @@ const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Everyday",
         &[
-            "target", "flavour", "method", "effect", "material", "film", "medium", "output",
-            "out_dir", "check", "quiet",
+            "target",
+            "flavour",
+            "method",
+            "effect",
+            "material",
+            "film",
+            "coat",
+            "catalogue",
+            "medium",
+            "output",
+            "out_dir",
+            "check",
+            "quiet",
         ],
     ),
     (
