@@ -99,7 +99,7 @@ impl EngineMaterial<'_> {
         subject: &'a MaterialInMedium,
         viewing: &ViewingConditions,
     ) -> Result<EngineMaterial<'a>, ExchangeFault> {
-        EngineMaterial::of(subject, viewing, None)
+        EngineMaterial::with_coat(subject, viewing, None)
     }
 
     /// A metal or a semiconductor below a clear coat of this index, in air.
@@ -119,10 +119,10 @@ impl EngineMaterial<'_> {
         if subject.medium.is_some() {
             return Err(ExchangeFault::CoatInMedium);
         }
-        EngineMaterial::of(subject, viewing, Some(coat))
+        EngineMaterial::with_coat(subject, viewing, Some(coat))
     }
 
-    fn of<'a>(
+    fn with_coat<'a>(
         subject: &'a MaterialInMedium,
         viewing: &ViewingConditions,
         coat: Option<f64>,

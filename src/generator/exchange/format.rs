@@ -104,9 +104,7 @@ impl Format {
             remarks: notes.remarks,
         })
     }
-}
 
-impl Format {
     /// Its clear coat of this index.
     fn coat_of(&self, index: f64) -> Result<&ClearCoat, ExchangeFault> {
         let named = |wanted: fn(&ClearCoat) -> bool| {

@@ -25,14 +25,7 @@ pub static FORMAT: Format = Format {
     has_film: true,
     coat: Some(ClearCoat {
         law: CoatLaw::Exact,
-        fields: |index| {
-            vec![
-                Field::number("coat_weight", 1.0),
-                Field::number("coat_roughness", 0.0),
-                Field::number("coat_ior", index),
-                Field::number("coat_darkening", 0.0),
-            ]
-        },
+        fields: openpbr::coat_fields,
         node: OPEN_PBR,
         remark: Some(openpbr::NO_DARKENING),
     }),

@@ -24,20 +24,23 @@ pub static FORMAT: Format = Format {
     has_film: true,
     coat: Some(ClearCoat {
         law: CoatLaw::Exact,
-        fields: |index| {
-            vec![
-                Field::number("coat_weight", 1.0),
-                Field::number("coat_roughness", 0.0),
-                Field::number("coat_ior", index),
-                Field::number("coat_darkening", 0.0),
-            ]
-        },
+        fields: coat_fields,
         node: "open_pbr_surface",
         remark: Some(NO_DARKENING),
     }),
     sheet,
     text,
 };
+
+/// The fields of a clear coat of this index.
+pub fn coat_fields(index: f64) -> Vec<Field> {
+    vec![
+        Field::number("coat_weight", 1.0),
+        Field::number("coat_roughness", 0.0),
+        Field::number("coat_ior", index),
+        Field::number("coat_darkening", 0.0),
+    ]
+}
 
 /// All reflections between base and coat are in the base's colours.
 pub const NO_DARKENING: &str = "coat_darkening is 0: the colours of the base have all reflections between base and coat in them";
