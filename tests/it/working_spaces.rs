@@ -149,7 +149,10 @@ fn what_hosts_compute_is_what_the_page_says() {
         let exported = format.expect("it is one").export(&gold, "");
         let errors = exported.expect("it takes sRGB").errors;
         let error = errors.iter().find(|one| one.node == node);
-        short((error.expect("it has the node").max_abs * 1e5).ceil() / 1e5, 5)
+        short(
+            (error.expect("it has the node").max_abs * 1e5).ceil() / 1e5,
+            5,
+        )
     };
     says(
         &text,
