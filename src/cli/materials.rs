@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
-use crate::cli::compare::CompareFlags;
+use crate::cli::compare_materials::CompareFlags;
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{format_of_engines, one_of};
 use crate::cli::flags::material::{FilmFlags, MaterialName, MediumFlags};
@@ -13,7 +13,7 @@ use crate::cli::flags::output::ReportFlags;
 use crate::cli::flags::viewing::{ViewingFlags, colour};
 use crate::cli::output::{Output, Progress, check_places, png, report, report_with_files};
 use crate::cli::reflectance::ReflectanceFlags;
-use crate::cli::{compare, import, params, reflectance, survey};
+use crate::cli::{compare_materials, import, params, reflectance, survey};
 use crate::generator::command_line::CommandLine;
 use crate::generator::envelope::{Report, SCHEMA};
 use crate::generator::error::unknown;
@@ -214,7 +214,7 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         None => list(&FilterFlags::default(), json),
         Some(MaterialsCommand::List(filter)) => list(filter, json),
         Some(MaterialsCommand::Show(show)) => shown(show, json),
-        Some(MaterialsCommand::Compare(flags)) => compare::run(flags, json),
+        Some(MaterialsCommand::Compare(flags)) => compare_materials::run(flags, json),
         Some(MaterialsCommand::Reflectance(flags)) => reflectance::run(flags, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
         Some(MaterialsCommand::Coat(coat)) => params::run_coat(coat, json),

@@ -10,7 +10,8 @@ mod audit;
 mod bake;
 mod chart;
 mod clean;
-mod compare;
+mod compare_engine;
+mod compare_materials;
 mod completions;
 mod cost;
 mod error;
@@ -133,6 +134,8 @@ pub enum Command {
     Reproduce(reproduce::ReproduceFlags),
     /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
     Render(render::RenderFlags),
+    /// Show what an engine makes of materials: as it ships, with F82-tint, with these functions, and what is true
+    Compare(compare_engine::CompareEngineFlags),
     /// Measure the error of methods in pictures of an object: of the angles that a camera sees
     SceneError(Box<scene_error::SceneErrorFlags>),
     /// Choose for each material of a scene the cheapest function whose error nobody sees in its pictures
@@ -192,6 +195,10 @@ impl Cli {
                 let material = material.chain(flags.films.paths());
                 named.inputs.extend(material.map(Path::new));
                 named.inputs.extend(flags.environment.as_deref());
+                named.write(flags.report.json.iter().chain(&flags.output));
+            }
+            Command::Compare(flags) => {
+                named.inputs.extend(flags.inputs());
                 named.write(flags.report.json.iter().chain(&flags.output));
             }
             Command::Plan(flags) => {
@@ -263,6 +270,7 @@ fn run_command(cli: &Cli, progress: Progress, announce: Announce) -> Result<Outp
         Some(Command::Time(flags)) => time::run(flags, progress),
         Some(Command::Audit(flags)) => audit::run(flags, progress),
         Some(Command::Render(flags)) => render::run(flags, progress),
+        Some(Command::Compare(flags)) => compare_engine::run(flags, progress),
         Some(Command::Chart(flags)) => chart::run(flags, progress),
         Some(Command::Fit(flags)) => fit::run(flags, progress),
         Some(Command::Gallery(flags)) => gallery::run(flags, progress),

@@ -24,8 +24,8 @@ use crate::lab::gpu::{Device, Wanted};
 use crate::physics::foreign;
 use crate::physics::materials::{Material, MaterialKind, ViewingConditions};
 use crate::physics::spectra::{Space, srgb_byte};
-use crate::pictures::plot::shade_bytes;
-use crate::pictures::png::rgb_png;
+use crate::pictures::captioned::{ColourBar, Panel, PanelRow, PanelSheet};
+use crate::pictures::plot::{capital, shade_bytes};
 use crate::pictures::scene::{
     self, Difference, Display, Environment, OpticalMaterial, Picture, PictureRequest, RenderRow,
     RenderedRow, RowText, TONE_CURVES, ToneCurve,
@@ -338,16 +338,72 @@ fn searched(row: &RenderedRow) -> String {
     )
 }
 
-/// The three panels side by side as PNG, in sRGB; the error map goes from 0 to [`ERROR_SCALE`].
+/// The three panels with their titles as PNG, in sRGB; the error map goes from 0 to [`ERROR_SCALE`].
 ///
 /// # Errors
 /// The picture cannot be encoded; the text says why.
 pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<Vec<u8>, String> {
+    let row = &picture.row;
     let shown = |radiance: &DVec3| display.shown(*radiance).to_array().map(srgb_byte);
-    let error = |error: &f64| shade_bytes(error / ERROR_SCALE);
-    let size = picture.row.size;
-    let pixels = panels(picture, shown, error).concat();
-    rgb_png(&pixels, [3 * size, size], format!("{MARK}: {about}"))
+    let panel = |title: &str, words: String, pixels: Vec<[u8; 3]>| Panel {
+        title: title.to_owned(),
+        pixels,
+        words,
+    };
+    let error = row.error;
+    let words = format!(
+        "{} on average, 99 % of pixels below {}",
+        number(error.mean),
+        number(error.p99)
+    );
+    let what = match row.film_nm {
+        Some(nm) => format!("{} of {}, up to {nm} nm", row.body, row.material),
+        None => format!("{} of {}", row.body, row.material),
+    };
+    let sheet = PanelSheet {
+        heading: format!("{}: {what}", capital(&row.effect.replace('_', " "))),
+        about: String::new(),
+        size: [row.size; 2],
+        rows: vec![PanelRow {
+            name: String::new(),
+            panels: vec![
+                panel(
+                    "drawn by the effect",
+                    String::new(),
+                    picture.drawn.iter().map(shown).collect(),
+                ),
+                panel(
+                    "truth, by tracing rays",
+                    String::new(),
+                    picture.truth.iter().map(shown).collect(),
+                ),
+                panel(
+                    "difference",
+                    words,
+                    picture
+                        .map
+                        .iter()
+                        .map(|error| shade_bytes(error / ERROR_SCALE))
+                        .collect(),
+                ),
+            ],
+        }],
+        bar: Some(ColourBar {
+            title: "difference of colours, ΔE₀₀: 1 is just seen".to_owned(),
+            most: ERROR_SCALE,
+        }),
+        foot: format!("fresnel-gen {about}"),
+    };
+    sheet.png(format!("{MARK}: {about}"))
+}
+
+/// A difference of colours with as many digits as are worth reading.
+fn number(difference: f64) -> String {
+    if difference < 9.95 {
+        format!("{difference:.1}")
+    } else {
+        format!("{difference:.0}")
+    }
 }
 
 /// The three panels side by side as OpenEXR in binary32: radiance, radiance, and the error in all three channels.

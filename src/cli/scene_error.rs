@@ -30,16 +30,17 @@ use crate::language::methods::Method;
 use crate::physics::foreign::Foreign;
 use crate::physics::materials::ViewingConditions;
 use crate::physics::num::in_parallel;
-use crate::physics::spectra::{Space, srgb_byte};
+use crate::physics::spectra::{Space, ciede2000, srgb_byte, xyz_to_lab};
 use crate::physics::user_text::FileFault;
-use crate::pictures::png::rgb_png;
+use crate::pictures::captioned::{ColourBar, Panel, PanelRow, PanelSheet};
+use crate::pictures::plot::shade_bytes;
 use crate::pictures::table::{short_number, text_table};
 
 /// The flags of `scene-error`.
 #[derive(Args, Debug)]
 #[command(
     mut_arg("material", |arg| arg.help("Names, paths of material files, or all [default: gold, platinum, water, diamond]")),
-    mut_arg("out_dir", |arg| arg.help("Draw the first frame into this folder: reference, each method and the difference magnified 8 times as PNG, reference and cos θ as EXR")),
+    mut_arg("out_dir", |arg| arg.help("Draw the first frame into this folder: each method beside the exact law and their difference as PNG, the exact law and cos θ as EXR")),
     after_help = "Examples:\n  fresnel-gen scene-error cube --material gold\n  fresnel-gen scene-error relief --method schlick,fitted --out-dir pictures\n  fresnel-gen scene-error --mesh statue.obj --eye 0,1,-3 --material platinum --json -\n\nThe error of a picture is the mean over its pixels and three channels of |f - F| / F, then over frames with equal weight. Pixels count whose centre lies in the silhouette. Objects: cube (flat faces), relief (a sphere with bumps), sphere; each 1 m wide, and a mesh is scaled to that."
 )]
 pub struct SceneErrorFlags {
@@ -352,12 +353,10 @@ fn places(flags: &SceneErrorFlags, pairs: &[Pair]) -> Vec<PathBuf> {
     let mut places = vec![folder.join("angles.exr")];
     for of_subject in pairs.chunk_by(|a, b| a.subject.name == b.subject.name) {
         let material = of_subject[0].subject.name.as_str();
-        let methods = of_subject.iter().flat_map(|pair| {
-            let name = pair.method.name;
-            [format!("{name}.png"), format!("{name}_difference.png")]
-        });
-        let usual = ["reference.png", "reference.exr"].map(str::to_owned);
-        let names = usual.into_iter().chain(methods);
+        let methods = of_subject
+            .iter()
+            .map(|pair| format!("{}.png", pair.method.name));
+        let names = ["reference.exr".to_owned()].into_iter().chain(methods);
         places.extend(names.map(|name| folder.join(format!("{material}_{name}"))));
     }
     places
@@ -380,13 +379,18 @@ fn pictures(
     for of_subject in pairs.chunk_by(|a, b| a.subject.name == b.subject.name) {
         let subject = of_subject[0].subject;
         let reference = Painted::reference(frame, &subject.reference);
-        made.push(painted_png(&reference, &about));
         made.push(painted_exr(&reference, space, &about));
         for pair in of_subject {
             let truth = pair.subject.truth_for(pair.method);
             let drawn = Painted::function(frame, &pair.function, &truth);
-            made.push(painted_png(&drawn, &about));
-            made.push(painted_png(&drawn.difference(&reference), &about));
+            let names = [pair.subject.name.as_str(), pair.method.name];
+            made.push(sheet_png(
+                names,
+                &drawn,
+                &reference,
+                space,
+                (&command, &about),
+            ));
         }
     }
     let made = made.into_iter().collect::<Result<Vec<_>, String>>();
@@ -445,11 +449,74 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
     names.chain(errors.map(error)).chain(last).collect()
 }
 
-/// A picture as PNG, in sRGB, or why it cannot be encoded. `about` is ASCII.
-fn painted_png(picture: &Painted, about: &str) -> Result<Vec<u8>, String> {
-    let bytes = picture.pixels.iter().map(|pixel| pixel.map(srgb_byte));
-    let bytes = bytes.collect::<Vec<_>>().concat();
-    rgb_png(&bytes, picture.size, about.to_owned())
+/// The brightest colour of the map of differences, in reflectance.
+const ERROR_SCALE: f64 = 0.125;
+
+/// A method's picture beside that of the exact law, and their difference, as PNG in sRGB; or why it cannot be encoded. `about` is ASCII.
+fn sheet_png(
+    [material, method]: [&str; 2],
+    drawn: &Painted,
+    reference: &Painted,
+    space: Option<Space>,
+    (command, about): (&str, &str),
+) -> Result<Vec<u8>, String> {
+    let panel = |title: &str, words: String, pixels: Vec<[u8; 3]>| Panel {
+        title: title.to_owned(),
+        pixels,
+        words,
+    };
+    let shown = |picture: &Painted| {
+        picture
+            .pixels
+            .iter()
+            .map(|pixel| pixel.map(srgb_byte))
+            .collect()
+    };
+    let apart = drawn.difference(reference);
+    let map = apart
+        .iter()
+        .map(|apart| shade_bytes(apart / ERROR_SCALE))
+        .collect();
+    let words = match space {
+        Some(space) => format!(
+            "{:.2} ΔE₀₀ on average, in white light",
+            mean_of_colours(drawn, reference, space)
+        ),
+        None => String::new(),
+    };
+    let sheet = PanelSheet {
+        heading: format!("{material} by {method}"),
+        about: "Reflectance of each pixel, as in a room that is white everywhere.".to_owned(),
+        size: drawn.size,
+        rows: vec![PanelRow {
+            name: String::new(),
+            panels: vec![
+                panel(method, String::new(), shown(drawn)),
+                panel("exact law", String::new(), shown(reference)),
+                panel("difference", words, map),
+            ],
+        }],
+        bar: Some(ColourBar {
+            title: "largest difference of a channel, in reflectance".to_owned(),
+            most: ERROR_SCALE,
+        }),
+        foot: format!("fresnel-gen {command}"),
+    };
+    sheet.png(about.to_owned())
+}
+
+/// The mean CIEDE2000 between two pictures, over pixels that show the object.
+fn mean_of_colours(one: &Painted, other: &Painted, space: Space) -> f64 {
+    let lab = |pixel: &[f64; 3]| {
+        xyz_to_lab(
+            space.rgb_to_xyz() * DVec3::from_array(*pixel),
+            space.white(),
+        )
+    };
+    let pairs = one.pixels.iter().zip(&other.pixels);
+    let shown = pairs.filter(|(_, truth)| **truth != [0.0; 3]);
+    let apart: Vec<f64> = shown.map(|(a, b)| ciede2000(lab(a), lab(b))).collect();
+    apart.iter().sum::<f64>() / apart.len().max(1) as f64
 }
 
 /// A picture as OpenEXR in binary32, linear, with the colour space of its channels where they have one; or why it cannot be encoded.

@@ -6,8 +6,9 @@
 //! It imports all wings but the command line, and is left out without the feature `pictures`.
 //! Start with [`plot`], which every curve goes through, or with [`plan`].
 
-// Rooms: plot, table, html, png < cost_page, figure_chart, frontier, material_sheet, stability_map, scene < gallery, plan
+// Rooms: plot, table, html, png < captioned < cost_page, figure_chart, frontier, material_sheet, stability_map, scene < gallery, plan, sphere
 
+pub mod captioned;
 pub mod cost_page;
 pub mod figure_chart;
 pub mod frontier;
@@ -18,5 +19,6 @@ pub mod plan;
 pub mod plot;
 pub mod png;
 pub mod scene;
+pub mod sphere;
 pub mod stability_map;
 pub mod table;

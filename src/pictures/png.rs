@@ -26,6 +26,21 @@ const MOST_PIXELS: f32 = 16_384.0;
 /// # Errors
 /// The text is not SVG, or the picture is too large.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
+    let (colours, size) = rasterised(svg, scale)?;
+    let intent = SrgbRenderingIntent::RelativeColorimetric;
+    let (how, texts) = (
+        (Compression::Balanced, intent),
+        [("Software", MARK.to_owned())],
+    );
+    encoded(&colours, size, how, &texts)
+        .map_err(|why| format!("the picture cannot be written as PNG: {why}"))
+}
+
+/// A self-contained SVG document as bytes of red, green and blue, with its pixels across and down.
+///
+/// # Errors
+/// The text is not SVG, or the picture is too large.
+pub fn rasterised(svg: &str, scale: f32) -> Result<(Vec<u8>, [u32; 2]), String> {
     let tree = parse(svg)?;
     let width = pixels(tree.size().width(), scale)?;
     let height = pixels(tree.size().height(), scale)?;
@@ -39,14 +54,7 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
     );
     // On the white ground nothing is transparent.
     let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
-    let colours: Vec<u8> = colours.copied().collect();
-    let intent = SrgbRenderingIntent::RelativeColorimetric;
-    let (how, text) = (
-        (Compression::Balanced, intent),
-        ("Software", MARK.to_owned()),
-    );
-    encoded(&colours, [width, height], how, text)
-        .map_err(|why| format!("the picture cannot be written as PNG: {why}"))
+    Ok((colours.copied().collect(), [width, height]))
 }
 
 /// The document as `resvg` understands it.
@@ -93,15 +101,30 @@ fn pixels(length: f32, scale: f32) -> Result<u32, String> {
 /// The picture cannot be encoded; the text says why.
 pub fn rgb_png(pixels: &[u8], size: [u32; 2], about: String) -> Result<Vec<u8>, String> {
     let how = (Compression::High, SrgbRenderingIntent::Perceptual);
-    encoded(pixels, size, how, ("Comment", about)).map_err(|why| why.to_string())
+    encoded(pixels, size, how, &[("Comment", about)]).map_err(|why| why.to_string())
 }
 
-/// A PNG with a text beside its pixels, by its keyword.
+/// A PNG of panels from bytes of red, green and blue, row by row, in sRGB. `about` and `panels`, where they are, are ASCII.
+///
+/// # Errors
+/// The picture cannot be encoded; the text says why.
+pub fn encoded_sheet(
+    pixels: &[u8],
+    size: [u32; 2],
+    about: String,
+    panels: String,
+) -> Result<Vec<u8>, String> {
+    let how = (Compression::High, SrgbRenderingIntent::Perceptual);
+    let texts = [("Comment", about), ("Panels", panels)];
+    encoded(pixels, size, how, &texts).map_err(|why| why.to_string())
+}
+
+/// A PNG with texts beside its pixels, by their keywords.
 fn encoded(
     pixels: &[u8],
     [width, height]: [u32; 2],
     (compression, intent): (Compression, SrgbRenderingIntent),
-    (keyword, text): (&str, String),
+    texts: &[(&str, String)],
 ) -> Result<Vec<u8>, EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
@@ -109,7 +132,9 @@ fn encoded(
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(compression);
     encoder.set_source_srgb(intent);
-    encoder.add_text_chunk(keyword.to_owned(), text)?;
+    for (keyword, text) in texts {
+        encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
+    }
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
     writer.finish()?;

@@ -153,6 +153,14 @@ impl EngineMaterial<'_> {
         })
     }
 
+    /// F0 as engines have it: a metal's colours, a dielectric's from its index, and what is seen of films.
+    pub fn f0_in_engines(&self) -> [f64; 3] {
+        match self.body {
+            Body::Dielectric { ior, .. } if !self.subject.has_films() => [f0_of(ior); 3],
+            _ => self.f0,
+        }
+    }
+
     /// F0 encoded as sRGB, if the space is sRGB.
     pub fn hex(&self) -> Option<String> {
         let [red, green, blue] = self.f0.map(srgb_byte);

@@ -12,9 +12,6 @@ use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
 use crate::physics::spectra::Space;
 
-/// The ratio of F90 to the sum of F0's channels, for F90 up to 1: 50 * .33 in Filament's code.
-const F90_SHARE: f64 = 16.5;
-
 /// The record of this format.
 pub static FORMAT: Format = Format {
     name: "filament",
@@ -57,9 +54,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             (fields, [f0_of(ior); 3])
         }
     };
-    let words = "Schlick's approximation, F90 by min(16.5 (R + G + B) of F0, 1)";
-    let f90 = (F90_SHARE * f0.iter().sum::<f64>()).min(1.0);
-    let node = Node::new("material", fields, Model::schlick_f90(words, f0, f90));
+    let node = Node::new("material", fields, Model::schlick_f90_of_sum(f0));
     let remark = "a material that sets reflectance too takes F0 from that: leave it out";
     let is_dielectric = material.body != Body::Conductor;
     Sheet {

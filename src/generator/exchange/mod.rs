@@ -12,9 +12,11 @@ mod format;
 mod model;
 mod sheet;
 
+pub use coat::CoatLaw;
 pub use cycles_film::{CyclesBase, CyclesFilm};
-pub use engine_material::{EngineMaterial, ExchangeFault};
+pub use engine_material::{Body, EngineMaterial, ExchangeFault};
 pub use format::Format;
+pub use model::Model;
 
 // BEGIN list (written by tests/lists)
 mod blender;

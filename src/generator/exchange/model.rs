@@ -91,6 +91,31 @@ impl Model {
         Model::new("Schlick's approximation", "schlick", &[("f0", f0)])
     }
 
+    /// Schlick's approximation with F90 as Filament, Bevy and Godot have it: 50 * .33 times the sum of F0, at most 1.
+    pub fn schlick_f90_of_sum(f0: [f64; 3]) -> Model {
+        let words = "Schlick's approximation, F90 by min(16.5 (R + G + B) of F0, 1)";
+        let f90 = (16.5 * f0.iter().sum::<f64>()).min(1.0);
+        Model::schlick_f90(words, f0, f90)
+    }
+
+    /// Schlick's approximation, its power as a Gaussian.
+    pub fn schlick_gaussian(f0: [f64; 3]) -> Model {
+        let words = "Schlick's approximation, its power as a Gaussian";
+        Model::new(words, "schlick_spherical_gaussian", &[("f0", f0)])
+    }
+
+    /// One of our fitted methods with these values of its inputs.
+    pub fn fitted(method: &'static Method, values: Values) -> Model {
+        Model {
+            words: method.name,
+            formula: Formula::Method(
+                method,
+                method.function(false).expect("a test builds every method"),
+                values,
+            ),
+        }
+    }
+
     /// Schlick's approximation with a smaller reflectance at 90 degrees where F0 is small.
     pub fn schlick_f90(words: &'static str, f0: [f64; 3], f90: f64) -> Model {
         Model::new(words, "schlick_f90", &[("f0", f0), ("f90", [f90; 3])])
@@ -127,6 +152,12 @@ impl Model {
         let base = [("channel_n", n), ("channel_k", k)];
         let values = [&[("thickness_nm", nm), ("film_ior", ior)], &base[..]].concat();
         Model::new(words, "airy_materialx", &values)
+    }
+
+    /// The reflectance at each of these cosines.
+    pub fn reflectances(&self, cosines: &[f64]) -> Vec<[f64; 3]> {
+        let all = self.at(cosines);
+        (0..cosines.len()).map(|place| all.at(place)).collect()
     }
 
     /// Its largest error for a material, and the angle in degrees.

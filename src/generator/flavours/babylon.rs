@@ -1,6 +1,7 @@
 //! Babylon.js: a module with a plugin for PBR materials.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
@@ -10,6 +11,10 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Babylon.js 9.35.0",
     source: "https://doc.babylonjs.com/features/featuresDeepDive/materials/using/materialPlugins",
     proof: "run in Babylon.js 9.35.0, by WebGL 2 and by WebGPU",
+    stock: |material| match material.film {
+        Some(film) => Model::iridescence(&film, film.f0),
+        None => Model::schlick(material.f0_in_engines()),
+    },
     languages: &["gles", "wgsl"],
     // The module reads it along these axes. Its error is below .003 for every material of the catalogue.
     table: Some((64, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),

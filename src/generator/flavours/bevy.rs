@@ -1,6 +1,7 @@
 //! Bevy: modules to import, in WESL for Bevy 0.20 and for naga_oil, which Bevy used up to 0.19.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {
@@ -9,6 +10,7 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Bevy 0.20",
     source: "https://docs.rs/naga_oil/0.23.0/naga_oil/",
     proof: "composed by naga_oil 0.23 and run through wgpu 30; not run in Bevy",
+    stock: |material| Model::schlick_f90_of_sum(material.f0_in_engines()),
     languages: &["wgsl"],
     table: None,
     pages: &[

@@ -1,6 +1,7 @@
 //! The record of a flavour.
 
 use crate::generator::emit;
+use crate::generator::exchange::{EngineMaterial, Model};
 use crate::generator::lut::{self, SplitSumAxis};
 
 /// A target adapted to one host.
@@ -18,6 +19,8 @@ pub struct Flavour {
     /// How it was tested, in words: run in the host, or compiled and not run. It appears in headers, its README and
     /// `docs/engines.md`.
     pub proof: &'static str,
+    /// What the host as it ships makes of a material in air: its formula with the numbers that a user would give it.
+    pub stock: fn(&EngineMaterial) -> Model,
     /// The targets whose text it contains.
     pub languages: &'static [&'static str],
     /// The split-sum tables that it contains, if any: texels per side, axes of cosine and roughness.

@@ -1,6 +1,7 @@
 //! Godot 4: functions for its shading language, as include files.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
@@ -10,6 +11,7 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Godot 4.6",
     source: "https://docs.godotengine.org/en/stable/tutorials/shaders/shader_reference/shading_language.html",
     proof: "run in Godot 4.6, in its Compatibility renderer",
+    stock: |material| Model::schlick_f90_of_sum(material.f0_in_engines()),
     languages: &["glsl"],
     table: Some((32, [SplitSumAxis::Sqrt; 2])),
     pages: &[

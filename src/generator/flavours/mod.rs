@@ -10,10 +10,12 @@ use std::str::FromStr;
 
 use crate::physics::names::{UnknownName, named};
 
+mod compared;
 mod files;
 mod flavour;
 mod view;
 
+pub use compared::{ANGLES, Compared, ComparedFault, angles};
 pub use files::{Fitted, files};
 pub use flavour::{Error, Flavour, FlavourPage};
 

@@ -1,6 +1,7 @@
 //! PlayCanvas: a module that patches the shader chunks of standard materials.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
@@ -10,6 +11,10 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "PlayCanvas 2.23.3",
     source: "https://developer.playcanvas.com/user-manual/graphics/shaders/",
     proof: "run in PlayCanvas 2.23.3, by WebGL 2 and by WebGPU",
+    stock: |material| match material.film {
+        Some(film) => Model::iridescence(&film, film.f0),
+        None => Model::schlick(material.f0_in_engines()),
+    },
     languages: &["gles", "wgsl"],
     // The module reads it along these axes. Its error is below .003 for every material of the catalogue.
     table: Some((64, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),

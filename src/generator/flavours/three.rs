@@ -1,6 +1,7 @@
 //! three.js: a module that patches materials of `WebGLRenderer`, and one of nodes for `WebGPURenderer`.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 use crate::generator::lut::SplitSumAxis;
 
 /// The record of this flavour.
@@ -10,6 +11,10 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "three.js r187",
     source: "https://threejs.org/docs/#Material.onBeforeCompile",
     proof: "run in three.js r187, by WebGL 2 and by WebGPU",
+    stock: |material| match material.film {
+        Some(film) => Model::iridescence(&film, film.f0),
+        None => Model::schlick_gaussian(material.f0_in_engines()),
+    },
     languages: &["gles", "wgsl"],
     // The split sum's error is below .0014 (the report of `bake --dfg`), which a white furnace can show.
     table: Some((80, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),

@@ -1,6 +1,7 @@
 //! Unity: HLSL for Shader Graph's node Custom Function, and for users' own lighting functions.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {
@@ -9,6 +10,7 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Unity 6",
     source: "https://docs.unity3d.com/Packages/com.unity.shadergraph@17.0/manual/Custom-Function-Node.html",
     proof: "compiled by DXC with Unity's macros, not run",
+    stock: |material| Model::schlick(material.f0_in_engines()),
     languages: &["hlsl"],
     table: None,
     pages: &[

@@ -1,6 +1,7 @@
 //! Unreal Engine 5: shader headers for the material node Custom, and for users' own shaders.
 
 use super::flavour::{Flavour, FlavourPage};
+use crate::generator::exchange::Model;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {
@@ -9,6 +10,11 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Unreal Engine 5",
     source: "https://dev.epicgames.com/documentation/en-us/unreal-engine/custom-material-expressions-in-unreal-engine",
     proof: "compiled by DXC as HLSL 2021, not run",
+    stock: |material| {
+        let f0 = material.f0_in_engines();
+        let words = "Schlick's approximation, F90 by min(50 F0, 1)";
+        Model::schlick_f90(words, f0, (50.0 * f0[1]).min(1.0))
+    },
     languages: &["hlsl"],
     table: None,
     pages: &[

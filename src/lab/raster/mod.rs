@@ -25,6 +25,6 @@ pub use histogram::{BINS, CosineHistogram, Shown, shown};
 pub use mesh::{Body, CUBE, Mesh, RELIEF, SPHERE, Vertex};
 pub use obj::{MOST_TRIANGLES, ObjFault, mesh_of_obj};
 pub use rendered_error::{
-    ChannelErrors, MAGNIFIED, Painted, RelativeErrors, RenderedError, SceneErrorRow, mean_relative,
+    ChannelErrors, Painted, RelativeErrors, RenderedError, SceneErrorRow, mean_relative,
     rendered_error,
 };

@@ -149,9 +149,6 @@ impl SceneErrorRow {
     }
 }
 
-/// How many times a difference is magnified, as in the thesis's figure 21.
-pub const MAGNIFIED: f64 = 8.0;
-
 /// A picture of three channels, row by row. Pixels that the object does not cover are 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Painted {
@@ -183,15 +180,13 @@ impl Painted {
         Painted::new(frame, values(function, reference, &cosines).into_iter())
     }
 
-    /// The magnitude of the difference from another picture of the same size, magnified.
-    #[must_use]
-    pub fn difference(&self, other: &Painted) -> Painted {
+    /// The largest difference of a channel from another picture of the same size, of each pixel.
+    pub fn difference(&self, other: &Painted) -> Vec<f64> {
         let pixels = self.pixels.iter().zip(&other.pixels);
-        let difference = pixels.map(|(a, b)| each_channel(|i| MAGNIFIED * (a[i] - b[i]).abs()));
-        Painted {
-            size: self.size,
-            pixels: difference.collect(),
-        }
+        let apart = pixels.map(|(a, b)| each_channel(|i| (a[i] - b[i]).abs()));
+        apart
+            .map(|apart| apart.into_iter().fold(0.0, f64::max))
+            .collect()
     }
 
     fn new(frame: &Frame, values: impl Iterator<Item = [f64; 3]>) -> Painted {

@@ -14,7 +14,6 @@ use super::metric::Screen;
 use super::planned::{DEGREES, JudgedMaterial, degree_of};
 use super::report::{PlanReport, PlanRow, cost_exact, named};
 use super::request::PlanRequest;
-use crate::lab::raster::MAGNIFIED;
 use crate::physics::spectra::srgb_byte;
 use crate::pictures::html;
 use crate::pictures::plot::{ChartAxis, LineChart, Look, Series, Style, ticks};
@@ -22,6 +21,9 @@ use crate::pictures::png::rgb_png;
 use crate::pictures::table::short_number;
 
 const TEMPLATE: &str = include_str!("../../../templates/plan.html.tera");
+/// How many times a difference is magnified, as in the thesis's figure 21.
+const MAGNIFIED: f64 = 8.0;
+
 /// A chart ends at this many times the budget, or above the chosen function's largest error.
 const ABOVE_BUDGET: f64 = 4.0;
 /// The height of the histogram, as a share of the chart.

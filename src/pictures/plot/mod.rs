@@ -16,4 +16,4 @@ pub use line_chart::{ChartAxis, LineChart, Series};
 pub use palette::{
     BLUE, GREEN, INK, Look, SHADES, Style, VERMILION, hex_colour, shade, shade_bytes,
 };
-pub use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
+pub use text::{AXIS, FOOT, Font, HEADING, LEGEND, PANEL, SUBTITLE, TICK, TITLE, capital};

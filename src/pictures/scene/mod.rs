@@ -36,7 +36,8 @@ pub use light_file::is_deep;
 pub use material::OpticalMaterial;
 pub use mesh::{Vertex, vertex_numbers};
 pub use picture::{
-    Difference, Display, Picture, PictureRequest, RenderedRow, TONE_CURVES, ToneCurve, render,
+    Difference, Display, Picture, PictureRequest, RenderedRow, TONE_CURVES, ToneCurve, compare,
+    render,
 };
 pub use room::{ROOM_MAX, ROOM_MIN, Relief, room_cube, room_radiance};
 pub use table::{ALL, DrawnSurface, FRONT, METAL, PassRow, RenderRow, SKY, View, find, hangs_free};

@@ -265,7 +265,7 @@ pub struct Difference {
 
 /// CIEDE2000 between two pictures as shown on the screen: of each pixel, and of the pixels whose entry in `counts` is true, taken
 /// together.
-fn compare(
+pub fn compare(
     one: &[DVec3],
     other: &[DVec3],
     counts: &[bool],
