@@ -183,6 +183,7 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
     }
     let file = check_place(flags)?;
     let viewing = ViewingConditions::default();
+    let environment = environment(flags)?;
     let mut all = Vec::new();
     for (done, shown) in flags.names.iter().enumerate() {
         progress(done as u64, flags.names.len() as u64, "materials");
@@ -191,14 +192,6 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         let compared = compared.map_err(|fault| Error::usage(fault.to_string()))?;
         all.push((subject.name, shown.with_coat, compared));
     }
-    let environment = match flags.environment_file() {
-        Some(file) => {
-            let read = Environment::read(&source::picture(file)?, Space::Srgb);
-            read.map_err(|fault| Error::usage(format!("{}: {fault}", foreign::path(file))))?
-        }
-        None if flags.environment == Path::new("white") => Environment::baked(2, |_| DVec3::ONE),
-        None => scene::sky(),
-    };
     let sphere = Sphere::new(flags.size, &environment);
     let drawn: Vec<(PanelRow, ComparedShown)> = all
         .iter()
@@ -262,6 +255,19 @@ fn check_place(flags: &CompareEngineFlags) -> Result<PathBuf, Error> {
     let named = flags.report.json.iter().chain([&file]);
     try_files(&named.map(PathBuf::as_path).collect::<Vec<_>>())?;
     Ok(file)
+}
+
+fn environment(flags: &CompareEngineFlags) -> Result<Environment, Error> {
+    match flags.environment_file() {
+        Some(file) => {
+            let read = Environment::read(&source::picture(file)?, Space::Srgb);
+            read.map_err(|fault| Error::usage(format!("{}: {fault}", foreign::path(file))))
+        }
+        None if flags.environment == Path::new("white") => {
+            Ok(Environment::baked(2, |_| DVec3::ONE))
+        }
+        None => Ok(scene::sky()),
+    }
 }
 
 fn subject(
@@ -336,7 +342,7 @@ fn drawn(
     };
     let words = |way: &OneWay| {
         format!(
-            "{}; {}",
+            "{}, 99 % below {}",
             number(way.delta_e2000.mean),
             number(way.delta_e2000.p99)
         )
@@ -434,13 +440,13 @@ fn text(rows: &[ComparedShown], engine: &Flavour) -> String {
 
 /// Whether our functions are worth their place.
 fn advice(row: &ComparedShown) -> &'static str {
-    let (stock, fitted) = (&row.stock.delta_e2000, &row.fitted.delta_e2000);
-    if stock.p99 < SEEN {
+    let (stock, fitted) = (&row.stock, &row.fitted);
+    if stock.delta_e2000.p99 < SEEN {
         "no: nobody sees a difference"
-    } else if 2.0 * fitted.mean > stock.mean {
+    } else if 2.0 * fitted.delta_e2000.mean > stock.delta_e2000.mean {
         "no: it is no nearer to the truth"
-    } else if stock.mean < SEEN {
-        "hardly: only a small part differs visibly"
+    } else if stock.seen < 0.5 {
+        "where the surface is seen obliquely"
     } else {
         "yes"
     }

@@ -103,7 +103,7 @@ fn after_help() -> String {
     let line = |row: &RenderRow| format!("  {:width$}  {}\n", row.name, row.summary);
     let names: String = scene::ALL.iter().map(line).collect();
     format!(
-        "Names:\n{names}\nExamples:\n  fresnel-gen render double_refraction -o ball.png\n  fresnel-gen render double_refraction --material sf11 --size 256 --tone-curve aces --json -\n\nThe picture has three panels: what the effect draws, what a ray tracer in f64 sees, and their difference (CIEDE2000, 0 dark to 20 bright). Exit codes: 0 done, 2 wrong input, 3 something is missing here."
+        "Names:\n{names}\nExamples:\n  fresnel-gen render double_refraction -o ball.png\n  fresnel-gen render double_refraction --material sf11 --size 256 --tone-curve aces --json -\n\nThe picture has three panels: what the effect draws, what a ray tracer in f64 sees, and their difference (CIEDE2000, with a bar that says how far its colours go). Exit codes: 0 done, 2 wrong input, 3 something is missing here."
     )
 }
 
@@ -278,8 +278,16 @@ fn lacking(why: impl ToString) -> Error {
     Error::lacking(why.to_string())
 }
 
-/// The brightest colour of the error map, in CIEDE2000.
-pub const ERROR_SCALE: f64 = 20.0;
+/// What the brightest colour of an error map may mean, in CIEDE2000: the least that 99 % of its pixels stay below.
+const ERROR_SCALES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
+
+fn error_scale(p99: f64) -> f64 {
+    let [.., largest] = ERROR_SCALES;
+    ERROR_SCALES
+        .into_iter()
+        .find(|most| p99 < *most)
+        .unwrap_or(largest)
+}
 
 /// The facts about a picture, a line each.
 pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
@@ -338,7 +346,7 @@ fn searched(row: &RenderedRow) -> String {
     )
 }
 
-/// The three panels with their titles as PNG, in sRGB; the error map goes from 0 to [`ERROR_SCALE`].
+/// The three panels with their titles as PNG, in sRGB; the bar says how far the error map goes.
 ///
 /// # Errors
 /// The picture cannot be encoded; the text says why.
@@ -351,6 +359,7 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
         words,
     };
     let error = row.error;
+    let most = error_scale(error.p99);
     let words = format!(
         "{} on average, 99 % of pixels below {}",
         number(error.mean),
@@ -383,14 +392,14 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
                     picture
                         .map
                         .iter()
-                        .map(|error| shade_bytes(error / ERROR_SCALE))
+                        .map(|error| shade_bytes(error / most))
                         .collect(),
                 ),
             ],
         }],
         bar: Some(ColourBar {
             title: "difference of colours, ΔE₀₀: 1 is just seen".to_owned(),
-            most: ERROR_SCALE,
+            most,
         }),
         foot: format!("fresnel-gen {about}"),
     };

@@ -450,7 +450,7 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
 }
 
 /// The brightest colour of the map of differences, in reflectance.
-const ERROR_SCALE: f64 = 0.125;
+const ERROR_SCALE: f64 = 0.2;
 
 /// A method's picture beside that of the exact law, and their difference, as PNG in sRGB; or why it cannot be encoded. `about` is ASCII.
 fn sheet_png(

@@ -15,8 +15,8 @@ use crate::lab::chart::{
 };
 use crate::pictures::html;
 use crate::pictures::plot::{
-    AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK,
-    TITLE, Tick, VERMILION, capital, labelled, log_ticks, plain_label,
+    AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PURPLE, PanelFrame, SUBTITLE, Scale,
+    TICK, TITLE, Tick, VERMILION, capital, labelled, log_ticks, plain_label,
 };
 
 /// The size of the picture.
@@ -36,7 +36,9 @@ const FOOT_ROOM: f64 = 34.0;
 /// The factor by which the axes are wider than the points.
 const SLACK: f64 = 1.25;
 
-const OURS: &str = BLUE;
+const FITTED: &str = BLUE;
+/// Forms of ours that take F0 and F82, or n and k.
+const PROPOSED: &str = PURPLE;
 const THEIRS: &str = VERMILION;
 const YOURS: &str = GREEN;
 
@@ -103,19 +105,24 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
     let mut elements = plane.axes.grid(&plane.x, &plane.y);
     elements.extend(plane.axes.tick_labels(&plane.x, &plane.y));
     elements.extend(titles(view, &plane.axes));
-    elements.push(staircase(&points, &plane));
-    elements.extend(pairs(&points, &plane));
+    let (corners, pairs) = (staircase(&points, &plane), pairs(&points, &plane));
+    elements.push(staircase_path(&corners));
+    elements.extend(pairs.iter().map(|(line, colour)| pair_path(line, colour)));
     // A full dot lies over a hollow one at the same place, and a user's dot over all.
     let mut layers: Vec<&ChartPoint> = points.iter().collect();
     layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
     elements.extend(layers.into_iter().map(|point| dot(point, &plane)));
-    elements.extend(labels(&points, &plane));
+    let steps = corners.windows(2).map(|ends| [ends[0], ends[1]]);
+    let lines: Vec<[(f64, f64); 2]> = steps
+        .chain(pairs.into_iter().map(|(line, _)| line))
+        .collect();
+    elements.extend(labels(&points, &lines, &plane));
     layout.extend(elements, bottom + BELOW - 8.0);
     layout.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
     Some(layout.document(&title, &key))
 }
 
-const KEY: &str = "Blue: ours. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
+const KEY: &str = "Blue: fitted here. Purple: proposed here, from F0 and F82. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
 largest error is least. Square: reads a texture; its cost excludes the fetch. The line: of functions that read no texture none is both cheaper and as accurate; those that fail inside their domain are left out of it.";
 
 /// The key, with a sentence on a user's function and on what is left out.
@@ -141,44 +148,60 @@ fn titles(view: &ChartView, axes: &Axes) -> Vec<String> {
     axes.titles(&under, 24.0, &beside, FRAME.margin - 8.0)
 }
 
-/// The frontier as a staircase: the least error at each cost.
-fn staircase(points: &[ChartPoint], plane: &Plane) -> String {
+/// The corners of the frontier, a staircase of the least error at each cost, from the top to the right edge.
+fn staircase(points: &[ChartPoint], plane: &Plane) -> Vec<(f64, f64)> {
     let Area { top, right, .. } = plane.axes.area;
     let best = points.iter().filter(|point| point.is_on_frontier);
-    let mut line = String::new();
+    let mut corners = Vec::new();
     for point in best {
         let (across, down) = plane.at(point);
-        line += &if line.is_empty() {
-            format!("M{across:.2} {top:.2}V{down:.2}")
-        } else {
-            format!("H{across:.2}V{down:.2}")
+        let above = corners.last().map_or(top, |(_, above)| *above);
+        corners.extend([(across, above), (across, down)]);
+    }
+    corners.extend(corners.last().map(|(_, down)| (right, *down)));
+    corners
+}
+
+fn staircase_path(corners: &[(f64, f64)]) -> String {
+    let mut line = String::new();
+    for (place, (across, down)) in corners.iter().enumerate() {
+        line += &match place {
+            0 => format!("M{across:.2} {down:.2}"),
+            place if place % 2 == 1 => format!("V{down:.2}"),
+            _ => format!("H{across:.2}"),
         };
     }
     format!(
-        "<path fill=\"none\" stroke=\"{OURS}\" stroke-opacity=\"0.55\" stroke-width=\"2\" d=\"{line}H{right:.2}\"/>"
+        "<path fill=\"none\" stroke=\"{FITTED}\" stroke-opacity=\"0.55\" stroke-width=\"2\" d=\"{line}\"/>"
     )
 }
 
-/// A line for each method, from its point with intended inputs to its point with the best inputs.
-fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
+/// A line for each method, from its point with intended inputs to its point with the best inputs, and its colour.
+fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<([(f64, f64); 2], &'static str)> {
     let best = points.iter().filter(|point| point.entry.is_best);
     let line = |best: &ChartPoint| {
         let is_same = |point: &&ChartPoint| {
             point.entry.inputs() == "intended" && point.entry.name() == best.entry.name()
         };
         let intended = points.iter().find(is_same)?;
-        let ((across, to), (_, from)) = (plane.at(best), plane.at(intended));
-        let colour = colour(best);
-        Some(format!(
-            "<path stroke=\"{colour}\" stroke-opacity=\"0.5\" d=\"M{across:.2} {from:.2}V{to:.2}\"/>"
-        ))
+        Some(([plane.at(intended), plane.at(best)], colour(best)))
     };
     best.filter_map(line).collect()
 }
 
-/// Blue where the form is ours.
+fn pair_path([from, to]: &[(f64, f64); 2], colour: &str) -> String {
+    format!(
+        "<path stroke=\"{colour}\" stroke-opacity=\"0.5\" d=\"M{:.2} {:.2}V{:.2}\"/>",
+        to.0, from.1, to.1
+    )
+}
+
 fn colour(point: &ChartPoint) -> &'static str {
-    if point.entry.is_ours() { OURS } else { THEIRS }
+    match point.entry {
+        entry if !entry.is_ours() => THEIRS,
+        entry if entry.is_fitted() => FITTED,
+        _ => PROPOSED,
+    }
 }
 
 fn dot(point: &ChartPoint, plane: &Plane) -> String {
@@ -220,7 +243,7 @@ fn diamond(x: f64, y: f64) -> String {
 
 /// Names of points: a user's first, then those of the frontier. A method's point with its best inputs has a
 /// name only on the frontier.
-fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
+fn labels(points: &[ChartPoint], lines: &[[(f64, f64); 2]], plane: &Plane) -> Vec<String> {
     const FONT: &Font = &TICK;
     let has_name = |point: &&ChartPoint| point.is_on_frontier || !point.entry.is_best;
     let mut order: Vec<&ChartPoint> = points.iter().filter(has_name).collect();
@@ -237,7 +260,7 @@ fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
         .iter()
         .map(|(at, text)| (*at, FONT.width(text)))
         .collect();
-    let places = place_names(&sized, FONT.leading - 3.0, &all, plane.axes.area);
+    let places = place_names(&sized, FONT.leading - 3.0, &all, lines, plane.axes.area);
     let mut elements = Vec::new();
     for (((at, text), (_, width)), place) in names.iter().zip(sized).zip(places) {
         let Some(place) = place else { continue };
@@ -273,6 +296,8 @@ struct LabelPlace {
 
 /// Half the width of a point.
 const DOT: f64 = 4.5;
+/// The gap between a line and a name.
+const LINE: f64 = 1.5;
 /// The gap between a point and its name.
 const GAP: f64 = 3.0;
 
@@ -283,14 +308,20 @@ fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
 }
 
 /// A place for the name of each of these points, by its width and the height of all, in order, so that no name covers any of all
-/// points. `None` where there is no room.
+/// points and no line of the chart crosses a name. Lines run across or down. `None` where there is no room.
 fn place_names(
     names: &[((f64, f64), f64)],
     height: f64,
     all: &[(f64, f64)],
+    lines: &[[(f64, f64); 2]],
     page: Area,
 ) -> Vec<Option<LabelPlace>> {
     let mut taken: Vec<Area> = all.iter().map(|point| around(*point, DOT, DOT)).collect();
+    taken.extend(lines.iter().map(|[from, to]| {
+        let middle = ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0);
+        let half = |a: f64, b: f64| (a - b).abs() / 2.0 + LINE;
+        around(middle, half(from.0, to.0), half(from.1, to.1))
+    }));
     let mut places = Vec::new();
     for (point, width) in names {
         let free = candidates(*point, *width, height).find(|LabelPlace { area, .. }| {
@@ -446,7 +477,7 @@ mod tests {
         let points: Vec<(f64, f64)> = (0..12).map(point).collect();
         let names: Vec<((f64, f64), f64)> = points.iter().map(|at| (*at, 60.0)).collect();
         let page = beside(0.0, 200.0, 600.0, 400.0);
-        let places = place_names(&names, 12.0, &points, page);
+        let places = place_names(&names, 12.0, &points, &[], page);
         let areas: Vec<Area> = places.iter().flatten().map(|place| place.area).collect();
         assert!(areas.len() > 6, "{}", areas.len());
         for (i, one) in areas.iter().enumerate() {
@@ -458,6 +489,6 @@ mod tests {
     #[test]
     fn where_there_is_no_room_there_is_no_name() {
         let (page, at) = (beside(0.0, 10.0, 20.0, 20.0), (10.0, 10.0));
-        assert_eq!(place_names(&[(at, 100.0)], 12.0, &[at], page), [None]);
+        assert_eq!(place_names(&[(at, 100.0)], 12.0, &[at], &[], page), [None]);
     }
 }

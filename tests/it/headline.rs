@@ -1,30 +1,28 @@
-//! The first picture of README: gold and platinum by Schlick's approximation, by `fitted` and by the exact law over the whole
-//! spectrum, as spheres and as curves.
+//! The first picture of README: platinum, and gold below a clear coat, by Schlick's approximation, by `fitted` and by the exact law over
+//! the whole spectrum, as spheres and as curves.
 //!
 //! A sphere is seen from afar in a room that is white everywhere, so a pixel's colour is the reflectance at its angle:
 //! at r of the radius sin θ = r. The right half of a sphere shows the error instead of the colour.
 
-use fresnel_gen::generator::emit::{Bounds, Naming, specialised_function};
-use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods;
-use fresnel_gen::physics::optics::cosine;
+use fresnel_gen::generator::flavours::{ANGLES, Compared, Flavour};
+use fresnel_gen::physics::materials::ViewingConditions;
 use fresnel_gen::pictures::plot::{
-    ChartAxis, FOOT, HEADING, Layout, LineChart, PANEL, PanelFrame, SUBTITLE, Series, Style, TICK,
-    hex_colour,
+    BLUE, ChartAxis, FOOT, GREEN, HEADING, Layout, LineChart, Look, PANEL, PanelFrame, SUBTITLE,
+    Series, Style, TICK, VERMILION, hex_colour,
 };
 
-/// The materials, each with the lowest reflectance on its axis.
-const MATERIALS: [(&str, f64); 2] = [("gold", 0.6), ("platinum", 0.4)];
-/// The methods, cheapest first; the exact law comes last.
-const METHODS: [(&str, &str); 2] = [("schlick", "Schlick"), ("fitted", "fitted")];
+/// The materials, whether below a clear coat, and the lowest reflectance on the axis.
+const MATERIALS: [(&str, bool, f64); 2] = [("platinum", false, 0.4), ("gold", true, 0.2)];
 /// The exact law's name in the picture.
 const EXACT: &str = "exact law";
+/// The channels with their colours, and the lines of methods, in the order of [`curves`].
+const CHANNELS: [(&str, &str); 3] = [("red", VERMILION), ("green", GREEN), ("blue", BLUE)];
+const LINES: [(&str, f64); 3] = [("2.5 2.5", 1.8), ("8 4", 2.2), ("", 1.6)];
 /// The factor that brightens the error.
 const BRIGHTER: f64 = 5.0;
-/// The number of angles: from 0 to 90 degrees, half a degree apart.
-const ANGLES: u32 = 181;
-/// The stride in these angles of a sphere's gradient.
-const STOPS: usize = 4;
+/// The stride in the angles of a sphere's gradient, and of a curve.
+const STOPS: usize = 16;
+const POINTS: usize = 8;
 
 const PICTURE: PanelFrame = PanelFrame {
     width: 1040.0,
@@ -52,8 +50,8 @@ struct Curve {
     colours: Vec<[f64; 3]>,
 }
 
-/// The picture as SVG text. `command` makes it again and stands at its foot.
-pub fn headline(command: &str) -> String {
+/// The picture as SVG text, with `foot` below it.
+pub fn headline(foot: &str) -> String {
     let mut layout = Layout::new(PICTURE);
     let title = "Schlick's approximation, fitted, and the exact law";
     layout.paragraph(&HEADING, title);
@@ -62,47 +60,47 @@ pub fn headline(command: &str) -> String {
          brighter; black is no error."
     );
     layout.paragraph(&SUBTITLE, &words);
-    for (material, low) in MATERIALS {
-        let curves = curves(material);
-        let (spheres, chart) = (spheres(material, &curves), chart(material, &curves, low));
+    for (material, with_coat, low) in MATERIALS {
+        let curves = curves(material, with_coat);
+        let title = if with_coat {
+            format!("{material} below a clear coat")
+        } else {
+            material.to_owned()
+        };
+        let (spheres, chart) = (
+            spheres(material, &title, &curves),
+            chart(&title, &curves, low),
+        );
         layout.side_by_side(
             PICTURE.margin - SPHERES.margin,
             vec![spheres, chart.panel(CURVES, material)],
         );
     }
-    layout.paragraph(&FOOT, command);
+    layout.paragraph(&FOOT, foot);
     layout.document(title, &words)
 }
 
 fn degrees() -> impl Iterator<Item = f64> {
-    (0..ANGLES).map(|i| 90.0 * f64::from(i) / f64::from(ANGLES - 1))
+    (0..ANGLES).map(|i| 90.0 * i as f64 / (ANGLES - 1) as f64)
 }
 
-/// The reflectance in air by each method, and last by the whole spectrum.
-fn curves(material: &str) -> Vec<Curve> {
+/// What an engine with Schlick's approximation and a clear coat makes of a material, what ours does there, and the whole spectrum.
+fn curves(material: &str, with_coat: bool) -> [Curve; 3] {
     let subject = &crate::subjects(&[material])[0];
-    let cosines: Vec<f64> = degrees().map(cosine).collect();
-    let mut curves = Vec::new();
-    for (method, name) in METHODS {
-        let method = methods::find(method).unwrap();
-        let emitted =
-            specialised_function(method, subject, &Naming::default(), &Bounds::recorded());
-        let values = evaluate(&emitted.unwrap().function, &[Value::each(cosines.clone())]);
-        let colours = (0..cosines.len()).map(|i| values.at(i)).collect();
-        curves.push(Curve { name, colours });
-    }
-    let exact = cosines.iter().map(|c| subject.reference.at(*c)).collect();
-    curves.push(Curve {
-        name: EXACT,
-        colours: exact,
-    });
-    curves
+    let viewing = ViewingConditions::default();
+    let found = Compared::new(Flavour::PLAYCANVAS, subject, &viewing, with_coat).unwrap();
+    [
+        ("Schlick", found.stock),
+        ("fitted", found.ours),
+        (EXACT, found.truth),
+    ]
+    .map(|(name, colours)| Curve { name, colours })
 }
 
 /// The spheres of a material side by side.
-fn spheres(material: &str, curves: &[Curve]) -> Layout {
+fn spheres(material: &str, title: &str, curves: &[Curve]) -> Layout {
     let mut layout = Layout::new(SPHERES);
-    layout.paragraph(&PANEL, material);
+    layout.paragraph(&PANEL, title);
     let exact = &curves[curves.len() - 1];
     let (top, mut elements) = (layout.bottom + 18.0, Vec::new());
     let step = SPHERES.room() / curves.len() as f64;
@@ -161,23 +159,29 @@ fn half_disc(id: &str, colours: &[[f64; 3]], [x, y]: [f64; 2], right: u8) -> Vec
         .collect()
 }
 
-/// The mean of the three channels against angle.
-fn chart(material: &str, curves: &[Curve], low: f64) -> LineChart {
-    let mean = |colour: &[f64; 3]| colour.iter().sum::<f64>() / 3.0;
-    let series = curves.iter().rev().enumerate().map(|(i, curve)| Series {
-        name: curve.name.to_owned(),
-        style: match i {
-            0 => Style::Exact,
-            i => Style::Approximate(i - 1),
-        },
-        points: degrees().zip(curve.colours.iter().map(mean)).collect(),
-    });
+/// The three channels against angle.
+fn chart(title: &str, curves: &[Curve], low: f64) -> LineChart {
+    let mut series = Vec::new();
+    // The exact law first, below the others.
+    for (curve, (dashes, width)) in curves.iter().zip(LINES).rev() {
+        for (channel, (name, colour)) in CHANNELS.iter().enumerate() {
+            let points = degrees()
+                .zip(&curve.colours)
+                .step_by(POINTS)
+                .map(|(at, rgb)| (at, rgb[channel]));
+            series.push(Series::new(
+                &format!("{}, {name}", curve.name),
+                Style::Own(Look::new(colour, dashes, width)),
+                points.collect(),
+            ));
+        }
+    }
     LineChart {
-        title: format!("{material}: mean of the channels"),
+        title: title.to_owned(),
         subtitle: String::new(),
         x: ChartAxis::angle_of_incidence(),
         y: ChartAxis::new("reflectance", [low, 1.0], 6, ""),
-        series: series.collect(),
+        series,
         ..LineChart::default()
     }
 }

@@ -15,6 +15,10 @@ pub static FLAVOUR: Flavour = Flavour {
         Some(film) => Model::iridescence(&film, film.f0),
         None => Model::schlick(material.f0_in_engines()),
     },
+    coated_f0: Some(|f0: f64| {
+        // `getR0RemappedForClearCoat` of its shaders.
+        (f0 * (f0 * (0.941_892 - 0.263_008 * f0) + 0.346_479) - 0.028_599_8).clamp(0.0, 1.0)
+    }),
     languages: &["gles", "wgsl"],
     // The module reads it along these axes. Its error is below .003 for every material of the catalogue.
     table: Some((64, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),

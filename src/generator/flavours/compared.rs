@@ -1,7 +1,7 @@
 //! What an engine shows of a material: as it ships, with F82-tint, with our functions, and what is true.
 //!
 //! Below a clear coat all of them have the engine's coat, which reflects `R_c + (1 - R_c) B`: Schlick's approximation with F0 = .04. As it
-//! ships, an engine takes the metal's colours in air for B. Truth has both interfaces and all that is reflected between them.
+//! ships, an engine takes the metal's colours in air for B, and Babylon.js lowers them. Truth has both interfaces and all that is reflected between them.
 
 use super::Flavour;
 use crate::generator::emit::{self, COAT, CatalogueRow, Naming, adapter_rows};
@@ -50,6 +50,15 @@ pub enum ComparedFault {
     /// A language refuses a text: a bug.
     #[error(transparent)]
     Emit(#[from] emit::Error),
+    /// A clear coat whose base is not known.
+    #[error(
+        "what {engine} makes of a metal below its clear coat is not known here; it is of {}",
+        known_coats()
+    )]
+    NoCoat {
+        /// The engine.
+        engine: &'static str,
+    },
     /// No fitted method follows the material.
     #[error(
         "no method of adapters follows `{}`: its films have too many fringes; `fresnel-gen bake --material` writes a table",
@@ -84,7 +93,19 @@ impl Compared {
         };
         let ours = our_model(rows.first().ok_or_else(no_method)?, with_coat);
         let ours = ours.ok_or_else(no_method)?;
-        let stock = (engine.stock)(&in_air);
+        let stock = match (with_coat, engine.coated_f0) {
+            (false, _) => (engine.stock)(&in_air),
+            (true, Some(below)) => {
+                let mut coated = in_air.clone();
+                coated.f0 = coated.f0.map(below);
+                (engine.stock)(&coated)
+            }
+            (true, None) => {
+                return Err(ComparedFault::NoCoat {
+                    engine: engine.name,
+                });
+            }
+        };
         let f82 = match in_air.body {
             Body::Dielectric { ior, .. } if !subject.has_films() => Model::dielectric(ior),
             _ => Model::f82_tint(in_air.f0, in_air.tint.map(|tint| tint.clamp(0.0, 1.0))),
@@ -112,6 +133,11 @@ impl Compared {
                 .collect(),
         })
     }
+}
+
+fn known_coats() -> String {
+    let known = super::ALL.iter().filter(|one| one.coated_f0.is_some());
+    known.map(|one| one.name).collect::<Vec<_>>().join(", ")
 }
 
 /// The function that an adapter takes for a material.

@@ -21,6 +21,8 @@ pub struct Flavour {
     pub proof: &'static str,
     /// What the host as it ships makes of a material in air: its formula with the numbers that a user would give it.
     pub stock: fn(&EngineMaterial) -> Model,
+    /// What the host as it ships makes of a metal's F0 below its clear coat of index 1.5; none where that is not known.
+    pub coated_f0: Option<fn(f64) -> f64>,
     /// The targets whose text it contains.
     pub languages: &'static [&'static str],
     /// The split-sum tables that it contains, if any: texels per side, axes of cosine and roughness.

@@ -12,6 +12,7 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://docs.godotengine.org/en/stable/tutorials/shaders/shader_reference/shading_language.html",
     proof: "run in Godot 4.6, in its Compatibility renderer",
     stock: |material| Model::schlick_f90_of_sum(material.f0_in_engines()),
+    coated_f0: None,
     languages: &["glsl"],
     table: Some((32, [SplitSumAxis::Sqrt; 2])),
     pages: &[

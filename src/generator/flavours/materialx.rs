@@ -14,6 +14,7 @@ pub static FLAVOUR: Flavour = Flavour {
         Body::Dielectric { ior, .. } if !material.subject.has_films() => Model::dielectric(ior),
         _ => Model::f82_tint(material.f0, material.tint.map(|tint| tint.clamp(0.0, 1.0))),
     },
+    coated_f0: None,
     languages: &[],
     table: None,
     pages: &[

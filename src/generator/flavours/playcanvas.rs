@@ -15,6 +15,7 @@ pub static FLAVOUR: Flavour = Flavour {
         Some(film) => Model::iridescence(&film, film.f0),
         None => Model::schlick(material.f0_in_engines()),
     },
+    coated_f0: Some(|f0| f0),
     languages: &["gles", "wgsl"],
     // The module reads it along these axes. Its error is below .003 for every material of the catalogue.
     table: Some((64, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),

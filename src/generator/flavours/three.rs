@@ -15,6 +15,7 @@ pub static FLAVOUR: Flavour = Flavour {
         Some(film) => Model::iridescence(&film, film.f0),
         None => Model::schlick_gaussian(material.f0_in_engines()),
     },
+    coated_f0: Some(|f0| f0),
     languages: &["gles", "wgsl"],
     // The split sum's error is below .0014 (the report of `bake --dfg`), which a white furnace can show.
     table: Some((80, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),

@@ -15,6 +15,7 @@ pub static FLAVOUR: Flavour = Flavour {
         let words = "Schlick's approximation, F90 by min(50 F0, 1)";
         Model::schlick_f90(words, f0, (50.0 * f0[1]).min(1.0))
     },
+    coated_f0: None,
     languages: &["hlsl"],
     table: None,
     pages: &[

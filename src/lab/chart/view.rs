@@ -299,6 +299,11 @@ impl ChartEntry {
         self.method().is_some_and(Method::is_ours)
     }
 
+    /// Whether its coefficients are fitted to a material.
+    pub fn is_fitted(&self) -> bool {
+        self.method().is_some_and(Method::is_fitted)
+    }
+
     /// How many numbers describe a material in it.
     pub fn input_numbers(&self) -> usize {
         match &self.function {

@@ -14,6 +14,6 @@ pub use axes::{Area, Axes, Scale, Tick, labelled, log_ticks, plain_label, power_
 pub use layout::{Layout, PanelFrame};
 pub use line_chart::{ChartAxis, LineChart, Series};
 pub use palette::{
-    BLUE, GREEN, INK, Look, SHADES, Style, VERMILION, hex_colour, shade, shade_bytes,
+    BLUE, GREEN, INK, Look, PURPLE, SHADES, Style, VERMILION, hex_colour, shade, shade_bytes,
 };
 pub use text::{AXIS, FOOT, Font, HEADING, LEGEND, PANEL, SUBTITLE, TICK, TITLE, capital};

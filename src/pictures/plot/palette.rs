@@ -16,8 +16,11 @@ pub const BLUE: &str = "#0072b2";
 /// From the same colours.
 pub const GREEN: &str = "#009e73";
 
+/// From the same colours.
+pub const PURPLE: &str = "#cc79a7";
+
 /// These colours in their order for curves.
-const COLOURS: [&str; 6] = [VERMILION, BLUE, GREEN, "#cc79a7", "#e69f00", "#56b4e9"];
+const COLOURS: [&str; 6] = [VERMILION, BLUE, GREEN, PURPLE, "#e69f00", "#56b4e9"];
 /// One more than the colours: grey is enough to tell the first seven curves
 /// apart, and no pair of colour and dashes repeats before forty-two.
 const DASHES: [&str; 7] = [

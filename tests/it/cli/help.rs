@@ -223,7 +223,7 @@ fn bash_completes_names_and_flags() {
 
 /// Lines in which each flag that a command offers does its work. Those of a graphics stack or of minutes are parsed only; tests of
 /// their own run them.
-const USED: [(&str, bool); 60] = [
+const USED: [(&str, bool); 61] = [
     (
         "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
         true,
@@ -364,6 +364,10 @@ const USED: [(&str, bool); 60] = [
     (
         "render thin_film --material silicon --film fused_silica:300nm --size 64",
         false,
+    ),
+    (
+        "compare gold:coat platinum --film 1.38:100nm --engine babylon --environment white --size 64 -o c.png --json c.json",
+        true,
     ),
     (
         "render caustics --material gold --size 64 --exposure 1 --tone-curve aces --environment e.hdr --ldr -o r.png --json r.json",

@@ -9,6 +9,7 @@ mod catalogue;
 mod chart;
 mod clean;
 mod compare;
+mod compare_engine;
 mod cost;
 mod determinism;
 #[cfg(unix)]

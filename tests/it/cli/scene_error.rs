@@ -55,13 +55,7 @@ fn pictures_are_three_a_method_with_reference_and_angles() {
     let line = "scene-error relief --eye 0,1,-2 --material gold --method schlick --size 64x48 --out-dir pictures";
     place.done(line);
     let first = place.files();
-    let drawn = [
-        "angles.exr",
-        "gold_reference.exr",
-        "gold_reference.png",
-        "gold_schlick.png",
-        "gold_schlick_difference.png",
-    ];
+    let drawn = ["angles.exr", "gold_reference.exr", "gold_schlick.png"];
     for name in drawn {
         let path = format!("pictures/{name}");
         let bytes = std::fs::read(place.path(&path)).unwrap();

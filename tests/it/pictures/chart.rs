@@ -81,7 +81,8 @@ pub static FACTS: &[Fact] = &[
     },
 ];
 
-const OURS: &str = "#0072b2";
+const FITTED: &str = "#0072b2";
+const PROPOSED: &str = "#cc79a7";
 const THEIRS: &str = "#d55e00";
 const YOURS: &str = "#009e73";
 
@@ -207,7 +208,7 @@ fn the_frontier_falls(svg: &str) {
 fn fitted_lies_below_what_is_cheaper(svg: &str) {
     let chart = Chart::new(svg);
     let marks = chart.marks.iter().filter(|mark| !mark.is_texture);
-    let (ours, others): (Vec<&Mark>, Vec<&Mark>) = marks.partition(|mark| mark.stroke == OURS);
+    let (ours, others): (Vec<&Mark>, Vec<&Mark>) = marks.partition(|mark| mark.stroke != THEIRS);
     // What has inputs to choose stands a second time, hollow, above or below itself.
     let has_inputs = |mark: &Mark| {
         let hollow = ours.iter().filter(|other| other.is_hollow);
@@ -237,7 +238,11 @@ fn functions_stand_at_their_numbers(svg: &str, report: &Value) {
     assert_eq!(rows.len(), chart.marks.len());
     for row in rows {
         let method = fresnel_gen::language::methods::find(row["method"].as_str().unwrap()).unwrap();
-        let colour = if method.is_ours() { OURS } else { THEIRS };
+        let colour = match (method.is_ours(), method.is_fitted()) {
+            (false, _) => THEIRS,
+            (true, true) => FITTED,
+            (true, false) => PROPOSED,
+        };
         let [cost, error] = ["cost", "value"].map(|key| row[key].as_f64().unwrap());
         let mark = chart.find(colour, cost, error.max(1e-5));
         assert_eq!(mark.is_texture, row["fetches"] != 0, "{row}");

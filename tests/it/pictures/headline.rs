@@ -1,4 +1,4 @@
-//! README's first picture: spheres and curves of gold and platinum.
+//! README's first picture: spheres and curves of platinum, and of gold below a clear coat.
 
 use roxmltree::{Document, Node};
 
@@ -9,7 +9,7 @@ use super::reader::plots;
 pub static FACTS: &[Fact] = &[
     Fact {
         pictures: "*headline.svg",
-        says: "gold's sphere is yellow in the middle and white at the rim, by every method",
+        says: "below a coat too, gold's sphere is yellow in the middle and white at the rim, by every method",
         holds: |shown| {
             let text = shown.text();
             let document = Document::parse(&text).unwrap();
@@ -28,8 +28,9 @@ pub static FACTS: &[Fact] = &[
             let text = shown.text();
             let document = Document::parse(&text).unwrap();
             let plots = plots(&document);
-            let platinum = &plots[1];
+            let platinum = &plots[0];
             for (method, dips) in [("Schlick", false), ("fitted", true), ("exact law", true)] {
+                let method = &format!("{method}, green");
                 let (at, least) = platinum.lowest(method);
                 let normal = platinum.at(method, 0.0);
                 assert_eq!(
@@ -57,6 +58,20 @@ pub static FACTS: &[Fact] = &[
             assert!((70.0..88.0).contains(&at) && value > 200, "{at} {value}");
             assert!(brightest(1).1 < 40, "{:?}", brightest(1));
             assert_eq!(brightest(2).1, 0);
+        },
+    },
+    Fact {
+        pictures: "*headline.svg",
+        says: "below a coat gold is darker than its colours in air, head-on too; the base for the coat is near",
+        holds: |shown| {
+            let text = shown.text();
+            let document = Document::parse(&text).unwrap();
+            let in_the_middle =
+                |method: usize| gradient(&document, &format!("gold-{method}-error"))[0].1[0];
+            assert!(in_the_middle(0) > 120 && in_the_middle(1) < 60);
+            let gold = &plots(&document)[1];
+            let green = |method: &str| gold.at(&format!("{method}, green"), 0.0);
+            assert!(green("Schlick") > green("exact law") + 0.02);
         },
     },
 ];

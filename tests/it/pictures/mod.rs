@@ -6,6 +6,7 @@
 mod baked;
 mod chart;
 mod comparison;
+mod engines;
 mod headline;
 mod map;
 mod plan;
@@ -38,10 +39,11 @@ struct PictureFile {
     file: String,
 }
 
-static FACTS: [&[Fact]; 9] = [
+static FACTS: [&[Fact]; 10] = [
     baked::FACTS,
     chart::FACTS,
     comparison::FACTS,
+    engines::FACTS,
     headline::FACTS,
     map::FACTS,
     renders::FACTS,

@@ -1,5 +1,6 @@
 //! Reads pictures back: what an SVG's labels and lines say, and what colour a pixel has.
 
+use super::PictureFile;
 use roxmltree::{Document, Node};
 
 /// Text where it stands.
@@ -361,6 +362,72 @@ impl Pixels {
     pub fn at(&self, x: f64, y: f64) -> [u8; 3] {
         let first = 3 * (y as usize * self.width + x as usize);
         self.samples[first..first + 3].try_into().unwrap()
+    }
+}
+
+/// From left, to right, from top and to bottom of a panel, in 256ths.
+pub type Part = [usize; 4];
+
+/// The panels of a picture, in the order in which its text `Panels` lists them.
+pub struct Panels {
+    pixels: Pixels,
+    /// Left, top, width and height of each.
+    places: Vec<[usize; 4]>,
+}
+
+impl Panels {
+    pub(super) fn new(shown: &PictureFile) -> Panels {
+        let bytes = shown.bytes();
+        let decoder = png::Decoder::new(std::io::Cursor::new(bytes.as_slice()));
+        let reader = decoder.read_info().unwrap();
+        let texts = &reader.info().uncompressed_latin1_text;
+        let text = texts.iter().find(|text| text.keyword == "Panels");
+        let text = &text.expect("the picture says where its panels are").text;
+        let place = |place: &str| {
+            let numbers: Vec<usize> = place.split(' ').map(|n| n.parse().unwrap()).collect();
+            numbers.try_into().unwrap()
+        };
+        Panels {
+            pixels: Pixels::new(&bytes),
+            places: text.split("; ").map(place).collect(),
+        }
+    }
+
+    pub fn colours(&self, panel: usize, [left, right, top, bottom]: Part) -> Vec<[f64; 3]> {
+        let [x0, y0, width, height] = self.places[panel];
+        let rows = top * height / 256..bottom * height / 256;
+        let colours = rows.flat_map(|y| {
+            let columns = left * width / 256..right * width / 256;
+            columns.map(move |x| {
+                let (x, y) = ((x0 + x) as f64, (y0 + y) as f64);
+                self.pixels.at(x, y).map(f64::from)
+            })
+        });
+        colours.collect()
+    }
+
+    pub fn mean(&self, panel: usize, part: Part) -> [f64; 3] {
+        let colours = self.colours(panel, part);
+        [0, 1, 2]
+            .map(|i| colours.iter().map(|colour| colour[i]).sum::<f64>() / colours.len() as f64)
+    }
+
+    pub fn blueness(&self, panel: usize, part: Part) -> f64 {
+        let [red, _, blue] = self.mean(panel, part);
+        blue - red
+    }
+
+    /// The mean distance of the largest channel from the smallest.
+    pub fn chroma(&self, panel: usize, part: Part) -> f64 {
+        let colours = self.colours(panel, part);
+        let spread =
+            |[red, green, blue]: &[f64; 3]| red.max(*green).max(*blue) - red.min(*green).min(*blue);
+        colours.iter().map(spread).sum::<f64>() / colours.len() as f64
+    }
+
+    pub fn brightest(&self, panel: usize) -> f64 {
+        let all = self.colours(panel, [0, 256, 0, 256]);
+        all.iter().map(|colour| colour[1]).fold(0.0, f64::max)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Fact;
 use super::PictureFile;
-use super::reader::Pixels;
+use super::reader::{Panels, Part};
 
 pub static FACTS: &[Fact] = &[
     Fact {
@@ -205,9 +205,6 @@ fn one_surface_magnifies(shown: &PictureFile) {
     assert!(read.blueness(1, BOTTOM) > read.blueness(0, BOTTOM) + 15.0);
 }
 
-/// From left, to right, from top and to bottom of a panel, in 256ths.
-type Part = [usize; 4];
-
 const WHOLE: Part = [48, 208, 48, 208];
 const RIM: Part = [24, 34, 108, 148];
 const TOP: Part = [108, 148, 30, 50];
@@ -219,56 +216,4 @@ const RIGHT: Part = [216, 236, 118, 138];
 /// A part so far right of the middle.
 fn ring(far: usize) -> Part {
     [125 + far, 131 + far, 125, 131]
-}
-
-/// Three panels side by side: drawn, truth, error.
-struct Panels {
-    pixels: Pixels,
-    size: usize,
-}
-
-impl Panels {
-    fn new(shown: &PictureFile) -> Panels {
-        let pixels = Pixels::new(&shown.bytes());
-        let size = pixels.height;
-        assert_eq!(pixels.width, 3 * size);
-        Panels { pixels, size }
-    }
-
-    fn colours(&self, panel: usize, [left, right, top, bottom]: Part) -> Vec<[f64; 3]> {
-        let scaled = |part: usize| part * self.size / 256;
-        let rows = scaled(top)..scaled(bottom);
-        let colours = rows.flat_map(|y| {
-            let columns = scaled(left)..scaled(right);
-            columns.map(move |x| {
-                let x = (panel * self.size + x) as f64;
-                self.pixels.at(x, y as f64).map(f64::from)
-            })
-        });
-        colours.collect()
-    }
-
-    fn mean(&self, panel: usize, part: Part) -> [f64; 3] {
-        let colours = self.colours(panel, part);
-        [0, 1, 2]
-            .map(|i| colours.iter().map(|colour| colour[i]).sum::<f64>() / colours.len() as f64)
-    }
-
-    fn blueness(&self, panel: usize, part: Part) -> f64 {
-        let [red, _, blue] = self.mean(panel, part);
-        blue - red
-    }
-
-    /// The mean distance of the largest channel from the smallest.
-    fn chroma(&self, panel: usize, part: Part) -> f64 {
-        let colours = self.colours(panel, part);
-        let spread =
-            |[red, green, blue]: &[f64; 3]| red.max(*green).max(*blue) - red.min(*green).min(*blue);
-        colours.iter().map(spread).sum::<f64>() / colours.len() as f64
-    }
-
-    fn brightest(&self, panel: usize) -> f64 {
-        let all = self.colours(panel, [0, 256, 0, 256]);
-        all.iter().map(|colour| colour[1]).fold(0.0, f64::max)
-    }
 }
