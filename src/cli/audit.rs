@@ -427,7 +427,18 @@ fn cost_line(row: &AuditRow, cost: &AuditCost) -> String {
             let sentence = row.sentence_on(gpu).unwrap_or("ours are not known there");
             format!("{gpu}: {net} ({}): {sentence}", cost.measure)
         }
-        (None, why) => format!("{gpu}: not checked: {}", why.as_deref().unwrap_or_default()),
+        (None, why) => {
+            let record = match (row.computes, cost.recorded) {
+                (Some(method), Some(recorded)) => {
+                    format!("; our {method}, which it computes, costs {recorded} by the record")
+                }
+                _ => String::new(),
+            };
+            format!(
+                "{gpu}: not checked: {}{record}",
+                why.as_deref().unwrap_or_default()
+            )
+        }
     }
 }
 

@@ -39,7 +39,7 @@ pub struct FitFlags {
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
-    /// Only forms with so many coefficients: 4 or 5, or 6 for materials under films
+    /// Only forms with so many coefficients: 4 or 5; 6 or 8 for materials under films
     #[arg(long, value_name = "N", value_parser = terms)]
     pub terms: Option<usize>,
     /// Without effect: all forms are shared by all materials

@@ -278,17 +278,6 @@ fn lacking(why: impl ToString) -> Error {
     Error::lacking(why.to_string())
 }
 
-/// What the brightest colour of an error map may mean, in CIEDE2000: the least that 99 % of its pixels stay below.
-const ERROR_SCALES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
-
-fn error_scale(p99: f64) -> f64 {
-    let [.., largest] = ERROR_SCALES;
-    ERROR_SCALES
-        .into_iter()
-        .find(|most| p99 < *most)
-        .unwrap_or(largest)
-}
-
 /// The facts about a picture, a line each.
 pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
     let error = |of: Difference| format!("mean {:.2}, 99th percentile {:.2}", of.mean, of.p99);
@@ -359,7 +348,7 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
         words,
     };
     let error = row.error;
-    let most = error_scale(error.p99);
+    let most = ColourBar::end_for(error.p99.max(1.0));
     let words = format!(
         "{} on average, 99 % of pixels below {}",
         number(error.mean),
@@ -370,7 +359,10 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
         None => format!("{} of {}", row.body, row.material),
     };
     let sheet = PanelSheet {
-        heading: format!("{}: {what}", capital(&row.effect.replace('_', " "))),
+        heading: format!(
+            "{}: {what}",
+            capital(&row.effect.replace('_', " ").replace("f0", "F0"))
+        ),
         about: String::new(),
         size: [row.size; 2],
         rows: vec![PanelRow {
@@ -382,7 +374,7 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
                     picture.drawn.iter().map(shown).collect(),
                 ),
                 panel(
-                    "truth, by tracing rays",
+                    "truth",
                     String::new(),
                     picture.truth.iter().map(shown).collect(),
                 ),

@@ -449,9 +449,6 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
     names.chain(errors.map(error)).chain(last).collect()
 }
 
-/// The brightest colour of the map of differences, in reflectance.
-const ERROR_SCALE: f64 = 0.2;
-
 /// A method's picture beside that of the exact law, and their difference, as PNG in sRGB; or why it cannot be encoded. `about` is ASCII.
 fn sheet_png(
     [material, method]: [&str; 2],
@@ -473,9 +470,10 @@ fn sheet_png(
             .collect()
     };
     let apart = drawn.difference(reference);
+    let most = ColourBar::end_for(apart.iter().copied().fold(0.0, f64::max));
     let map = apart
         .iter()
-        .map(|apart| shade_bytes(apart / ERROR_SCALE))
+        .map(|apart| shade_bytes(apart / most))
         .collect();
     let words = match space {
         Some(space) => format!(
@@ -498,7 +496,7 @@ fn sheet_png(
         }],
         bar: Some(ColourBar {
             title: "largest difference of a channel, in reflectance".to_owned(),
-            most: ERROR_SCALE,
+            most,
         }),
         foot: format!("fresnel-gen {command}"),
     };

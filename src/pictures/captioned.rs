@@ -38,6 +38,22 @@ pub struct ColourBar {
     pub most: f64,
 }
 
+impl ColourBar {
+    /// The end of a bar that shows values up to this one: 1, 2 or 5 times a power of ten.
+    pub fn end_for(value: f64) -> f64 {
+        let all = (-6..6).flat_map(|power| [1.0, 2.0, 5.0].map(|one| (one, power)));
+        let mut ends = all.map(|(one, power)| {
+            // So that .2 is .2 to the last digit.
+            if power < 0 {
+                one / libm::pow(10.0, f64::from(-power))
+            } else {
+                one * libm::pow(10.0, f64::from(power))
+            }
+        });
+        ends.find(|end| value <= *end).unwrap_or(value)
+    }
+}
+
 /// A picture of panels.
 #[derive(Clone, Debug)]
 pub struct PanelSheet {
@@ -183,6 +199,19 @@ fn draw_bar(layout: &mut Layout, bar: &ColourBar) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bar_ends_at_a_round_number() {
+        for (value, end) in [
+            (0.0, 1e-6),
+            (0.173, 0.2),
+            (0.2, 0.2),
+            (1.0, 1.0),
+            (11.3, 20.0),
+        ] {
+            assert_eq!(ColourBar::end_for(value), end, "{value}");
+        }
+    }
 
     #[test]
     fn panels_keep_their_pixels_where_the_file_says_they_are() {

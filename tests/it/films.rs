@@ -401,6 +401,38 @@ fn films_line(words: &str, cost: &str, own: &[f64], outside: &[f64]) -> String {
     )
 }
 
+/// A stack in the wrong file, or with a material's name, could not be asked for.
+#[test]
+fn stacks_are_called_as_their_files_and_not_as_materials() {
+    for name in materials::stacks() {
+        let stack = stack(name);
+        assert_eq!(stack.name, *name, "data/films/{name}.toml: its `name`");
+        let is_material = materials::names().contains(name);
+        assert!(
+            !is_material,
+            "data/films/{name}.toml: a material has this name"
+        );
+        for (field, value) in [
+            ("summary", &stack.summary),
+            ("link", &stack.link),
+            ("licence", &stack.licence),
+        ] {
+            assert!(
+                !value.is_empty(),
+                "data/films/{name}.toml: `{field}` is empty"
+            );
+        }
+        let is_sourced = !stack.reference.starts_with(';');
+        assert!(is_sourced, "data/films/{name}.toml: `reference` is empty");
+        for film in &stack.films {
+            assert!(
+                film.thickness_nm > 0.0,
+                "data/films/{name}.toml: a film of 0 nm"
+            );
+        }
+    }
+}
+
 fn stacks_table() -> String {
     let mut table =
         "| name | what it is | films | R at 0 degrees |\n|---|---|---|---|\n".to_owned();

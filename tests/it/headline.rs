@@ -17,7 +17,7 @@ const MATERIALS: [(&str, bool, f64); 2] = [("platinum", false, 0.4), ("gold", tr
 const EXACT: &str = "exact law";
 /// The channels with their colours, and the lines of methods, in the order of [`curves`].
 const CHANNELS: [(&str, &str); 3] = [("red", VERMILION), ("green", GREEN), ("blue", BLUE)];
-const LINES: [(&str, f64); 3] = [("2.5 2.5", 1.8), ("8 4", 2.2), ("", 1.6)];
+const LINES: [(&str, f64); 3] = [("2.5 2.5", 1.8), ("8 4", 2.4), ("", 1.4)];
 /// The factor that brightens the error.
 const BRIGHTER: f64 = 5.0;
 /// The stride in the angles of a sphere's gradient, and of a curve.
@@ -162,15 +162,15 @@ fn half_disc(id: &str, colours: &[[f64; 3]], [x, y]: [f64; 2], right: u8) -> Vec
 /// The three channels against angle.
 fn chart(title: &str, curves: &[Curve], low: f64) -> LineChart {
     let mut series = Vec::new();
-    // The exact law first, below the others.
-    for (curve, (dashes, width)) in curves.iter().zip(LINES).rev() {
-        for (channel, (name, colour)) in CHANNELS.iter().enumerate() {
+    for (channel, (name, colour)) in CHANNELS.iter().enumerate() {
+        // The exact law first, below the others.
+        for (curve, (dashes, width)) in curves.iter().zip(LINES).rev() {
             let points = degrees()
                 .zip(&curve.colours)
                 .step_by(POINTS)
                 .map(|(at, rgb)| (at, rgb[channel]));
             series.push(Series::new(
-                &format!("{}, {name}", curve.name),
+                &format!("{name}: {}", curve.name.trim_start_matches("exact ")),
                 Style::Own(Look::new(colour, dashes, width)),
                 points.collect(),
             ));

@@ -82,10 +82,24 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
     Some((compiler.name.to_owned(), made.map(drop)))
 }
 
-/// The verdict of DXC with both versions of HLSL. A text may be for either one. If both accept it, the older one is run.
+/// The verdict of DXC with both versions of HLSL. A text may be for either one. If both accept it, the older one is run. Where DXC is
+/// not here, glslang reads the text, without types of 16 bits.
 fn hlsl(precision: Precision, program: &str) -> Accepted {
     let made = |version| hlsl_to_spirv(precision, program, ENTRY, version);
-    let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
+    let old = made(HlslVersion::V2018);
+    if let (Err(Fault::Absent(_)), Precision::F32) = (&old, precision) {
+        let made = hlsl_by_glslang(program, "comp");
+        if !matches!(made, Err(Fault::Absent(_))) {
+            return Accepted {
+                verdicts: vec![(
+                    "glslang (dxc is not here)".to_owned(),
+                    made.clone().map(drop),
+                )],
+                code: made.map(ProgramCode::Spirv),
+            };
+        }
+    }
+    let new = made(HlslVersion::V2021);
     let verdicts: &[(&str, &Result<Vec<u8>, Fault>)] = match (&old, &new) {
         (Ok(_), Err(Fault::Failed(_))) => &[("dxc -HV 2018 (2021 refuses it)", &old)],
         (Err(Fault::Failed(_)), Ok(_)) => &[("dxc -HV 2021 (2018 refuses it)", &new)],
@@ -113,6 +127,15 @@ pub fn module(language: Language, precision: Precision, text: &str) -> Result<Ve
     }
 }
 
+/// A shader of a stage in HLSL as SPIR-V by glslang, which knows no types of 16 bits.
+///
+/// # Errors
+/// glslang is not here, or refuses it.
+fn hlsl_by_glslang(text: &str, stage: &str) -> Result<Vec<u8>, Fault> {
+    let options = format!("-D -V --target-env vulkan1.1 -S {stage} -e {ENTRY} -o OUT FILE");
+    compiled(&GLSLANG, &options, "shader.hlsl", text)
+}
+
 /// glslang's options for the SPIR-V of a compute shader.
 fn desktop_options() -> String {
     format!("-V --target-env vulkan1.1 -S comp -e {ENTRY} --source-entrypoint main -o OUT FILE")
@@ -135,7 +158,7 @@ fn slang(text: &str, stage: &str) -> Result<Vec<u8>, Fault> {
     compiled(&SLANGC, &options, "shader.slang", text)
 }
 
-/// A pixel shader in HLSL as SPIR-V.
+/// A pixel shader in HLSL as SPIR-V, by glslang where DXC is not here.
 ///
 /// # Errors
 /// DXC is not here, or refuses it.
@@ -150,7 +173,15 @@ fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, Fault> {
         );
         compiled(&DXC, &options, "shader.hlsl", text)
     };
-    made(2018).or_else(|fault| made(2021).map_err(|_| fault))
+    match (made(2018), precision) {
+        (Err(fault @ Fault::Absent(_)), Precision::F32) => {
+            hlsl_by_glslang(text, "frag").map_err(|other| match other {
+                Fault::Absent(_) => fault,
+                refused @ Fault::Failed(_) => refused,
+            })
+        }
+        (made_old, _) => made_old.or_else(|fault| made(2021).map_err(|_| fault)),
+    }
 }
 
 /// A fragment shader in GLSL 4.50 as SPIR-V.

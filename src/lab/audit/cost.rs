@@ -10,12 +10,13 @@ use super::language::Language;
 use super::program::AuditProgram;
 use crate::lab::cost::{
     CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler,
-    MeasuredFunction, Probe, answered, foreign, launch,
+    MeasuredFunction, Probe, answered, foreign, launch, records,
 };
 use crate::lab::fault::Fault;
 use crate::lab::process::{Error, Surroundings, Worker};
 use crate::lab::verify::naga_translation;
 use crate::language::ir::{Param, Ty};
+use crate::language::methods::Method;
 use crate::physics::num::Precision;
 
 /// Measures the cost of a program with the compiler of a family.
@@ -220,6 +221,8 @@ pub struct AuditCost {
     pub net: Option<f64>,
     /// Why there are no figures.
     pub reason: Option<String>,
+    /// Where the family's compiler is not here: the recorded cost of our library function that the function computes.
+    pub recorded: Option<f64>,
 }
 
 impl AuditCost {
@@ -241,7 +244,18 @@ impl AuditCost {
             net_inverse_throughput: known.and_then(|figures| figures.net.inverse_throughput),
             net: known.map(CostFigures::cost),
             reason: figures.err(),
+            recorded: None,
         }
+    }
+
+    /// The same, with the recorded cost of the method that the function computes where there are no figures.
+    #[must_use]
+    pub fn with_record_of(mut self, method: &'static Method) -> AuditCost {
+        if self.net.is_none() {
+            let figures = records(self.gpu).library(method);
+            self.recorded = figures.as_ref().map(CostFigures::cost);
+        }
+        self
     }
 }
 

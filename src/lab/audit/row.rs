@@ -19,6 +19,7 @@ use crate::lab::cost::CostAndError;
 use crate::lab::fault::Fault;
 use crate::lab::verify::compilers::Verdict;
 use crate::lab::verify::{Answer, Status, as_object};
+use crate::language::methods;
 use crate::physics::foreign::Foreign;
 
 /// A user's function with the values of a material: which compilers accept it, its error against the law, and its cost.
@@ -222,7 +223,7 @@ impl Audited<'_> {
             accepts: self.verdicts.iter().map(answer).collect(),
             edges: ran.map(|ran| ran.edges.rows.clone()),
             beyond: ran.map(|ran| ran.edges.remarks.clone()),
-            cost: self.costs.to_vec(),
+            cost: self.costs_with_records(ran),
             is_cost_comparable: self.cost_remark.is_none(),
             cost_remark: self.cost_remark.clone(),
             dominated_by: Vec::new(),
@@ -234,6 +235,16 @@ impl Audited<'_> {
         };
         self.compare(&mut row);
         row
+    }
+
+    /// The costs, with recorded ones of our method that the function computes.
+    fn costs_with_records(&self, ran: Option<&Ran>) -> Vec<AuditCost> {
+        let method = ran.and_then(|ran| methods::find(ran.computes?));
+        let costs = self.costs.iter().cloned();
+        match method {
+            Some(method) => costs.map(|cost| cost.with_record_of(method)).collect(),
+            None => costs.collect(),
+        }
     }
 
     /// The inputs from outside and the arguments that keep the text's values, in words.

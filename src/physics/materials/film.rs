@@ -51,10 +51,12 @@ pub enum FilmFault {
     #[error("`{0}` is no thickness; a number with its unit is wanted: nm or um, such as 60nm")]
     NoLength(String),
     /// Two films in one word.
-    #[error("`{0}` are several films; write --film for each, the outermost first")]
+    #[error(
+        "`{0}` are several films; each wants a --film of its own, or a string of its own in the list of a file, the outermost first"
+    )]
     Several(String),
     /// The thickness is negative, or no number.
-    #[error("a film of {0} is none: 0 to {THICKEST_NM} nm are allowed")]
+    #[error("no film has a thickness of {0}: 0 to {THICKEST_NM} nm are allowed")]
     Negative(String),
     /// The film is too thick.
     #[error(

@@ -138,13 +138,15 @@ impl Material {
         Ok(Index { n, k })
     }
 
-    /// The range of wavelengths in nanometres in which both n and k are known. The first is above the second if there is none.
+    /// The range of wavelengths in nanometres in which both n and k are known, those of its films too. The first is above the second if
+    /// there is none.
     pub fn range_nm(&self) -> (f64, f64) {
-        let (from, to) = self.n.range_nm();
-        match self.k.as_ref().map(DispersionCurve::range_nm) {
-            Some((k_from, k_to)) => (from.max(k_from), to.min(k_to)),
-            None => (from, to),
-        }
+        let k = self.k.as_ref().map(DispersionCurve::range_nm);
+        let films = self.films.iter().map(|film| film.material.range_nm());
+        let others = k.into_iter().chain(films);
+        others.fold(self.n.range_nm(), |(from, to), (first, last)| {
+            (from.max(first), to.min(last))
+        })
     }
 
     /// Whether n and k are known over a range of wavelengths.

@@ -207,16 +207,14 @@ fn the_frontier_falls(svg: &str) {
 #[track_caller]
 fn fitted_lies_below_what_is_cheaper(svg: &str) {
     let chart = Chart::new(svg);
-    let marks = chart.marks.iter().filter(|mark| !mark.is_texture);
-    let (ours, others): (Vec<&Mark>, Vec<&Mark>) = marks.partition(|mark| mark.stroke != THEIRS);
-    // What has inputs to choose stands a second time, hollow, above or below itself.
-    let has_inputs = |mark: &Mark| {
-        let hollow = ours.iter().filter(|other| other.is_hollow);
-        let mut beside = hollow.map(|other| (other.at.0 - mark.at.0).abs());
-        beside.any(|beside| beside < NEAR)
+    let of = |colour: &str| -> Vec<&Mark> {
+        let marks = chart.marks.iter();
+        marks
+            .filter(|mark| !mark.is_texture && mark.stroke == colour)
+            .collect()
     };
-    let fitted: Vec<&&Mark> = ours.iter().filter(|mark| !has_inputs(mark)).collect();
-    assert!(fitted.len() > 2 && ours.len() > fitted.len() + 3 && others.len() > 10);
+    let (fitted, others) = (of(FITTED), of(THEIRS));
+    assert!(fitted.len() > 2 && of(PROPOSED).len() > 3 && others.len() > 10);
     for mark in fitted {
         let cheaper = others.iter().filter(|other| other.at.0 <= mark.at.0 + NEAR);
         for other in cheaper {

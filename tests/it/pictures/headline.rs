@@ -29,8 +29,8 @@ pub static FACTS: &[Fact] = &[
             let document = Document::parse(&text).unwrap();
             let plots = plots(&document);
             let platinum = &plots[0];
-            for (method, dips) in [("Schlick", false), ("fitted", true), ("exact law", true)] {
-                let method = &format!("{method}, green");
+            for (method, dips) in [("Schlick", false), ("fitted", true), ("law", true)] {
+                let method = &format!("green: {method}");
                 let (at, least) = platinum.lowest(method);
                 let normal = platinum.at(method, 0.0);
                 assert_eq!(
@@ -70,8 +70,8 @@ pub static FACTS: &[Fact] = &[
                 |method: usize| gradient(&document, &format!("gold-{method}-error"))[0].1[0];
             assert!(in_the_middle(0) > 120 && in_the_middle(1) < 60);
             let gold = &plots(&document)[1];
-            let green = |method: &str| gold.at(&format!("{method}, green"), 0.0);
-            assert!(green("Schlick") > green("exact law") + 0.02);
+            let green = |method: &str| gold.at(&format!("green: {method}"), 0.0);
+            assert!(green("Schlick") > green("law") + 0.02);
         },
     },
 ];

@@ -10,7 +10,7 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 25] = [
+const REPORTS: [(&str, &str); 26] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
@@ -64,6 +64,7 @@ const REPORTS: [(&str, &str); 25] = [
         "scene-error cube --material gold --method schlick --size 16x16 --frames 1 --json -",
     ),
     ("render", "render double_refraction --size 16 --json -"),
+    ("compare", "compare gold:coat --size 64 --json -"),
     ("plan", "plan scene.toml --prove --json -"),
     (
         "audit",
@@ -72,7 +73,8 @@ const REPORTS: [(&str, &str); 25] = [
 ];
 
 /// Reports of [`REPORTS`] whose values no machine has a part in: neither its graphics stacks, nor its compilers, nor its clock.
-const SAME_EVERYWHERE: [&str; 18] = [
+const SAME_EVERYWHERE: [&str; 19] = [
+    "compare",
     "methods",
     "methods show",
     "targets",
