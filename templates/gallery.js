@@ -5,7 +5,9 @@ const $ = id => document.getElementById(id);
 const DRAG = 12, IDLE = 120;
 const named = (list, name) => list.find(one => one.name === name);
 const texts = new Map(data.functions.map(one => [one.name, one]));
+// What the address asks for, behind ? or #.
 const wanted = new URLSearchParams(location.search);
+new URLSearchParams(location.hash.slice(1)).forEach((value, name) => wanted.set(name, value));
 const figure = value => value && Math.abs(value) < 1e-4 ? value.toExponential(2) : String(Number(value.toPrecision(3)));
 const OWN = "";
 
@@ -307,7 +309,7 @@ function tell_values() {
   const method = $("method").value, factor = 2 ** Number($("magnification").value);
   $("left").textContent = method;
   $("middle").textContent = `${one.exact}, ${one.exact_is}`;
-  $("right").textContent = `difference × ${factor}`;
+  $("right").textContent = `difference × ${factor}; white is ${figure(1 / factor)}`;
   $("panels").setAttribute("aria-label", `${subject()}. Three panels: by ${method}; by ${one.exact_is}, ${one.exact}; their difference, times ${factor}.`);
 }
 
@@ -349,8 +351,9 @@ function tell_text() {
   $("copied").textContent = "";
 }
 
-async function copy() {
-  const text = $("text").textContent;
+const copy = () => copy_text($("text").textContent, "copy", "copied", $("function").value);
+
+async function copy_text(text, button, told, what) {
   let is_done = await navigator.clipboard?.writeText(text).then(() => true, () => false);
   if (!is_done) {
     const field = document.body.appendChild(document.createElement("textarea"));
@@ -358,9 +361,9 @@ async function copy() {
     field.select();
     is_done = document.execCommand("copy");
     field.remove();
-    $("copy").focus();
+    $(button).focus();
   }
-  $("copied").textContent = is_done ? `${$("function").value} is copied.` : "The browser does not allow it; select the text and copy it.";
+  $(told).textContent = is_done ? `${what} is copied.` : "The browser does not allow it; select the text and copy it.";
 }
 
 // Dragging turns what the sliders turn.
@@ -394,6 +397,8 @@ async function changed(event) {
   if (["n", "k", "material"].includes(id)) fill_methods(method);
   if (["effect", "method", "n", "k", "material"].includes(id)) fill_functions();
   if (id === "backend") await open_player();
+  if (material() && material().name !== picked.name) { picked.name = material().name; tell_card(); }
+  write_address();
   refresh();
 }
 
@@ -412,6 +417,7 @@ async function begin() {
   const ignored = ["effect", "method", "material", "backend"].filter(id => wanted.has(id) && $(id).value !== wanted.get(id));
   $("ignored").textContent = ignored.map(id => `The page's address asks for ${id} ${wanted.get(id)}, which is not to be had here.`).join(" ");
   fill_functions();
+  begin_pick();
   await open_player();
   $("choice").addEventListener("input", event => changed(event).catch(failed));
   $("cost").addEventListener("input", tell_figures);

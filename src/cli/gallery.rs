@@ -9,21 +9,23 @@ use crate::cli::flags::material::MaterialFlags;
 use crate::cli::output::{Output, Progress};
 use crate::cli::places::{folder_or_current, replaced, try_files};
 use crate::generator::command_line::CommandLine;
+use crate::generator::envelope::json_text;
 use crate::generator::output::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::generator::request::Request;
-use crate::pictures::gallery::{films, gallery, gallery_page, is_shown};
+use crate::physics::materials::escaped;
+use crate::pictures::gallery::{ListedMaterials, films, gallery, gallery_page, is_shown};
 
 /// The flags of `gallery`.
 #[derive(Args, Debug)]
 #[command(
     mut_arg("material", |arg| arg.help("Materials on the page: names, paths of material files, all [default: all]")),
-    after_help = "Example:\n  fresnel-gen gallery --out-dir gallery\n\nThe page is DIR/index.html. It holds all that it shows, asks nothing of the network, and runs from a file. A browser draws it by WebGPU, or else by WebGL 2 with the generated GLSL ES. Exit codes: 0 done, 2 wrong input."
+    after_help = "Example:\n  fresnel-gen gallery --out-dir gallery\n\nThe page is DIR/index.html; DIR/materials.json has its materials with the keys of physicallybased.info. The page holds all that it shows, asks nothing of the network, and runs from a file. A browser draws it by WebGPU, or else by WebGL 2 with the generated GLSL ES. Exit codes: 0 done, 2 wrong input."
 )]
 pub struct GalleryFlags {
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
-    /// Write index.html into this folder
+    /// Write index.html and materials.json into this folder
     #[arg(long, value_name = "DIR")]
     pub out_dir: PathBuf,
     /// Also replace a file that fresnel-gen did not write
@@ -42,13 +44,16 @@ impl GalleryFlags {
 
 /// The page's name in its folder.
 const PAGE: &str = "index.html";
+/// The name of the materials' JSON.
+const LIST: &str = "materials.json";
 const NO_MATERIALS: &str = "a gallery shows materials; `none` leaves nothing to show";
 
 /// Writes the page.
 pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
-    let file = folder_or_current(&flags.out_dir).join(PAGE);
-    try_files(&[&file])?;
-    try_places_of_ours(std::slice::from_ref(&file), flags.overwrite)?;
+    let folder = folder_or_current(&flags.out_dir);
+    let [file, list] = [PAGE, LIST].map(|name| folder.join(name));
+    try_files(&[&file, &list])?;
+    try_places_of_ours(&[file.clone(), list.clone()], flags.overwrite)?;
     let request = Request {
         materials: flags.materials.materials_or_all(NO_MATERIALS)?,
         ..Request::default()
@@ -79,7 +84,11 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     let gallery = gallery.map_err(|fault| Error::usage(fault.to_string()))?;
     let command: String = flags.command_line().into();
     let page = gallery_page(&gallery, &command).map_err(Error::usage)?;
-    let old = write_outputs(&[OutputFile::of_report(&file, page, flags.overwrite)])?;
+    let materials = escaped(&json_text(&ListedMaterials::new(&command, &subjects)));
+    let old = write_outputs(&[
+        OutputFile::of_report(&file, page, flags.overwrite),
+        OutputFile::of_report(&list, materials, flags.overwrite),
+    ])?;
     remarks.extend(replaced(&old));
     remarks.push(format!(
         "{}: {} effects, {} methods, {} materials",

@@ -407,7 +407,7 @@ fn stacks_are_called_as_their_files_and_not_as_materials() {
     for name in materials::stacks() {
         let stack = stack(name);
         assert_eq!(stack.name, *name, "data/films/{name}.toml: its `name`");
-        let is_material = materials::names().contains(name);
+        let is_material = materials::names().contains(&name);
         assert!(
             !is_material,
             "data/films/{name}.toml: a material has this name"

@@ -11,7 +11,9 @@ use crate::lab::chart::{ChartData, ChartEntry};
 use crate::language::methods::{Class, Light, Method, Values};
 use crate::physics::materials::Channels;
 use crate::physics::num::in_parallel;
+use crate::physics::optics::COS_82;
 use crate::pictures::frontier::four_digits;
+use crate::pictures::plot::hex_colour;
 use crate::pictures::scene::OpticalMaterial;
 
 /// A material.
@@ -21,6 +23,22 @@ pub struct MaterialNumbers {
     pub name: String,
     /// What it is, in one line.
     pub summary: String,
+    /// Its class.
+    pub kind: &'static str,
+    /// The argument on the command line that names it.
+    pub argument: String,
+    /// Where it was measured.
+    pub reference: String,
+    /// The method of adapters that follows it, if the page has it.
+    pub method: Option<&'static str>,
+    /// Reflectance at 0 degrees.
+    pub f0: [f64; 3],
+    /// Reflectance at 81.79 degrees.
+    pub f82: [f64; 3],
+    /// Both as sRGB.
+    pub hex: [String; 2],
+    /// A ball in a white room: the place between its middle and its rim in per cent, and the colour there.
+    pub colours: Vec<(f64, String)>,
     /// n of red, green and blue.
     pub n: [f32; 3],
     /// k of red, green and blue.
@@ -102,6 +120,13 @@ pub fn numbers(subjects: &[MaterialInMedium], data: &ChartData) -> Vec<MaterialN
     in_parallel(subjects.len(), &one, &mut |_, _| {})
 }
 
+/// The places of a ball's colours: the radius at which an angle is seen is its sine.
+const BALL: [f64; 9] = [0.0, 0.4, 0.6, 0.75, 0.87, 0.94, 0.975, 0.99, 1.0];
+
+fn five_digits(value: f64) -> f64 {
+    (value * 1e5).round() / 1e5
+}
+
 fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
     let optical = OpticalMaterial::of_surface(&subject.reference.surface);
     let set = data.sets.iter().find(|set| set.name == subject.label());
@@ -112,9 +137,25 @@ fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
         let own = set.and_then(|set| set.errors.get(entry(data, method)?));
         errors.insert(method.name, own.map_or([None; 4], four_digits));
     }
+    let seen = |cos_theta| subject.reference.at(cos_theta);
+    let [f0, f82] = [1.0, COS_82].map(seen);
+    let ball = BALL.iter().map(|r| {
+        let colour = seen((1.0 - r * r).max(0.0).sqrt());
+        (100.0 * r, hex_colour(colour))
+    });
     MaterialNumbers {
         name: subject.name.clone(),
         summary: subject.material.summary.clone(),
+        kind: subject.material.class_name(),
+        argument: subject.argument.clone(),
+        reference: subject.material.reference.clone(),
+        method: subject
+            .fitted_with_four()
+            .filter(|method| inputs.contains_key(method)),
+        f0: f0.map(five_digits),
+        f82: f82.map(five_digits),
+        hex: [f0, f82].map(hex_colour),
+        colours: ball.collect(),
         n: optical.n.as_vec3().to_array(),
         k: optical.k.as_vec3().to_array(),
         absorption: optical.absorption().as_vec3().to_array(),

@@ -4,6 +4,7 @@
 //! The page puts each program together from parts: the functions that users import, the calls of the chosen method, the row's
 //! passes. In GLSL ES the passes are naga's translation, and the functions are our own text.
 
+mod listed;
 mod lower;
 mod materials;
 mod orbit;
@@ -30,6 +31,7 @@ use orbit::Orbit;
 use packed::{PackedMesh, PackedTexture, SKY, textures_of};
 use passes::ShowPrograms;
 
+pub use listed::ListedMaterials;
 pub use packed::{CUBE, as_stored, reduced_tables};
 pub use passes::FunctionTexts;
 pub use row::{GalleryRow, films, is_shown, methods_of, own_subject, rows};
@@ -149,6 +151,7 @@ impl From<emit::Error> for LoweringFault {
 
 static TEMPLATE: &str = include_str!("../../../templates/gallery.html.tera");
 static SCRIPT: &str = include_str!("../../../templates/gallery.js");
+static PICK: &str = include_str!("../../../templates/gallery.pick.js");
 static PLAYER: &str = include_str!("../../../templates/gallery.player.js");
 
 /// The page, or why it cannot be made.
@@ -159,6 +162,7 @@ pub fn gallery_page(gallery: &Gallery, command: &str) -> Result<String, String> 
     let mut context = Context::new();
     context.insert("data", &html::script_json(gallery)?);
     context.insert("player", PLAYER);
+    context.insert("pick", PICK);
     context.insert("script", SCRIPT);
     context.insert("command", command);
     html::fill(TEMPLATE, &context)
