@@ -408,11 +408,13 @@ async function begin() {
   fill($("cost"), data.costs.map(([name, title], i) => ({ value: String(i), text: name === "time" ? title : name })), String(Math.max(data.costs.findIndex(([name]) => name === "rdna2"), 0)));
   if (typeof DecompressionStream === "undefined") return say("This browser cannot unpack the page: it knows no DecompressionStream.");
   await unpack();
+  const asked = named(data.materials, wanted.get("material")), can = one => one.materials.includes(asked.name);
   if (!row()) $("effect").selectedIndex = 0;
+  if (asked && !wanted.has("effect") && data.rows.some(can)) $("effect").value = data.rows.find(can).name;
   fill_row();
   // What is seen first differs from the exact law.
-  if (!wanted.has("effect") && !wanted.has("method")) fill_methods("schlick_ior");
-  if (named(data.materials, wanted.get("material"))) { $("material").value = wanted.get("material"); follow_material(); }
+  if (!wanted.has("effect") && !wanted.has("method") && !asked) fill_methods("schlick_ior");
+  if (asked && can(row())) { $("material").value = asked.name; follow_material(); fill_methods($("method").value); }
   if (wanted.has("method")) fill_methods(wanted.get("method"));
   const ignored = ["effect", "method", "material", "backend"].filter(id => wanted.has(id) && $(id).value !== wanted.get(id));
   $("ignored").textContent = ignored.map(id => `The page's address asks for ${id} ${wanted.get(id)}, which is not to be had here.`).join(" ");

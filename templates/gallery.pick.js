@@ -6,7 +6,7 @@ const VECTORS = { wgsl: "vec3<f32>", gles: "vec3", hlsl: "float3" };
 const picked = { name: null };
 
 const in_code = value => { const text = String(Number(value.toPrecision(8))); return /[.e]/.test(text) ? text : text + ".0"; };
-const colour = values => values.map(value => Number(value.toFixed(4))).join(", ");
+const colour = values => values.map(value => value > 1e3 ? "none" : Number(value.toFixed(4))).join(", ");
 
 // The function of a material: our fitted form, and a call of it with the material's coefficients.
 function function_of(one, language) {
@@ -40,7 +40,7 @@ function tell_card() {
   $("card-about").textContent = `${one.summary}. ${one.reference}`;
   rows_of($("card-numbers"), [
     ["F0", `${colour(one.f0)}  ${one.hex[0]}`], ["F82, at 81.79°", `${colour(one.f82)}  ${one.hex[1]}`],
-    ["n of red, green, blue", colour(one.n)], ["k", colour(one.k)],
+    ["n of red, green, blue; none if no index is as bright", colour(one.n)], ["k", colour(one.k)],
   ]);
   const errors = Object.entries(one.errors).filter(([, values]) => values[0] != null).sort((a, b) => a[1][0] - b[1][0]);
   rows_of($("card-errors"), errors.map(([method, values]) => [method + (method === one.method ? " (in adapters)" : ""), figure(values[0])]));

@@ -112,7 +112,8 @@ pub fn gallery(
         played.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
     }
     let all = played.iter().flat_map(GalleryRow::function_names);
-    let functions = passes::texts(&all.collect())?;
+    let copied = passes::COPIED.map(|name| format!("{}{name}", Naming::default().prefix));
+    let functions = passes::texts(&all.chain(copied).collect())?;
     let costs = data.costs.iter();
     Ok(Gallery {
         methods: materials::method_numbers(&data),

@@ -12,6 +12,7 @@ use crate::generator::emit::{
     self, EffectRequest, EmittedFunction, Naming, effect_function_text, library_functions,
 };
 use crate::lab::gpu::Depth;
+use crate::language::methods::Method;
 use crate::language::{effects, methods, targets};
 use crate::pictures::scene::{BACK, DrawnSurface, PHOTONS, PassRow, RenderRow, Slot, TRIANGLES};
 
@@ -144,13 +145,17 @@ pub struct FunctionTexts {
     pub hlsl: String,
 }
 
+/// The methods whose library functions a reader copies with the coefficients of a material.
+pub const COPIED: [&str; 2] = ["fitted", "fitted_dielectric"];
+
 /// The texts of the functions with these names.
 ///
 /// # Errors
 /// A function cannot be written: a bug.
 pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error> {
     let mut all: BTreeMap<String, EmittedFunction> = BTreeMap::new();
-    for method in methods::ALL.iter().filter(|method| method.keeps_inputs()) {
+    let is_copied = |method: &&&Method| method.keeps_inputs() || COPIED.contains(&method.name);
+    for method in methods::ALL.iter().filter(is_copied) {
         for emitted in library_functions(method, &Naming::default())? {
             if names.contains(&emitted.name) {
                 all.insert(emitted.name.clone(), emitted);

@@ -9,6 +9,7 @@ use super::page;
 use super::pixels::Held;
 use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
+use fresnel_gen::generator::emit::validate_wgsl;
 use fresnel_gen::pictures::gallery::{own_subject, rows};
 
 const HANDS: &str = include_str!("hands.js");
@@ -69,6 +70,37 @@ fn webgl_draws_every_row_and_follows_the_reader() {
     changes_are_seen(&told["changes"]);
     figures_are_recorded(&told);
     everything_is_reached(&told);
+    materials_are_picked(&told["picks"]);
+}
+
+/// A material is found by words, shown by an effect that can, and copied; the address says it.
+#[track_caller]
+fn materials_are_picked(picks: &Value) {
+    assert_eq!(picks["found"], json!(["silver"]), "{picks}");
+    assert_eq!(picks["shows"], "silver");
+    assert_eq!(picks["copied"], true);
+    assert_eq!(picks["water"][1], "water");
+    assert_eq!(picks["water"][2], "water");
+    let address = picks["address"].as_str().unwrap();
+    for said in ["material=silver", "effect=", "method=", "lines=filament"] {
+        assert!(address.contains(said), "{address} lacks {said}");
+    }
+    let line = |choice: &str| picks["lines"][choice].as_str().unwrap();
+    assert!(line("three").contains("patch(material, \"silver\");"));
+    assert!(line("gltf").starts_with("fresnel-gen materials params silver --as gltf"));
+    let numbers = picks["numbers"][0].as_str().unwrap();
+    assert!(numbers.contains('#'), "{numbers}");
+    // What is copied is a whole function: naga takes it, and it gives silver's F0.
+    let wgsl = line("wgsl");
+    validate_wgsl(wgsl).unwrap_or_else(|fault| panic!("{fault}: {wgsl}"));
+    for (language, head) in [
+        ("wgsl", "fn silver_reflectance(cos_theta: f32) -> vec3<f32>"),
+        ("gles", "vec3 silver_reflectance(float cos_theta)"),
+        ("hlsl", "float3 silver_reflectance(float cos_theta)"),
+    ] {
+        assert!(line(language).contains(head), "{}", line(language));
+        assert!(line(language).contains("return fresnel_fitted(cos_theta, "));
+    }
 }
 
 /// Each step of the reader changes pixels and what is said.
@@ -122,7 +154,7 @@ fn everything_is_reached(told: &Value) {
     assert!(told["controls"].as_u64().unwrap() > 15, "{told}");
     assert_eq!(told["unlabelled"], json!([]));
     assert_eq!(told["unreached"], json!([]));
-    assert_eq!(told["live"], json!(["status", "copied"]));
+    assert_eq!(told["live"], json!(["copied-lines", "status", "copied"]));
     assert_eq!(told["own"], "index of the sliders");
     assert_ne!(told["before"], told["after"]);
     for way in ["copied", "selected"] {

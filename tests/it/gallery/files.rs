@@ -31,10 +31,37 @@ fn a_page_of_somebody_else_stays() {
     place.refused("gallery --material gold", &["--out-dir"]);
 }
 
+/// What reads physicallybased.info's API reads the list.
+#[test]
+fn materials_lie_beside_the_page_as_json() {
+    let place = Place::new();
+    place.done("gallery --material gold,water --out-dir .");
+    let list: serde_json::Value = serde_json::from_str(&place.read("materials.json")).unwrap();
+    let data = list["data"].as_array().unwrap();
+    let of = |name: &str| data.iter().find(|one| one["name"] == name).unwrap();
+    let (gold, water) = (of("gold"), of("water"));
+    assert_eq!(gold["color"][0]["colorSpace"], "srgb-linear");
+    assert_eq!(gold["metalness"], 1.0);
+    assert_eq!(gold["specularColor"][0]["format"][0], "F82");
+    let red = gold["color"][0]["color"][0].as_f64().unwrap();
+    assert!((red - 1.0).abs() < 1e-6, "{red}");
+    assert_eq!(water["metalness"], 0.0);
+    assert!((water["ior"].as_f64().unwrap() - 1.333).abs() < 0.002);
+    assert!(
+        gold["references"][0]["url"]
+            .as_str()
+            .unwrap()
+            .starts_with("https://")
+    );
+    place.put("materials.json", "[]");
+    place.refused("gallery --material gold --out-dir .", &["materials.json"]);
+}
+
 #[test]
 fn two_runs_write_the_same_bytes() {
     let place = Place::new();
     place.put("index.html", "my own page");
+    place.put("materials.json", "my own list");
     let materials = super::MATERIALS.join(",");
     let ran = place.done(&format!(
         "gallery --material {materials} --out-dir . --overwrite"

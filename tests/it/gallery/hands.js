@@ -109,6 +109,31 @@
     told.gles = [$("function").value, $("text").textContent];
   }
 
+  // A material is searched, picked and copied, and the address follows.
+  async function picks() {
+    const balls = [...$("balls").children], written = [];
+    $("search").value = "metal silver";
+    $("search").dispatchEvent(new Event("input", { bubbles: true }));
+    const found = balls.filter(ball => !ball.hidden).map(ball => ball.value);
+    named_ball("silver").click();
+    await shown();
+    Object.defineProperty(navigator, "clipboard", { value: { writeText: async words => { written.push(words); } }, configurable: true });
+    const lines = {};
+    for (const option of $("lines").options) {
+      $("lines").value = option.value;
+      $("lines").dispatchEvent(new Event("input", { bubbles: true }));
+      lines[option.value] = $("lines-text").textContent;
+    }
+    await copy_text($("lines-text").textContent, "copy-lines", "copied-lines", "silver");
+    const address = location.hash, numbers = cells("card-numbers"), shows = $("material").value;
+    named_ball("water").click();
+    await shown();
+    told.picks = { found, lines, address, numbers, shows, copied: written[0] === lines.filament, water: [$("effect").value, $("material").value, $("card-name").textContent] };
+    $("search").value = "";
+    $("search").dispatchEvent(new Event("input", { bubbles: true }));
+  }
+  const named_ball = name => [...$("balls").children].find(ball => ball.value === name);
+
   (async () => {
     try {
       await begun;
@@ -118,6 +143,7 @@
       await all_rows();
       if (wanted.get("backend") === "webgl2") {
         await changes();
+        await picks();
         controls();
         await copies();
       }
