@@ -112,7 +112,7 @@ pub fn gallery(
         played.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
     }
     let all = played.iter().flat_map(GalleryRow::function_names);
-    let copied = passes::COPIED.map(|name| format!("{}{name}", Naming::default().prefix));
+    let copied = passes::COPIED.map(|name| format!("{}{name}", emit::Naming::default().prefix));
     let functions = passes::texts(&all.chain(copied).collect())?;
     let costs = data.costs.iter();
     Ok(Gallery {
