@@ -317,13 +317,15 @@ const KINDS_OF_PLAYCANVAS: [&str; 6] = [
     "variant",
 ];
 const KINDS_OF_BABYLON: [&str; 5] = ["directional", "image", "rectangle", "furnace", "variant"];
-const REFUSED_BY_PLAYCANVAS: [&str; 4] = [
+const REFUSED_BY_PLAYCANVAS: [&str; 5] = [
+    "option",
     "foreign",
     "without_engine",
     "without_chunk",
     "without_place",
 ];
-const REFUSED_BY_BABYLON: [&str; 4] = [
+const REFUSED_BY_BABYLON: [&str; 5] = [
+    "option",
     "foreign",
     "without_engine",
     "without_include",

@@ -175,6 +175,7 @@
     const says = call => { try { call(); return "nothing"; } catch (fault) { return fault.message ?? fault; } };
     const material = () => new B.PBRMaterial("surface", scene);
     told.unknown = says(() => patch(material(), "glod", BABYLON));
+    told.option = says(() => patch(material(), "gold", BABYLON, { coats: 1.5 }));
     told.foreign = says(() => patch(new B.StandardMaterial("surface", scene), "gold", BABYLON));
     told.without_engine = says(() => patch(material(), "gold"));
     const { ShaderStore } = B, store = backend === "webgpu" ? ShaderStore.IncludesShadersStoreWGSL : ShaderStore.IncludesShadersStore;

@@ -144,6 +144,7 @@
     const says = call => { try { call(); return "nothing"; } catch (fault) { return fault.message; } };
     const material = () => new pc.StandardMaterial();
     told.unknown = says(() => patch(material(), "glod", pc));
+    told.option = says(() => patch(material(), "gold", pc, { coats: 1.5 }));
     told.foreign = says(() => patch(new pc.ShaderMaterial(), "gold", pc));
     told.without_engine = says(() => patch(material(), "gold"));
     const chunks = pc.ShaderChunks.get(stage.app.graphicsDevice, "glsl"), text = chunks.get("fresnelSchlickPS");
