@@ -408,18 +408,22 @@ async function begin() {
   fill($("cost"), data.costs.map(([name, title], i) => ({ value: String(i), text: name === "time" ? title : name })), String(Math.max(data.costs.findIndex(([name]) => name === "rdna2"), 0)));
   if (typeof DecompressionStream === "undefined") return say("This browser cannot unpack the page: it knows no DecompressionStream.");
   await unpack();
-  const asked = named(data.materials, wanted.get("material")), can = one => one.materials.includes(asked.name);
+  const asked = named(data.materials, wanted.get("material")), shows = one => one.materials.includes(asked.name);
   if (!row()) $("effect").selectedIndex = 0;
-  if (asked && !wanted.has("effect") && data.rows.some(can)) $("effect").value = data.rows.find(can).name;
+  if (asked && !wanted.has("effect") && data.rows.some(shows)) $("effect").value = data.rows.find(shows).name;
   fill_row();
   // What is seen first differs from the exact law.
   if (!wanted.has("effect") && !wanted.has("method") && !asked) fill_methods("schlick_ior");
-  if (asked && can(row())) { $("material").value = asked.name; follow_material(); fill_methods($("method").value); }
+  if (asked && shows(row())) { $("material").value = asked.name; follow_material(); fill_methods($("method").value); }
   if (wanted.has("method")) fill_methods(wanted.get("method"));
+  if (!asked && wanted.has("n") && !$("n-part").hidden) $("material").value = OWN;
+  for (const id of [...HELD, ...(material() ? [] : ["n", "k"])]) if (wanted.has(id)) $(id).value = wanted.get(id);
+  if (!material()) fill_methods(wanted.get("method") ?? $("method").value);
   const ignored = ["effect", "method", "material", "backend"].filter(id => wanted.has(id) && $(id).value !== wanted.get(id));
   $("ignored").textContent = ignored.map(id => `The page's address asks for ${id} ${wanted.get(id)}, which is not to be had here.`).join(" ");
   fill_functions();
   begin_pick();
+  if (wanted.has("lines") && $("lines").value !== wanted.get("lines")) $("ignored").textContent += ` It asks for lines ${wanted.get("lines")}, which are not to be had here.`;
   await open_player();
   $("choice").addEventListener("input", event => changed(event).catch(failed));
   $("cost").addEventListener("input", tell_figures);

@@ -6,7 +6,7 @@ const VECTORS = { wgsl: "vec3<f32>", gles: "vec3", hlsl: "float3" };
 const picked = { name: null };
 
 const in_code = value => { const text = String(Number(value.toPrecision(8))); return /[.e]/.test(text) ? text : text + ".0"; };
-const colour = values => values.map(value => value > 1e3 ? "none" : Number(value.toFixed(4))).join(", ");
+const colour = values => values.map(value => Number(value.toFixed(4))).join(", ");
 
 // The function of a material: our fitted form, and a call of it with the material's coefficients.
 function function_of(one, language) {
@@ -15,7 +15,8 @@ function function_of(one, language) {
   const values = one.inputs[one.method].map(value => `${vector}(${value.map(in_code).join(", ")})`);
   const body = `    return fresnel_${one.method}(cos_theta, ${values.join(", ")});\n}\n`;
   const head = language === "wgsl" ? `fn ${one.name}_reflectance(cos_theta: f32) -> ${vector} {\n` : `${vector} ${one.name}_reflectance(float cos_theta) {\n`;
-  return `${own[language].trim()}\n\n${head}${body}`;
+  const said = `// ${one.name}: errs by at most ${figure(one.errors[one.method][0])}. A file holds fresnel_${one.method} once.\n`;
+  return `${own[language].trim()}\n\n${said}${head}${body}`;
 }
 
 function lines_of(one, choice) {
@@ -40,17 +41,21 @@ function tell_card() {
   $("card-about").textContent = `${one.summary}. ${one.reference}`;
   rows_of($("card-numbers"), [
     ["F0", `${colour(one.f0)}  ${one.hex[0]}`], ["F82, at 81.79°", `${colour(one.f82)}  ${one.hex[1]}`],
-    ["n of red, green, blue; none if no index is as bright", colour(one.n)], ["k", colour(one.k)],
+    ["n of red, green, blue", colour(one.effective_n)], ["k", colour(one.effective_k)],
   ]);
   const errors = Object.entries(one.errors).filter(([, values]) => values[0] != null).sort((a, b) => a[1][0] - b[1][0]);
   rows_of($("card-errors"), errors.map(([method, values]) => [method + (method === one.method ? " (in adapters)" : ""), figure(values[0])]));
   tell_lines();
 }
 
+const can = one => one.materials.includes(picked.name);
+// What a link holds besides: sliders as they stand.
+const HELD = ["film", "roughness", "azimuth", "elevation", "magnification", "exposure"];
+
 // Shows a picked material by the effect that is chosen, or by the first that can.
 function pick(name) {
-  const can = one => one.materials.includes(name), effect = can(row()) ? row() : data.rows.find(can);
   picked.name = name;
+  const effect = can(row()) ? row() : data.rows.find(can);
   if (effect) {
     if (effect !== row()) { $("effect").value = effect.name; fill_row(); }
     const method = $("method").value;
@@ -78,7 +83,9 @@ function search() {
 // The address after # says what is chosen, so that a link shows it again.
 function write_address() {
   const said = new URLSearchParams({ effect: $("effect").value, method: $("method").value });
-  if (picked.name) said.set("material", picked.name);
+  const shown = id => !$(id + "-part")?.hidden, held = material() ? HELD : [...HELD, "n", "k"];
+  if (material() ?? (picked.name && !can(row()))) said.set("material", picked.name);
+  for (const id of held) if (shown(id)) said.set(id, $(id).value);
   said.set("lines", $("lines").value);
   try { history.replaceState(null, "", "#" + said); } catch { /* a page in a frame may not */ }
 }

@@ -430,7 +430,10 @@ fn cost_line(row: &AuditRow, cost: &AuditCost) -> String {
         (None, why) => {
             let record = match (row.computes, cost.recorded) {
                 (Some(method), Some(recorded)) => {
-                    format!("; our {method}, which it computes, costs {recorded} by the record")
+                    format!(
+                        "; our library function of {method}, which it computes, costs {recorded} ({}) by the record; yours may be written otherwise",
+                        cost.measure
+                    )
                 }
                 _ => String::new(),
             };

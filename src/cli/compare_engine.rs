@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::cli::error::Error;
-use crate::cli::flags::choice::one_of;
+use crate::cli::flags::choice::{in_any_case, one_of};
 use crate::cli::flags::material::{FilmFlags, MaterialName};
 use crate::cli::flags::output::{ReportFlags, file_only};
 use crate::cli::output::{Output, Progress, report_beside};
@@ -21,7 +21,7 @@ use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::generator::request::source::{self, Loaded, load};
 use crate::physics::foreign;
-use crate::physics::materials::ViewingConditions;
+use crate::physics::materials::{Extrapolate, ViewingConditions};
 use crate::physics::names::UnknownName;
 use crate::physics::spectra::{Space, srgb_byte};
 use crate::pictures::captioned::{ColourBar, Panel, PanelRow, PanelSheet};
@@ -48,6 +48,9 @@ pub struct CompareEngineFlags {
     /// What is mirrored: sky (a sun, posts and a ground), white (a room that is white everywhere), or a picture twice as wide as high, HDR, EXR, PNG or JPEG
     #[arg(long, value_name = "NAME", default_value = "sky")]
     pub environment: PathBuf,
+    /// Beyond the measured range: refuse, or hold the last value [default: refuse]
+    #[arg(long, value_name = "HOW", value_parser = in_any_case(one_of("extrapolation", Extrapolate::ALL, Extrapolate::name)))]
+    pub extrapolate: Option<Extrapolate>,
     /// Pixels a side of each sphere, 64 to 512
     #[arg(long, value_name = "PIXELS", default_value_t = 160)]
     pub size: u32,
@@ -139,6 +142,7 @@ impl CompareEngineFlags {
                 (self.engine.name != "three").then_some(self.engine.name),
             )
             .list("environment", (environment != "sky").then_some(environment))
+            .list("extrapolate", self.extrapolate.map(Extrapolate::name))
             .number("size", self.size)
     }
 }
@@ -182,7 +186,10 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         .into());
     }
     let file = check_place(flags)?;
-    let viewing = ViewingConditions::default();
+    let viewing = ViewingConditions {
+        beyond: flags.extrapolate.unwrap_or_default(),
+        ..ViewingConditions::default()
+    };
     let environment = environment(flags)?;
     let mut all = Vec::new();
     for (done, shown) in flags.names.iter().enumerate() {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::language::Language;
 use crate::lab::fault::Fault;
-use crate::lab::verify::compilers::{HlslVersion, Verdict, compiled, hlsl_to_spirv};
+use crate::lab::verify::compilers::{HlslVersion, Verdict, compiled, hlsl_to_spirv, is_here};
 use crate::lab::verify::harness::ENTRY;
 use crate::language::targets::{Compiler, DXC, GLSLANG, WGSL};
 use crate::physics::num::Precision;
@@ -86,8 +86,7 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
 /// not here, glslang reads the text, without types of 16 bits.
 fn hlsl(precision: Precision, program: &str) -> Accepted {
     let made = |version| hlsl_to_spirv(precision, program, ENTRY, version);
-    let old = made(HlslVersion::V2018);
-    if let (Err(Fault::Absent(_)), Precision::F32) = (&old, precision) {
+    if !is_here(&DXC) && precision == Precision::F32 {
         let made = hlsl_by_glslang(program, "comp");
         if !matches!(made, Err(Fault::Absent(_))) {
             return Accepted {
@@ -99,7 +98,7 @@ fn hlsl(precision: Precision, program: &str) -> Accepted {
             };
         }
     }
-    let new = made(HlslVersion::V2021);
+    let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
     let verdicts: &[(&str, &Result<Vec<u8>, Fault>)] = match (&old, &new) {
         (Ok(_), Err(Fault::Failed(_))) => &[("dxc -HV 2018 (2021 refuses it)", &old)],
         (Err(Fault::Failed(_)), Ok(_)) => &[("dxc -HV 2021 (2018 refuses it)", &new)],
@@ -173,15 +172,13 @@ fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, Fault> {
         );
         compiled(&DXC, &options, "shader.hlsl", text)
     };
-    match (made(2018), precision) {
-        (Err(fault @ Fault::Absent(_)), Precision::F32) => {
-            hlsl_by_glslang(text, "frag").map_err(|other| match other {
-                Fault::Absent(_) => fault,
-                refused @ Fault::Failed(_) => refused,
-            })
+    if !is_here(&DXC) && precision == Precision::F32 {
+        let made = hlsl_by_glslang(text, "frag");
+        if !matches!(made, Err(Fault::Absent(_))) {
+            return made;
         }
-        (made_old, _) => made_old.or_else(|fault| made(2021).map_err(|_| fault)),
     }
+    made(2018).or_else(|fault| made(2021).map_err(|_| fault))
 }
 
 /// A fragment shader in GLSL 4.50 as SPIR-V.

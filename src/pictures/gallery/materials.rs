@@ -39,7 +39,11 @@ pub struct MaterialNumbers {
     pub hex: [String; 2],
     /// A ball in a white room: the place between its middle and its rim in per cent, and the colour there.
     pub colours: Vec<(f64, String)>,
-    /// n of red, green and blue.
+    /// n of red, green and blue as engines would take it, one index for a channel's reflectance and dip.
+    pub effective_n: [f64; 3],
+    /// The same: k.
+    pub effective_k: [f64; 3],
+    /// n of red, green and blue with which it is drawn.
     pub n: [f32; 3],
     /// k of red, green and blue.
     pub k: [f32; 3],
@@ -123,6 +127,13 @@ pub fn numbers(subjects: &[MaterialInMedium], data: &ChartData) -> Vec<MaterialN
 /// The places of a ball's colours: the radius at which an angle is seen is its sine.
 const BALL: [f64; 9] = [0.0, 0.4, 0.6, 0.75, 0.87, 0.94, 0.975, 0.99, 1.0];
 
+/// The material's argument with the films that lie on it.
+fn argument(subject: &MaterialInMedium) -> String {
+    let films = subject.material.film_arguments();
+    let films = films.iter().map(|film| format!(" --film {film}"));
+    subject.argument.clone() + &films.collect::<String>()
+}
+
 fn five_digits(value: f64) -> f64 {
     (value * 1e5).round() / 1e5
 }
@@ -147,15 +158,17 @@ fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
         name: subject.name.clone(),
         summary: subject.material.summary.clone(),
         kind: subject.material.class_name(),
-        argument: subject.argument.clone(),
+        argument: argument(subject),
         reference: subject.material.reference.clone(),
         method: subject
-            .fitted_with_four()
+            .fitted_in_engines()
             .filter(|method| inputs.contains_key(method)),
         f0: f0.map(five_digits),
         f82: f82.map(five_digits),
         hex: [f0, f82].map(hex_colour),
         colours: ball.collect(),
+        effective_n: subject.effective.channels.n.map(five_digits),
+        effective_k: subject.effective.channels.k.map(five_digits),
         n: optical.n.as_vec3().to_array(),
         k: optical.k.as_vec3().to_array(),
         absorption: optical.absorption().as_vec3().to_array(),

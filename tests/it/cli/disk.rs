@@ -114,7 +114,7 @@ fn a_limit_on_the_size_of_files_is_an_error() {
 fn many_pictures_are_written() {
     let place = Place::new();
     let script = format!(
-        "ulimit -S -n 64; exec '{PROGRAM}' scene-error sphere --frames 1 --size 16x16 --material all --method schlick --out-dir o"
+        "ulimit -S -n 64; exec '{PROGRAM}' scene-error sphere --frames 1 --size 16x16 --material all --method schlick,schlick_generalised --out-dir o"
     );
     let run = Command::new("sh")
         .args(["-c", &script])

@@ -366,7 +366,7 @@ const USED: [(&str, bool); 61] = [
         false,
     ),
     (
-        "compare gold:coat platinum --film 1.38:100nm --engine babylon --environment white --size 64 -o c.png --json c.json",
+        "compare gold:coat platinum --film 1.38:100nm --engine babylon --environment white --extrapolate hold --size 64 -o c.png --json c.json",
         true,
     ),
     (
