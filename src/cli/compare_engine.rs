@@ -98,6 +98,9 @@ impl core::fmt::Display for ShownMaterial {
 
 /// The file if none is named.
 const FILE: &str = "compare.png";
+/// How tall a picture may be in pixels, and what a row needs beside its spheres.
+const TALLEST: u32 = 15_000;
+const ROW: u32 = 100;
 const SIZES: std::ops::RangeInclusive<u32> = 64..=512;
 /// The brightest colour of a map of differences, in CIEDE2000.
 const ERROR_SCALE: f64 = 10.0;
@@ -125,12 +128,17 @@ impl CompareEngineFlags {
         paths.chain(self.environment_file())
     }
 
-    /// The command that draws this again, without the paths of outputs.
-    pub fn command_line(&self) -> CommandLine {
-        let environment = match self.environment_file() {
+    /// The environment as a user would type it again.
+    fn environment_again(&self) -> String {
+        match self.environment_file() {
             Some(file) => path_again(&file.to_string_lossy()),
             None => self.environment.display().to_string(),
-        };
+        }
+    }
+
+    /// The command that draws this again, without the paths of outputs.
+    pub fn command_line(&self) -> CommandLine {
+        let environment = self.environment_again();
         let names = self.names.iter();
         names
             .fold(CommandLine::new("compare"), |command, one| {
@@ -185,6 +193,13 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         }
         .into());
     }
+    let most = TALLEST / (flags.size + ROW);
+    if flags.names.len() > most as usize {
+        return Err(Error::usage(format!(
+            "{} materials do not fit into one picture; at this --size {most} do",
+            flags.names.len()
+        )));
+    }
     let file = check_place(flags)?;
     let viewing = ViewingConditions {
         beyond: flags.extrapolate.unwrap_or_default(),
@@ -206,6 +221,7 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         .map(|(place, one)| drawn(flags, &sphere, one, place == 0))
         .collect();
     let (rows, shown): (Vec<PanelRow>, Vec<ComparedShown>) = drawn.into_iter().unzip();
+    let is_told = sphere.lights().any(|light| (0.02..=4.0).contains(&light.y));
     let command: String = flags.command_line().into();
     let sheet = PanelSheet {
         heading: format!("{} and the truth", flags.engine.host),
@@ -231,13 +247,21 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         .collect();
     let bytes = sheet.png(about).map_err(Error::usage)?;
     let text = text(&shown, flags.engine);
-    let picture = OutputFile::named(&file, bytes);
+    let picture = match flags.output {
+        Some(_) => OutputFile::named(&file, bytes),
+        None => OutputFile::of_report(&file, bytes, false),
+    };
     let mut output = report_beside(
         text,
         &Report::new(command, shown),
         flags.report.json(),
         vec![picture],
     )?;
+    if !is_told {
+        let remark =
+            "the environment is black or brighter than white throughout: it shows no difference";
+        output.remarks.push(remark.to_owned());
+    }
     output
         .remarks
         .push(format!("{}: drawn", foreign::path(&file)));
@@ -392,7 +416,7 @@ fn drawn(
         material: name.clone(),
         with_coat: *with_coat,
         engine: flags.engine.name,
-        environment: flags.environment.display().to_string(),
+        environment: flags.environment_again(),
         stock,
         f82,
         fitted,
@@ -452,6 +476,8 @@ fn advice(row: &ComparedShown) -> &'static str {
         "no: nobody sees a difference"
     } else if 2.0 * fitted.delta_e2000.mean > stock.delta_e2000.mean {
         "no: it is no nearer to the truth"
+    } else if stock.delta_e2000.mean < SEEN / 2.0 {
+        "hardly: at the rim alone"
     } else if stock.seen < 0.5 {
         "where the surface is seen obliquely"
     } else {

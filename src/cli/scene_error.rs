@@ -11,7 +11,7 @@ use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{PictureFlags, ReportFlags, file_only};
 use crate::cli::flags::viewing::{GamutFlags, numbers};
 use crate::cli::output::{Output, Progress, report_beside};
-use crate::cli::places::try_places;
+use crate::cli::places::{refuse_read, try_places};
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
@@ -175,6 +175,8 @@ pub fn run(flags: &SceneErrorFlags, progress: Progress) -> Result<Output, Error>
     let places = places(flags, &pairs);
     try_places(flags.report.json(), places.first().map(PathBuf::as_path))?;
     try_places_of_ours(&places, flags.pictures.overwrite)?;
+    let drawn = places.iter().map(PathBuf::as_path);
+    refuse_read(flags.mesh.iter().map(PathBuf::as_path), drawn)?;
     let mesh = mesh(flags)?;
     let cameras = cameras(flags, &mesh)?;
     let shown = shown(&mesh, &cameras, &mut |done, whole| {

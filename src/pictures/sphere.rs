@@ -66,6 +66,11 @@ impl Sphere {
         pixels
     }
 
+    /// The light that each sample mirrors.
+    pub fn lights(&self) -> impl Iterator<Item = DVec3> {
+        self.samples.iter().map(|(_, _, light)| *light)
+    }
+
     /// Whether each pixel shows nothing but the sphere.
     pub fn is_whole(&self) -> Vec<bool> {
         self.coverage.iter().map(|share| *share > 0.999).collect()

@@ -367,7 +367,7 @@ pub enum ExchangeFault {
     },
     /// A dielectric below a clear coat.
     #[error(
-        "`{}` is a dielectric, which hardly shows below a clear coat: --coat takes metals and semiconductors",
+        "`{}` is a dielectric, which hardly shows below a clear coat; metals and semiconductors do",
         Foreign(name)
     )]
     CoatedDielectric {

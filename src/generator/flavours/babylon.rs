@@ -12,8 +12,8 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://doc.babylonjs.com/features/featuresDeepDive/materials/using/materialPlugins",
     proof: "run in Babylon.js 9.35.0, by WebGL 2 and by WebGPU",
     stock: |material| match material.film {
-        Some(film) => Model::iridescence(&film, film.f0),
-        None => Model::schlick(material.f0_in_engines()),
+        Some(film) if film.thickness_nm > 0.0 => Model::iridescence(&film, film.f0),
+        _ => Model::schlick(material.f0_in_engines()),
     },
     coated_f0: Some(|f0: f64| {
         // `getR0RemappedForClearCoat` of its shaders.

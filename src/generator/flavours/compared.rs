@@ -61,12 +61,15 @@ pub enum ComparedFault {
     },
     /// No fitted method follows the material.
     #[error(
-        "no method of adapters follows `{}`: its films have too many fringes; `fresnel-gen bake --material` writes a table",
-        Foreign(name)
+        "no method of adapters follows `{}`: {}",
+        Foreign(name),
+        if *has_films { "its films have too many fringes; `fresnel-gen bake --material` writes a table" } else { "it hardly reflects" }
     )]
     NoMethod {
         /// The material.
         name: String,
+        /// Whether it lies under films.
+        has_films: bool,
     },
 }
 
@@ -90,6 +93,7 @@ impl Compared {
         let rows = adapter_rows(std::slice::from_ref(subject), &Naming::default())?;
         let no_method = || ComparedFault::NoMethod {
             name: subject.name.clone(),
+            has_films: subject.has_films(),
         };
         let ours = our_model(rows.first().ok_or_else(no_method)?, with_coat);
         let ours = ours.ok_or_else(no_method)?;

@@ -12,8 +12,8 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://developer.playcanvas.com/user-manual/graphics/shaders/",
     proof: "run in PlayCanvas 2.23.3, by WebGL 2 and by WebGPU",
     stock: |material| match material.film {
-        Some(film) => Model::iridescence(&film, film.f0),
-        None => Model::schlick(material.f0_in_engines()),
+        Some(film) if film.thickness_nm > 0.0 => Model::iridescence(&film, film.f0),
+        _ => Model::schlick(material.f0_in_engines()),
     },
     coated_f0: Some(|f0| f0),
     languages: &["gles", "wgsl"],

@@ -12,8 +12,8 @@ pub static FLAVOUR: Flavour = Flavour {
     source: "https://threejs.org/docs/#Material.onBeforeCompile",
     proof: "run in three.js r187, by WebGL 2 and by WebGPU",
     stock: |material| match material.film {
-        Some(film) => Model::iridescence(&film, film.f0),
-        None => Model::schlick_gaussian(material.f0_in_engines()),
+        Some(film) if film.thickness_nm > 0.0 => Model::iridescence(&film, film.f0),
+        _ => Model::schlick_gaussian(material.f0_in_engines()),
     },
     coated_f0: Some(|f0| f0),
     languages: &["gles", "wgsl"],

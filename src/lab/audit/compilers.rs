@@ -126,13 +126,26 @@ pub fn module(language: Language, precision: Precision, text: &str) -> Result<Ve
     }
 }
 
-/// A shader of a stage in HLSL as SPIR-V by glslang, which knows no types of 16 bits.
+/// A shader of a stage in HLSL as SPIR-V by glslang, which knows no types of 16 bits and nothing of HLSL 2021. So what it refuses is not
+/// checked.
 ///
 /// # Errors
 /// glslang is not here, or refuses it.
 fn hlsl_by_glslang(text: &str, stage: &str) -> Result<Vec<u8>, Fault> {
-    let options = format!("-D -V --target-env vulkan1.1 -S {stage} -e {ENTRY} -o OUT FILE");
-    compiled(&GLSLANG, &options, "shader.hlsl", text)
+    let options = format!(
+        "-D -V --target-env vulkan1.1 -D__HLSL_VERSION=2018 -S {stage} -e {ENTRY} -o OUT FILE"
+    );
+    compiled(&GLSLANG, &options, "shader.hlsl", text).map_err(|fault| match fault {
+        Fault::Failed(words) => {
+            let said = words.lines().find(|line| line.starts_with("ERROR"));
+            let said = said.unwrap_or_default();
+            let Compiler { name, get, .. } = &DXC;
+            Fault::Absent(format!(
+                "glslang, which knows little of HLSL, refuses it ({said}), and no {name} is here ({get})"
+            ))
+        }
+        absent @ Fault::Absent(_) => absent,
+    })
 }
 
 /// glslang's options for the SPIR-V of a compute shader.
