@@ -63,7 +63,7 @@ pub fn headline(foot: &str) -> String {
     for (material, with_coat, low) in MATERIALS {
         let curves = curves(material, with_coat);
         let title = if with_coat {
-            format!("{material} below a clear coat")
+            format!("{material} below a clear coat; Schlick with its colours in air")
         } else {
             material.to_owned()
         };
