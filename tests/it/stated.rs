@@ -178,7 +178,7 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
         stated(
             readme,
             " and `conductor_exact` ",
-            ". `--material gold --budget",
+            "; `--material gold --budget",
             units_of_gold("conductor_exact"),
         ),
         stated(
