@@ -12,6 +12,7 @@ use crate::cli::flags::material::{FilmFlags, MaterialName};
 use crate::cli::flags::output::{ReportFlags, file_only};
 use crate::cli::output::{Output, Progress, report_beside};
 use crate::cli::places::try_files;
+use crate::cli::render::environment;
 use crate::generator::command_line::{CommandLine, path_again};
 use crate::generator::emit::MARK;
 use crate::generator::envelope::Report;
@@ -19,14 +20,14 @@ use crate::generator::error::RequestFault;
 use crate::generator::flavours::{self, Compared, Flavour};
 use crate::generator::output::write::{OutputFile, try_places_of_ours};
 use crate::generator::reference::{Derivation, MaterialInMedium};
-use crate::generator::request::source::{self, Loaded, load};
+use crate::generator::request::source::{Loaded, load};
 use crate::physics::foreign;
 use crate::physics::materials::{Extrapolate, ViewingConditions};
 use crate::physics::names::UnknownName;
-use crate::physics::spectra::{Space, srgb_byte};
+use crate::physics::spectra::srgb_byte;
 use crate::pictures::captioned::{ColourBar, Panel, PanelRow, PanelSheet};
 use crate::pictures::plot::shade_bytes;
-use crate::pictures::scene::{self, Difference, Display, Environment, TONE_CURVES, compare};
+use crate::pictures::scene::{Difference, Display, Environment, TONE_CURVES, compare};
 use crate::pictures::sphere::Sphere;
 use crate::pictures::table::text_table;
 
@@ -46,7 +47,7 @@ pub struct CompareEngineFlags {
     #[arg(long, value_name = "NAME", default_value = "three", value_parser = one_of("engine", flavours::ALL.iter().copied(), |one: &Flavour| one.name))]
     pub engine: &'static Flavour,
     /// What is mirrored: sky (a sun, posts and a ground), white (a room that is white everywhere), or a picture twice as wide as high, HDR, EXR, PNG or JPEG
-    #[arg(long, value_name = "NAME", default_value = "sky")]
+    #[arg(long, value_name = "NAME", default_value = SKY)]
     pub environment: PathBuf,
     /// Beyond the measured range: refuse, or hold the last value [default: refuse]
     #[arg(long, value_name = "HOW", value_parser = in_any_case(one_of("extrapolation", Extrapolate::ALL, Extrapolate::name)))]
@@ -96,6 +97,9 @@ impl core::fmt::Display for ShownMaterial {
     }
 }
 
+/// The names of environments that are no pictures.
+const SKY: &str = "sky";
+const WHITE: &str = "white";
 /// The file if none is named.
 const FILE: &str = "compare.png";
 /// How tall a picture may be in pixels, and what a row needs beside its spheres.
@@ -115,7 +119,7 @@ impl CompareEngineFlags {
 
     /// The picture of the environment, if it is a file.
     pub fn environment_file(&self) -> Option<&Path> {
-        let is_named = ["sky", "white"]
+        let is_named = [SKY, WHITE]
             .iter()
             .any(|name| self.environment == Path::new(name));
         (!is_named).then_some(self.environment.as_path())
@@ -149,7 +153,7 @@ impl CompareEngineFlags {
                 "engine",
                 (self.engine.name != "three").then_some(self.engine.name),
             )
-            .list("environment", (environment != "sky").then_some(environment))
+            .list("environment", (environment != SKY).then_some(environment))
             .list("extrapolate", self.extrapolate.map(Extrapolate::name))
             .number("size", self.size)
     }
@@ -205,7 +209,7 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         beyond: flags.extrapolate.unwrap_or_default(),
         ..ViewingConditions::default()
     };
-    let environment = environment(flags)?;
+    let environment = surroundings(flags)?;
     let mut all = Vec::new();
     for (done, shown) in flags.names.iter().enumerate() {
         progress(done as u64, flags.names.len() as u64, "materials");
@@ -229,7 +233,7 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
             "A smooth sphere mirrors {}. Numbers: ΔE₀₀ on average, and what 99 % of the sphere's pixels stay below; 1 is just seen.",
             match flags.environment_file() {
                 Some(_) => "the picture of the command".to_owned(),
-                None if flags.environment == Path::new("white") => "a white room".to_owned(),
+                None if flags.environment == Path::new(WHITE) => "a white room".to_owned(),
                 None => "a sky with its sun".to_owned(),
             }
         ),
@@ -246,7 +250,7 @@ pub fn run(flags: &CompareEngineFlags, progress: Progress) -> Result<Output, Err
         .map(|c| if c.is_ascii() { c } else { '?' })
         .collect();
     let bytes = sheet.png(about).map_err(Error::usage)?;
-    let text = text(&shown, flags.engine);
+    let text = comparison_text(&shown, flags.engine);
     let picture = match flags.output {
         Some(_) => OutputFile::named(&file, bytes),
         None => OutputFile::of_report(&file, bytes, false),
@@ -288,17 +292,11 @@ fn check_place(flags: &CompareEngineFlags) -> Result<PathBuf, Error> {
     Ok(file)
 }
 
-fn environment(flags: &CompareEngineFlags) -> Result<Environment, Error> {
-    match flags.environment_file() {
-        Some(file) => {
-            let read = Environment::read(&source::picture(file)?, Space::Srgb);
-            read.map_err(|fault| Error::usage(format!("{}: {fault}", foreign::path(file))))
-        }
-        None if flags.environment == Path::new("white") => {
-            Ok(Environment::baked(2, |_| DVec3::ONE))
-        }
-        None => Ok(scene::sky()),
+fn surroundings(flags: &CompareEngineFlags) -> Result<Environment, Error> {
+    if flags.environment == Path::new(WHITE) {
+        return Ok(Environment::baked(2, |_| DVec3::ONE));
     }
+    environment(flags.environment_file())
 }
 
 fn subject(
@@ -378,31 +376,17 @@ fn drawn(
             number(way.delta_e2000.p99)
         )
     };
-    let panel = |title: String, words: String, pixels: Vec<[u8; 3]>| Panel {
-        title: if is_first { title } else { String::new() },
-        pixels,
-        words,
-    };
-    let panels = vec![
-        panel("as it ships".to_owned(), words(&stock), shown(&stock_drawn)),
-        panel("F82-tint".to_owned(), words(&f82), shown(&f82_drawn)),
-        panel(
-            "with fresnel-gen".to_owned(),
-            words(&fitted),
-            shown(&fitted_drawn),
-        ),
-        panel("truth".to_owned(), String::new(), shown(&truth)),
-        panel(
-            "error as it ships".to_owned(),
-            String::new(),
-            map(&stock_map),
-        ),
-        panel(
-            "error with fresnel-gen".to_owned(),
-            String::new(),
-            map(&fitted_map),
-        ),
+    let mut panels = vec![
+        Panel::new("as it ships", shown(&stock_drawn), words(&stock)),
+        Panel::new("F82-tint", shown(&f82_drawn), words(&f82)),
+        Panel::new("with fresnel-gen", shown(&fitted_drawn), words(&fitted)),
+        Panel::new("truth", shown(&truth), String::new()),
+        Panel::new("error as it ships", map(&stock_map), String::new()),
+        Panel::new("error with fresnel-gen", map(&fitted_map), String::new()),
     ];
+    if !is_first {
+        panels.iter_mut().for_each(|panel| panel.title.clear());
+    }
     let coat = if *with_coat {
         " below a clear coat"
     } else {
@@ -434,7 +418,7 @@ fn number(difference: f64) -> String {
 }
 
 /// A line for each material, and the advice.
-fn text(rows: &[ComparedShown], engine: &Flavour) -> String {
+fn comparison_text(rows: &[ComparedShown], engine: &Flavour) -> String {
     let head = [
         "material",
         "as it ships",

@@ -265,7 +265,8 @@ fn check_film(row: &'static RenderRow, subject: &MaterialInMedium) -> Result<(),
     Ok(())
 }
 
-fn environment(file: Option<&Path>) -> Result<Environment, Error> {
+/// The picture of the surroundings, or the default sky.
+pub(super) fn environment(file: Option<&Path>) -> Result<Environment, Error> {
     let Some(file) = file else {
         return Ok(scene::sky());
     };
@@ -342,11 +343,8 @@ fn searched(row: &RenderedRow) -> String {
 pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<Vec<u8>, String> {
     let row = &picture.row;
     let shown = |radiance: &DVec3| display.shown(*radiance).to_array().map(srgb_byte);
-    let panel = |title: &str, words: String, pixels: Vec<[u8; 3]>| Panel {
-        title: title.to_owned(),
-        pixels,
-        words,
-    };
+    let colours = |radiance: &[DVec3]| radiance.iter().map(shown).collect();
+    let map = picture.map.iter();
     let error = row.error;
     let most = ColourBar::end_for(error.p99.max(1.0));
     let words = format!(
@@ -368,24 +366,16 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
         rows: vec![PanelRow {
             name: String::new(),
             panels: vec![
-                panel(
+                Panel::new(
                     "drawn by the effect",
+                    colours(&picture.drawn),
                     String::new(),
-                    picture.drawn.iter().map(shown).collect(),
                 ),
-                panel(
-                    "truth",
-                    String::new(),
-                    picture.truth.iter().map(shown).collect(),
-                ),
-                panel(
+                Panel::new("truth", colours(&picture.truth), String::new()),
+                Panel::new(
                     "difference",
+                    map.map(|error| shade_bytes(error / most)).collect(),
                     words,
-                    picture
-                        .map
-                        .iter()
-                        .map(|error| shade_bytes(error / most))
-                        .collect(),
                 ),
             ],
         }],

@@ -459,11 +459,6 @@ fn sheet_png(
     space: Option<Space>,
     (command, about): (&str, &str),
 ) -> Result<Vec<u8>, String> {
-    let panel = |title: &str, words: String, pixels: Vec<[u8; 3]>| Panel {
-        title: title.to_owned(),
-        pixels,
-        words,
-    };
     let shown = |picture: &Painted| {
         picture
             .pixels
@@ -491,9 +486,9 @@ fn sheet_png(
         rows: vec![PanelRow {
             name: String::new(),
             panels: vec![
-                panel(method, String::new(), shown(drawn)),
-                panel("exact law", String::new(), shown(reference)),
-                panel("difference", words, map),
+                Panel::new(method, shown(drawn), String::new()),
+                Panel::new("exact law", shown(reference), String::new()),
+                Panel::new("difference", map, words),
             ],
         }],
         bar: Some(ColourBar {

@@ -20,6 +20,17 @@ pub struct Panel {
     pub words: String,
 }
 
+impl Panel {
+    /// A panel with a title, its pixels, and what is to be read below it.
+    pub fn new(title: &str, pixels: Vec<[u8; 3]>, words: String) -> Panel {
+        Panel {
+            title: title.to_owned(),
+            pixels,
+            words,
+        }
+    }
+}
+
 /// Panels side by side.
 #[derive(Clone, Debug)]
 pub struct PanelRow {

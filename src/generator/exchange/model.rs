@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::coat::ClearCoat;
 use super::cycles_film::CyclesFilm;
-use super::engine_material::{EngineFilm, EngineMaterial};
+use super::engine_material::{Body, EngineFilm, EngineMaterial};
 use crate::generator::fit::{error_of, rounded_up, values_at};
 use crate::language::ir::{Checked, Column, Value};
 use crate::language::methods::{self, Method, Values};
@@ -124,6 +124,14 @@ impl Model {
     /// F82-tint.
     pub fn f82_tint(f0: [f64; 3], tint: [f64; 3]) -> Model {
         Model::new("F82-tint", "f82_tint", &[("f0", f0), ("tint", tint)])
+    }
+
+    /// What OpenPBR, MaterialX and Blender have: F82-tint, its tint at most 1, and of dielectrics without films the exact law for one index.
+    pub fn f82_tint_or_law(material: &EngineMaterial) -> Model {
+        match material.body {
+            Body::Dielectric { ior, .. } if !material.subject.has_films() => Model::dielectric(ior),
+            _ => Model::f82_tint(material.f0, material.tint.map(|tint| tint.clamp(0.0, 1.0))),
+        }
     }
 
     /// The exact law for one index.

@@ -5,7 +5,7 @@
 
 use super::Flavour;
 use crate::generator::emit::{self, COAT, CatalogueRow, Naming, adapter_rows};
-use crate::generator::exchange::{Body, CoatLaw, EngineMaterial, ExchangeFault, Model};
+use crate::generator::exchange::{CoatLaw, EngineMaterial, ExchangeFault, Model};
 use crate::generator::reference::MaterialInMedium;
 use crate::language::methods::Values;
 use crate::physics::foreign::Foreign;
@@ -110,10 +110,7 @@ impl Compared {
                 });
             }
         };
-        let f82 = match in_air.body {
-            Body::Dielectric { ior, .. } if !subject.has_films() => Model::dielectric(ior),
-            _ => Model::f82_tint(in_air.f0, in_air.tint.map(|tint| tint.clamp(0.0, 1.0))),
-        };
+        let f82 = Model::f82_tint_or_law(&in_air);
         let seen = |model: &Model| -> Vec<[f64; 3]> {
             let base = model.reflectances(&cosines);
             let pairs = base.into_iter().zip(&cosines);

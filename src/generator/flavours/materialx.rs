@@ -1,7 +1,7 @@
 //! MaterialX: nodes for F, as graphs of standard nodes, so that every target has them.
 
 use super::flavour::{Flavour, FlavourPage};
-use crate::generator::exchange::{Body, Model};
+use crate::generator::exchange::Model;
 
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {
@@ -10,10 +10,7 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "MaterialX 1.39",
     source: "https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.Specification.md",
     proof: "MaterialX 1.39.5 generates GLSL, ESSL and Vulkan GLSL, which glslang accepts, and F of it runs in OpenGL ES; OSL not checked",
-    stock: |material| match material.body {
-        Body::Dielectric { ior, .. } if !material.subject.has_films() => Model::dielectric(ior),
-        _ => Model::f82_tint(material.f0, material.tint.map(|tint| tint.clamp(0.0, 1.0))),
-    },
+    stock: Model::f82_tint_or_law,
     coated_f0: None,
     languages: &[],
     table: None,

@@ -86,17 +86,11 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
 /// not here, glslang reads the text, without types of 16 bits.
 fn hlsl(precision: Precision, program: &str) -> Accepted {
     let made = |version| hlsl_to_spirv(precision, program, ENTRY, version);
-    if !is_here(&DXC) && precision == Precision::F32 {
-        let made = hlsl_by_glslang(program, "comp");
-        if !matches!(made, Err(Fault::Absent(_))) {
-            return Accepted {
-                verdicts: vec![(
-                    "glslang (dxc is not here)".to_owned(),
-                    made.clone().map(drop),
-                )],
-                code: made.map(ProgramCode::Spirv),
-            };
-        }
+    if let Some(module) = hlsl_without_dxc(precision, program, "comp") {
+        return Accepted {
+            verdicts: vec![("glslang (dxc is not here)".to_owned(), Ok(()))],
+            code: Ok(ProgramCode::Spirv(module)),
+        };
     }
     let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
     let verdicts: &[(&str, &Result<Vec<u8>, Fault>)] = match (&old, &new) {
@@ -126,26 +120,16 @@ pub fn module(language: Language, precision: Precision, text: &str) -> Result<Ve
     }
 }
 
-/// A shader of a stage in HLSL as SPIR-V by glslang, which knows no types of 16 bits and nothing of HLSL 2021. So what it refuses is not
-/// checked.
-///
-/// # Errors
-/// glslang is not here, or refuses it.
-fn hlsl_by_glslang(text: &str, stage: &str) -> Result<Vec<u8>, Fault> {
+/// A shader of a stage in HLSL as SPIR-V by glslang, where DXC is not here. glslang knows no types of 16 bits and nothing of HLSL 2021, so
+/// what it refuses is not checked: none.
+fn hlsl_without_dxc(precision: Precision, text: &str, stage: &str) -> Option<Vec<u8>> {
+    if is_here(&DXC) || precision == Precision::F16 {
+        return None;
+    }
     let options = format!(
         "-D -V --target-env vulkan1.1 -D__HLSL_VERSION=2018 -S {stage} -e {ENTRY} -o OUT FILE"
     );
-    compiled(&GLSLANG, &options, "shader.hlsl", text).map_err(|fault| match fault {
-        Fault::Failed(words) => {
-            let said = words.lines().find(|line| line.starts_with("ERROR"));
-            let said = said.unwrap_or_default();
-            let Compiler { name, get, .. } = &DXC;
-            Fault::Absent(format!(
-                "glslang, which knows little of HLSL, refuses it ({said}), and no {name} is here ({get})"
-            ))
-        }
-        absent @ Fault::Absent(_) => absent,
-    })
+    compiled(&GLSLANG, &options, "shader.hlsl", text).ok()
 }
 
 /// glslang's options for the SPIR-V of a compute shader.
@@ -185,11 +169,8 @@ fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, Fault> {
         );
         compiled(&DXC, &options, "shader.hlsl", text)
     };
-    if !is_here(&DXC) && precision == Precision::F32 {
-        let made = hlsl_by_glslang(text, "frag");
-        if !matches!(made, Err(Fault::Absent(_))) {
-            return made;
-        }
+    if let Some(module) = hlsl_without_dxc(precision, text, "frag") {
+        return Ok(module);
     }
     made(2018).or_else(|fault| made(2021).map_err(|_| fault))
 }
