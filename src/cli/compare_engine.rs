@@ -44,7 +44,7 @@ pub struct CompareEngineFlags {
     #[command(flatten)]
     pub films: FilmFlags,
     /// The engine, by the name of its adapter
-    #[arg(long, value_name = "NAME", default_value = "three", value_parser = one_of("engine", flavours::ALL.iter().copied(), |one: &Flavour| one.name))]
+    #[arg(long, value_name = "NAME", default_value = "three", value_parser = one_of("engine", flavours::ALL.iter().copied().filter(|one| one.stock.is_some()), |one: &Flavour| one.name))]
     pub engine: &'static Flavour,
     /// What is mirrored: sky (a sun, posts and a ground), white (a room that is white everywhere), or a picture twice as wide as high, HDR, EXR, PNG or JPEG
     #[arg(long, value_name = "NAME", default_value = SKY)]

@@ -10,10 +10,11 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Bevy 0.20",
     source: "https://docs.rs/naga_oil/0.23.0/naga_oil/",
     proof: "composed by naga_oil 0.23 and run through wgpu 30; not run in Bevy",
-    stock: |material| Model::schlick_f90_of_sum(material.f0_in_engines()),
+    stock: Some(|material| Model::schlick_f90_of_sum(material.f0_in_engines())),
     coated_f0: None,
     languages: &["wgsl"],
     table: None,
+    parts: &[],
     pages: &[
         FlavourPage {
             name: "README.md",

@@ -59,6 +59,12 @@ pub enum ComparedFault {
         /// The engine.
         engine: &'static str,
     },
+    /// The flavour is a package for several engines.
+    #[error("the flavour {flavour} is a package for several engines; name one of them")]
+    Package {
+        /// Its name.
+        flavour: &'static str,
+    },
     /// No fitted method follows the material.
     #[error(
         "no method of adapters follows `{}`: {}",
@@ -97,12 +103,15 @@ impl Compared {
         };
         let ours = our_model(rows.first().ok_or_else(no_method)?, with_coat);
         let ours = ours.ok_or_else(no_method)?;
+        let ships = engine.stock.ok_or(ComparedFault::Package {
+            flavour: engine.name,
+        })?;
         let stock = match (with_coat, engine.coated_f0) {
-            (false, _) => (engine.stock)(&in_air),
+            (false, _) => ships(&in_air),
             (true, Some(below)) => {
                 let mut coated = in_air.clone();
                 coated.f0 = coated.f0.map(below);
-                (engine.stock)(&coated)
+                ships(&coated)
             }
             (true, None) => {
                 return Err(ComparedFault::NoCoat {

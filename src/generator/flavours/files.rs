@@ -33,8 +33,11 @@ pub fn files(
     };
     let all = command(None);
     let shared = view(flavour, shown.rows, shown.reference, &all)?;
-    let file = |page: &FlavourPage, material: Option<&str>, view: &AdapterView, command: &str| {
-        let name = page.file_of(material.unwrap_or_default());
+    let file = |name: String,
+                page: &FlavourPage,
+                material: Option<&str>,
+                view: &AdapterView,
+                command: &str| {
         let path = format!("{}/{name}", flavour.name);
         let bytes = emit::render_template(page.template, view, Finish::Text, &path)?;
         let detail = Detail::Adapter(AdapterDetail {
@@ -49,14 +52,20 @@ pub fn files(
         })
     };
     let mut files = Vec::new();
-    for page in flavour.pages.iter().filter(|page| !page.is_of_material()) {
-        files.push(file(page, None, &shared, &all)?);
+    for (name, page, host) in flavour.shared_pages() {
+        files.push(file(name, page, None, &shared.of_host(host), &all)?);
     }
     for row in materials.rows.iter().filter(|_| flavour.is_by_material()) {
         let command = command(Some(&row.name));
         let own = shared.of_material(row, materials.reference, &command);
         for page in flavour.pages.iter().filter(|page| page.is_of_material()) {
-            files.push(file(page, Some(&row.name), &own, &command)?);
+            files.push(file(
+                page.file_of(&row.name),
+                page,
+                Some(&row.name),
+                &own,
+                &command,
+            )?);
         }
     }
     Ok(files)

@@ -11,10 +11,11 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Godot 4.6",
     source: "https://docs.godotengine.org/en/stable/tutorials/shaders/shader_reference/shading_language.html",
     proof: "run in Godot 4.6, in its Compatibility renderer",
-    stock: |material| Model::schlick_f90_of_sum(material.f0_in_engines()),
+    stock: Some(|material| Model::schlick_f90_of_sum(material.f0_in_engines())),
     coated_f0: None,
     languages: &["glsl"],
     table: Some((32, [SplitSumAxis::Sqrt; 2])),
+    parts: &[],
     pages: &[
         FlavourPage {
             name: "README.md",
@@ -37,6 +38,14 @@ pub static FLAVOUR: Flavour = Flavour {
         FlavourPage {
             name: "table_fitted_film.tres",
             template: include_str!("../../../templates/flavours/godot/table_fitted_film.tres.tera"),
+        },
+        FlavourPage {
+            name: "plugin.cfg",
+            template: include_str!("../../../templates/flavours/godot/plugin.cfg.tera"),
+        },
+        FlavourPage {
+            name: "plugin.gd",
+            template: include_str!("../../../templates/flavours/godot/plugin.gd.tera"),
         },
         FlavourPage {
             name: "{material}.gdshaderinc",

@@ -10,10 +10,11 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "MaterialX 1.39",
     source: "https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.Specification.md",
     proof: "MaterialX 1.39.5 generates GLSL, ESSL and Vulkan GLSL, which glslang accepts, and F of it runs in OpenGL ES; OSL not checked",
-    stock: Model::f82_tint_or_law,
+    stock: Some(Model::f82_tint_or_law),
     coated_f0: None,
     languages: &[],
     table: None,
+    parts: &[],
     pages: &[
         FlavourPage {
             name: "README.md",

@@ -13,6 +13,7 @@ use crate::physics::names::{UnknownName, named};
 mod compared;
 mod files;
 mod flavour;
+mod texels;
 mod view;
 
 pub use compared::{ANGLES, Compared, ComparedFault, angles};
@@ -24,6 +25,7 @@ mod babylon;
 mod bevy;
 mod godot;
 mod materialx;
+mod npm;
 mod playcanvas;
 mod three;
 mod unity;
@@ -36,6 +38,7 @@ pub static ALL: &[&Flavour] = &[
     &bevy::FLAVOUR,
     &godot::FLAVOUR,
     &materialx::FLAVOUR,
+    &npm::FLAVOUR,
     &playcanvas::FLAVOUR,
     &three::FLAVOUR,
     &unity::FLAVOUR,
@@ -50,6 +53,7 @@ impl Flavour {
     pub const BEVY: &'static Flavour = &bevy::FLAVOUR;
     pub const GODOT: &'static Flavour = &godot::FLAVOUR;
     pub const MATERIALX: &'static Flavour = &materialx::FLAVOUR;
+    pub const NPM: &'static Flavour = &npm::FLAVOUR;
     pub const PLAYCANVAS: &'static Flavour = &playcanvas::FLAVOUR;
     pub const THREE: &'static Flavour = &three::FLAVOUR;
     pub const UNITY: &'static Flavour = &unity::FLAVOUR;

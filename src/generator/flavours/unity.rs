@@ -10,10 +10,11 @@ pub static FLAVOUR: Flavour = Flavour {
     host: "Unity 6",
     source: "https://docs.unity3d.com/Packages/com.unity.shadergraph@17.0/manual/Custom-Function-Node.html",
     proof: "compiled by DXC with Unity's macros, not run",
-    stock: |material| Model::schlick(material.f0_in_engines()),
+    stock: Some(|material| Model::schlick(material.f0_in_engines())),
     coated_f0: None,
     languages: &["hlsl"],
     table: None,
+    parts: &[],
     pages: &[
         FlavourPage {
             name: "README.md",

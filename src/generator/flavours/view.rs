@@ -8,6 +8,7 @@ use half::f16;
 use serde::Serialize;
 
 use super::flavour::Flavour;
+use super::texels;
 use crate::generator::emit::{
     self, COAT, CatalogueRow, EmittedFunction, MARK, Naming, OUTPUT_LICENCE, comment_lines,
     library_functions, xml_comment,
@@ -66,6 +67,8 @@ pub(super) struct MethodView {
     is_opaque: bool,
     /// Whether it is of materials under films: each says itself whether it is opaque, and the table is two of orthogonal functions.
     is_of_films: bool,
+    /// What F at normal incidence has of each coefficient.
+    normal: Vec<String>,
     /// The names of its coefficients.
     coefficients: Vec<&'static str>,
     /// What the two tables are multiplied by: row i times the coefficients is the number of channel i. Empty where that is the coefficients.
@@ -79,6 +82,8 @@ pub(super) struct MethodView {
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MaterialView {
     name: String,
+    /// The name as a constant of a script.
+    identifier: String,
     /// The name in capitals.
     constant: String,
     /// The name in Pascal case: `SodaLimeGlass`.
@@ -145,6 +150,10 @@ pub(super) struct TableView {
     roughness: &'static str,
     /// The texels in base 64.
     base64: String,
+    /// How many steps of the text there are from 0 to 1.
+    steps: u32,
+    /// The channels as a text of a script: `flavours/texels.rs`.
+    text: String,
 }
 
 /// The data of a flavour's templates for these materials.
@@ -188,6 +197,17 @@ pub(super) fn view(
 }
 
 impl AdapterView {
+    /// The same for the host of another flavour.
+    pub(super) fn of_host(&self, flavour: &Flavour) -> Self {
+        AdapterView {
+            flavour: flavour.name,
+            host: flavour.host,
+            source: flavour.source,
+            proof: flavour.proof,
+            ..self.clone()
+        }
+    }
+
     /// The same for a file of one material. Texts of functions and tables are those of all materials.
     pub(super) fn of_material(&self, row: &CatalogueRow, reference: &str, command: &str) -> Self {
         let material = material_view(row);
@@ -230,6 +250,10 @@ fn method_view(method: &'static Method, naming: &Naming) -> MethodView {
         average_function: format!("{}{}_average", naming.prefix, method.name),
         is_opaque: method.class != Class::Dielectric,
         is_of_films: method.class.is_of_films(),
+        normal: normal_terms(method)
+            .iter()
+            .map(|value| format!("{value:?}"))
+            .collect(),
         coefficients: method.inputs.iter().map(|input| input.name).collect(),
         numbers: orthogonal(method).map_or(Vec::new(), |functions| {
             let number = |value: &f64| format!("{value:?}");
@@ -259,6 +283,7 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
     };
     let mut view = MaterialView {
         name: row.name.clone(),
+        identifier: identifier(&row.name),
         constant: row.name.to_uppercase(),
         pascal: pascal(&row.name),
         class: row.class.name(),
@@ -325,12 +350,7 @@ impl MaterialView {
 
 /// F at normal incidence, from the form and its clamp to [0, 1].
 fn normal_incidence(row: &CatalogueRow) -> [f64; 3] {
-    let shape = row
-        .method
-        .shape
-        .expect("rows of the catalogue have fitted methods");
-    let mut terms = vec![0.0; shape.terms()];
-    shape.add(1.0, 1.0, &mut terms);
+    let terms = normal_terms(row.method);
     let channel = |i: usize| {
         let products = row.coefficients.iter().zip(&terms);
         products
@@ -339,6 +359,33 @@ fn normal_incidence(row: &CatalogueRow) -> [f64; 3] {
             .clamp(0.0, 1.0)
     };
     [channel(0), channel(1), channel(2)]
+}
+
+/// What F at normal incidence has of each coefficient.
+fn normal_terms(method: &Method) -> Vec<f64> {
+    let shape = method
+        .shape
+        .expect("rows of the catalogue have fitted methods");
+    let mut terms = vec![0.0; shape.terms()];
+    shape.add(1.0, 1.0, &mut terms);
+    terms
+}
+
+/// A text between the quotes of JavaScript.
+fn in_a_script(text: &str) -> String {
+    text.replace('\\', r"\\").replace('"', r#"\""#)
+}
+
+/// Names that a module cannot give to a constant of its own: words of JavaScript, and names of `materials.js`.
+const TAKEN: &str = "arguments await break case catch class const continue debugger default delete do else enum eval export extends false \
+    finally for function if implements import in instanceof interface let new null package private protected public return static super \
+    switch this throw true try typeof undefined var void while with yield \
+    checked coated distance fitted fitted_dielectric fitted_film known materials methods named texels";
+
+/// The name of a material as a constant of a script: with a `$` where the name is taken.
+fn identifier(name: &str) -> String {
+    let is_taken = TAKEN.split(' ').any(|word| word == name);
+    format!("{name}{}", if is_taken { "$" } else { "" })
 }
 
 /// The shortest digits that give the same f32, with a decimal point.
@@ -398,7 +445,8 @@ fn tables(
             .basis()
             .expect("fitted methods are affine in their coefficients");
         let design = SplitSumDesign::square(basis, size, axes);
-        let stored = SplitSum::new(&design, &mut |_, _| {})?.stored(Depth::Half);
+        let exact = SplitSum::new(&design, &mut |_, _| {})?;
+        let stored = exact.stored(Depth::Half);
         let firsts = (0..design.channels()).step_by(4);
         let channels = firsts.flat_map(|first| {
             let own = move |texel: &[f32; 8]| [0, 1, 2, 3].map(|i| texel[first + i]);
@@ -407,8 +455,16 @@ fn tables(
         let halves = channels.map(f16::from_f32);
         let bytes: Vec<u8> = halves.flat_map(f16::to_le_bytes).collect();
         let [cosine, roughness] = axes.map(|axis| axis.name());
+        let planes = (0..design.channels()).map(|channel| {
+            let own = exact.texels.iter().map(|texel| texel[channel]);
+            own.collect()
+        });
+        let planes: Vec<Vec<f64>> = planes.collect();
+        let steps = texels::steps_of_one(design.functions.is_some());
         let view = TableView {
             size,
+            steps,
+            text: in_a_script(&texels::text(&planes, size, steps)),
             cosine,
             roughness,
             base64: BASE64_STANDARD.encode(bytes),

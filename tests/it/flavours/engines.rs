@@ -20,6 +20,7 @@ const PLAYCANVAS: Host = Host {
     flavour: "playcanvas",
     folder: "engines",
     package: "playcanvas",
+    stands_for: None,
     version: "2.23.3",
     page: include_str!("playcanvas/page.html"),
     scripts: &[],
@@ -36,6 +37,7 @@ const BABYLON: Host = Host {
     flavour: "babylon",
     folder: "engines",
     package: "@babylonjs/core",
+    stands_for: None,
     version: "9.35.0",
     page: include_str!("babylon/page.html"),
     scripts: &[],
@@ -47,6 +49,22 @@ const BABYLON: Host = Host {
     bundled: Some(include_str!("babylon/entry.js")),
     materials: "gold,water,anodised_titanium_purple,oil_on_water",
 };
+
+/// The oldest versions that the adapters say they know.
+const OLDEST: [Host; 2] = [
+    Host {
+        package: "playcanvas-oldest",
+        stands_for: Some("playcanvas"),
+        version: "2.8.2",
+        ..PLAYCANVAS
+    },
+    Host {
+        package: "babylon-oldest",
+        stands_for: Some("@babylonjs/core"),
+        version: "9.0.0",
+        ..BABYLON
+    },
+];
 
 /// What is asked of an engine; what was seen is a thousandth of it.
 const CLOSE: f64 = 1e-3;
@@ -64,7 +82,7 @@ impl Material {
     fn new(method: &'static str, coefficients: Vec<f32>) -> Material {
         let basis = methods::find(method).unwrap().basis().unwrap();
         let axes = [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt];
-        let design = SplitSumDesign::square(basis, 64, axes);
+        let design = SplitSumDesign::square(basis, 80, axes);
         let rows = coefficients.chunks_exact(3);
         let rows: Vec<[f64; 3]> = rows.map(|c| [c[0], c[1], c[2]].map(f64::from)).collect();
         let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
@@ -382,6 +400,18 @@ fn coats_are_better(told: &Value) {
         ours < 0.015 && bare > 1.5 * ours && engine > 3.0 * ours,
         "{ours} {bare} {engine}"
     );
+}
+
+#[test]
+fn the_oldest_versions_take_it_too() {
+    let [playcanvas, babylon] = &OLDEST;
+    is_shown(
+        playcanvas,
+        "webgl2",
+        &KINDS_OF_PLAYCANVAS,
+        &REFUSED_BY_PLAYCANVAS,
+    );
+    is_shown(babylon, "webgl2", &KINDS_OF_BABYLON, &REFUSED_BY_BABYLON);
 }
 
 #[test]

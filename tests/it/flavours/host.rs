@@ -20,6 +20,8 @@ pub struct Host {
     pub folder: &'static str,
     /// Its package of npm.
     pub package: &'static str,
+    /// The name that modules import, where an older version was installed under another.
+    pub stands_for: Option<&'static str>,
     /// The version that the adapter was made for, as `tests/run` installs it.
     pub version: &'static str,
     /// The page of the proof.
@@ -91,8 +93,10 @@ impl Host {
         link(&packages, &place.path("node_modules"));
         if let Some(entry) = self.bundled {
             place.put("entry.js", entry);
-            let module = place.read(&format!("{}/fresnel.js", self.flavour));
-            place.put("fresnel.js", module);
+            for name in ["fresnel.js", "materials.js"] {
+                let module = place.read(&format!("{}/{name}", self.flavour));
+                place.put(name, module);
+            }
             let bundler = packages.join(".bin/esbuild");
             let mut command = Command::new(bundler);
             command.args([
@@ -101,18 +105,23 @@ impl Host {
                 "--format=iife",
                 "--outfile=bundle.js",
             ]);
+            let aliases = self
+                .stands_for
+                .map(|name| format!("--alias:{name}={}", self.package));
             command
-                .args(["--log-level=error"])
+                .args(aliases)
+                .args(["--log-level=error", "--external:node:*"])
                 .current_dir(place.path("."));
             assert!(command.status().unwrap().success(), "{}", self.flavour);
         }
-        Some(browser::told(
-            &place,
-            self.page,
-            self.hands,
-            query,
-            &flags(),
-        ))
+        let page = match self.stands_for {
+            Some(name) => {
+                let [usual, own] = [name, self.package].map(|one| format!("/node_modules/{one}/"));
+                self.page.replace(&usual, &own)
+            }
+            None => self.page.to_owned(),
+        };
+        Some(browser::told(&place, &page, self.hands, query, &flags()))
     }
 
     /// Follows the README as a newcomer does, and draws its page. Its commands are run by a shell, but for npm, whose packages are there,
@@ -143,20 +152,7 @@ impl Host {
         if readme.contains("```html\n") {
             fs::write(folder.join("index.html"), block(&readme, "html")).unwrap();
         }
-        let picture = place.path("page.png");
-        let profile = format!("--user-data-dir={}", place.path("profile").display());
-        let screenshot = format!("--screenshot={}", picture.display());
-        let page = format!("file://{}", folder.join("index.html").display());
-        let own = [
-            profile.as_str(),
-            screenshot.as_str(),
-            "--window-size=400,400",
-            "--timeout=20000",
-            page.as_str(),
-        ];
-        let arguments = [&browser::USUAL[..], &flags(), &own].concat();
-        CHROMIUM.run(arguments).expect("the page is drawn");
-        Some(image::open(&picture).expect("a picture").to_rgb8())
+        Some(screenshot(&place, &folder))
     }
 
     /// Commands, texts of files in them left out: fewer than ten, and with the version of the engine that is tried here.
@@ -173,6 +169,25 @@ impl Host {
         assert!(commands.contains(&wanted), "{commands}");
         is_installed_by_the_script(self.package, self.version);
     }
+}
+
+/// The page `index.html` of a folder, drawn.
+#[track_caller]
+pub fn screenshot(place: &Place, folder: &Path) -> RgbImage {
+    let picture = place.path("page.png");
+    let profile = format!("--user-data-dir={}", place.path("profile").display());
+    let screenshot = format!("--screenshot={}", picture.display());
+    let page = format!("file://{}", folder.join("index.html").display());
+    let own = [
+        profile.as_str(),
+        screenshot.as_str(),
+        "--window-size=400,400",
+        "--timeout=20000",
+        page.as_str(),
+    ];
+    let arguments = [&browser::USUAL[..], &flags(), &own].concat();
+    CHROMIUM.run(arguments).expect("the page is drawn");
+    image::open(&picture).expect("a picture").to_rgb8()
 }
 
 fn link(packages: &Path, place: &Path) {

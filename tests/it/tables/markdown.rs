@@ -43,7 +43,9 @@ pub fn effects_table() -> String {
 /// The flavours: what each is for, its files as gold has them, and what was seen of it.
 pub fn flavours_table() -> String {
     let rows = flavours::ALL.iter().map(|flavour| {
-        let names = flavour.pages.iter().map(|page| page.file_of("gold"));
+        let shared = flavour.shared_pages().map(|(name, _, _)| name);
+        let own = flavour.pages.iter().filter(|page| page.is_of_material());
+        let names = shared.chain(own.map(|page| page.file_of("gold")));
         let files: Vec<String> = names
             .filter(|name| name != "README.md")
             .map(|name| format!("`{name}`"))

@@ -11,7 +11,7 @@
 
   const backend = new URLSearchParams(location.search).get("backend") ?? "webgl2";
   const { materials, patch } = fresnel, B = BABYLON;
-  materials.white = { method: "fitted", f0: [1, 1, 1], coefficients: [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]] };
+  materials.white = { method: fresnel.fitted, f0: [1, 1, 1], coefficients: [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]] };
 
   const dielectrics = ["water", "oil_on_water"];
 

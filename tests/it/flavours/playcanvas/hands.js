@@ -11,7 +11,7 @@
 
   const backend = new URLSearchParams(location.search).get("backend") ?? "webgl2";
   const { materials, patch } = fresnel;
-  materials.white = { method: "fitted", f0: [1, 1, 1], coefficients: [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]] };
+  materials.white = { method: fresnel.fitted, f0: [1, 1, 1], coefficients: [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]] };
 
   const dielectrics = ["water", "oil_on_water"];
 
@@ -135,6 +135,9 @@
     ];
     for (const set of variants) {
       for (const kind of ["directional", "image", "rectangle", "none"]) {
+        // In older versions PlayCanvas's own shader of this does not compile: it has no F without light.
+        const post = pc.ShaderChunks.get(stage.app.graphicsDevice, "glsl").get("litForwardPostCodePS");
+        if (kind === "none" && set.refraction && !/SPECULAR_OR_REFLECTION\) \|\| defined\(LIT_REFRACTION/.test(post)) continue;
         for (const name of ["gold", "water", "oil_on_water"]) await record({ name, kind, angle: 0.5, gloss: 0.5, set, is_variant: true });
       }
     }

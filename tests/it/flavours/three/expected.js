@@ -1,6 +1,6 @@
 // F, its mean and the split-sum tables of fresnel.js in f64.
 
-import { methods, tableSize, tableTexture } from "./three/fresnel.js";
+import { tableSize, tableTexture } from "./three/fresnel.js";
 
 export const f32 = Math.fround;
 
@@ -10,13 +10,13 @@ const horner = {
   fitted_film: c => { const g = Math.log2(c + 0.09), u = g + 1.58; return [g * g - 0.75, u, u, c, c]; },
 };
 function sum({ method, coefficients }, cos, channel) {
-  const c = coefficients.map(one => f32(one[channel])), factors = horner[method](cos);
+  const c = coefficients.map(one => f32(one[channel])), factors = horner[method.name](cos);
   return factors.reduceRight((rest, factor, i) => c[i] + factor * rest, c[factors.length]);
 }
 export const reflectance = (row, cos, channel) => Math.min(1, Math.max(0, sum(row, cos, channel)));
 
 // A surface that reflects everything, with the coefficients of a method.
-export const white = method => ({ method, coefficients: Array.from({ length: methods[method].count }, (_, i) => Array(3).fill(i ? 0 : 1)) });
+export const white = method => ({ method, coefficients: Array.from({ length: method.count }, (_, i) => Array(3).fill(i ? 0 : 1)) });
 
 // 2 times the integral of F c dc, by Simpson's rule over the square root of c, along which F is smooth.
 const STEPS = 500, means = new WeakMap();
@@ -49,7 +49,7 @@ export function terms(method, cos, roughness) {
 
 // What an image is multiplied by once, and the series of bounces: lost is what the mean albedo of white lacks.
 export function once({ method, coefficients }, cos, roughness, channel) {
-  const { numbers } = methods[method], own = coefficients.map(c => c[channel]);
+  const { numbers } = method, own = coefficients.map(c => c[channel]);
   const all = numbers?.map(row => row.reduce((sum, factor, i) => sum + factor * own[i], 0)) ?? own;
   const t = terms(method, cos, roughness);
   return Math.min(t[0], Math.max(0, all.reduce((sum, one, i) => sum + one * t[i], 0)));

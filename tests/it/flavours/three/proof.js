@@ -92,7 +92,7 @@ function lamps() {
           const k = compensation(whole, normal[2], roughness, channel) / compensation(row, normal[2], roughness, channel);
           const f = a(i, channel) / b(i, channel) * k;
           most = Math.max(most, Math.abs(f - reflectance(row, cos, channel)));
-          if (row.method === "fitted_film") (seen[name] ??= []).push([cos, channel, f]);
+          if (row.method.name === "fitted_film") (seen[name] ??= []).push([cos, channel, f]);
         }
       });
     }
@@ -143,9 +143,9 @@ function furnace() {
   image.environment = new THREE.PMREMGenerator(renderer).fromScene(whiteScene).texture;
   const plain = parameters => placed(new THREE.MeshStandardMaterial(parameters));
   const rows = {
-    white: [standard(white("fitted"))], white_dielectric: [standard(white("fitted_dielectric"))],
+    white: [standard(white(methods.fitted))], white_dielectric: [standard(white(methods.fitted_dielectric))],
     gold: [standard(materials.gold)], silver: [standard(materials.silver)], water: [standard(materials.water)], diamond: [standard(materials.diamond)],
-    white_film: [standard(white("fitted_film"))], titanium: [standard(materials.anodised_titanium_purple, { color: 0xffffff })],
+    white_film: [standard(white(methods.fitted_film))], titanium: [standard(materials.anodised_titanium_purple, { color: 0xffffff })],
     oil_on_white: [standard(materials.oil_on_water, { color: 0xffffff }), standard(materials.oil_on_water)],
     water_on_white: [standard(materials.water, { color: 0xffffff }), standard(materials.water)],
     three_white: [plain({ metalness: 1 })], three_dielectric_on_white: [plain(), plain({ color: 0 })],
@@ -266,7 +266,8 @@ function features() {
   };
   const eye = new THREE.PerspectiveCamera(40, 1, 0.1, 20), told = {};
   eye.position.z = 4;
-  for (const [name, parameters] of Object.entries(all)) for (const material of ["gold", "water", "oil_on_water"]) {
+  const known = new THREE.MeshPhysicalMaterial(), has = parameters => Object.keys(parameters).every(name => known[name] !== undefined);
+  for (const [name, parameters] of Object.entries(all).filter(([, parameters]) => has(parameters))) for (const material of ["gold", "water", "oil_on_water"]) {
     const scene = new THREE.Scene();
     scene.environment = image.environment;
     scene.add(rectangle.clone(), new THREE.DirectionalLight(), new THREE.PointLight(), new THREE.SpotLight(), new THREE.HemisphereLight());
@@ -284,26 +285,59 @@ function features() {
   return told;
 }
 
+// A map of metalness: 1 is the metal as without a map, 0 is three's own paint, and between them is a mixture.
+function painted() {
+  const texel = value => {
+    const map = new THREE.DataTexture(new Uint8Array([0, 0, value, 255]), 1, 1);
+    map.needsUpdate = true;
+    return map;
+  };
+  const list = [];
+  for (let i = 0; i < 32; i++) for (const tilt of [-0.1, 0.1]) {
+    const cos = 0.25 + 0.75 * i / 31, angle = Math.acos(cos), normal = [Math.sin(angle - tilt), 0, Math.cos(angle - tilt)];
+    const light = mirrored([Math.sin(angle), 0, cos]);
+    if (dot(normal, light) > 0.02 && normal[2] > 0.02) list.push({ light, normal });
+  }
+  const grid = cells(list, 16), given = { color: 0x906040, roughness: 0.4, metalness: 1 }, told = {};
+  for (const [name, scene] of Object.entries({ lamps: lit, image, rectangle: area })) {
+    const seen = value => drawn(scene, standard(materials.gold, { ...given, metalnessMap: texel(value) }), grid);
+    const metal = drawn(scene, standard(materials.gold, given), grid), paint = drawn(scene, placed(new THREE.MeshStandardMaterial({ ...given, metalness: 0 })), grid);
+    const [whole, none, part] = [255, 0, 102].map(seen), off = told[name] = { metal: 0, paint: 0, mixture: 0, apart: 0 };
+    list.forEach((_, i) => {
+      for (let k = 0; k < 3; k++) {
+        const scale = Math.max(1, metal(i, k)), more = (what, error) => { off[what] = Math.max(off[what], Math.abs(error) / scale); };
+        more("metal", whole(i, k) - metal(i, k));
+        more("paint", none(i, k) - paint(i, k));
+        more("mixture", part(i, k) - 0.4 * metal(i, k) - 0.6 * paint(i, k));
+        more("apart", metal(i, k) - paint(i, k));
+      }
+    });
+  }
+  return told;
+}
+
 const refused = act => { try { act(); return null; } catch (fault) { return fault.message; } };
 function refusals() {
   const told = {
     name: refused(() => patch(new THREE.MeshStandardMaterial(), "glod")),
     material: refused(() => patch(new THREE.MeshBasicMaterial(), "gold")),
     method: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fited", coefficients: [] })),
-    coefficients: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fitted", coefficients: [[1, 1, 1]] })),
-    coefficients_of_film: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: "fitted_film", coefficients: white("fitted").coefficients })),
+    coefficients: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: methods.fitted, coefficients: [[1, 1, 1]] })),
+    coefficients_of_film: refused(() => patchWith(new THREE.MeshStandardMaterial(), { method: methods.fitted_film, coefficients: white(methods.fitted).coefficients })),
     coat_of_water: refused(() => patch(new THREE.MeshPhysicalMaterial(), "water", { coat: 1.5 })),
     coat_of_another_index: refused(() => patch(new THREE.MeshPhysicalMaterial(), "gold", { coat: 1.6 })),
     coat_of_a_standard_material: refused(() => patch(new THREE.MeshStandardMaterial(), "gold", { coat: 1.5 })),
     iridescence: refused(() => drawn(lit, patch(new THREE.MeshPhysicalMaterial({ iridescence: 1 }), "gold"), cells([{ normal: V, light: V }], 1))),
   };
-  const { ShaderChunk } = THREE;
+  // A released version has no uses that are new.
+  const { ShaderChunk } = THREE, isReleased = parseInt(THREE.REVISION) < 186;
   for (const [name, from, to] of [
     ["lights_physical_pars_fragment", "singleScatter += FssEss;", "singleScatter += vec3( 1.0 ) * FssEss;"],
     ["lights_fragment_begin", "1.0 / EssMs", "1.0 / Ess"],
     ["lights_physical_pars_fragment", "void RE_Direct_Physical", "vec3 more( vec3 f ) { return F_Schlick( f, 1.0, 0.5 ); }\nvoid RE_Direct_Physical"],
   ]) {
     const text = ShaderChunk[name];
+    if (isReleased && !from.startsWith("singleScatter")) continue;
     ShaderChunk[name] = text.replace(from, to);
     told[`foreign ${from}`] = refused(() => patch(new THREE.MeshStandardMaterial(), "gold"));
     ShaderChunk[name] = text;
@@ -313,7 +347,7 @@ function refusals() {
 
 export async function proof() {
   const start = performance.now(), told = { revision: THREE.REVISION, table: [tableSize, Object.keys(methods)] };
-  for (const part of [lamps, furnace, coats, rectangles, spheres, features, refusals]) {
+  for (const part of [lamps, furnace, coats, rectangles, spheres, features, painted, refusals]) {
     told[part.name] = part();
     told[`${part.name}_ms`] = Math.round(performance.now() - start);
   }
