@@ -46,7 +46,7 @@ pub struct MaterialsFlags {
 pub enum MaterialsCommand {
     /// Name, class, measured range and summary of each
     List(FilterFlags),
-    /// All that is known of one, as text, and as a picture
+    /// All that is known of one, as text, and as a picture; of several, as text
     Show(ShowFlags),
     /// Several beside each other: F0, F82 and differences as a table, and reflectance, n and k as one picture
     #[command(
@@ -103,6 +103,9 @@ pub struct ShowFlags {
     /// Which material, and how it is looked at.
     #[command(flatten)]
     pub of: SeenFlags,
+    /// More of them, under the same films, as text and JSON
+    #[arg(value_name = "NAME", value_parser = MaterialName::parse)]
+    pub more: Vec<MaterialName>,
     /// Draw n, k, reflectance and colour as SVG into this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -355,6 +358,9 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     check_places("--svg, --png and --json", &places)?;
     let loaded = flags.of.loaded()?;
     let record = material_record(&loaded.material);
+    if !flags.more.is_empty() {
+        return several_shown(loaded, flags, json);
+    }
     let files = drawn(flags, &loaded)?;
     let named = files.iter().map(|(file, _)| *file);
     let named = named.filter(|file| *file != Path::new("-"));
@@ -363,6 +369,26 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
         .collect();
     let output = report_with_files(text(&loaded.material), &record, json, files)?;
     Ok(Output { remarks, ..output })
+}
+
+/// Several materials, one below the other.
+fn several_shown(first: Loaded, flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
+    if flags.svg.is_some() || flags.png.is_some() {
+        return Err(Error::usage(
+            "--svg and --png draw one material; `fresnel-gen materials compare` draws several in one picture",
+        ));
+    }
+    let mut all = vec![first.material];
+    for name in &flags.more {
+        all.push(load(&flags.of.films.on(name.source()?)?)?.material);
+    }
+    let records: Vec<MaterialRecord> = all.iter().map(material_record).collect();
+    let texts: Vec<String> = all.iter().map(text).collect();
+    report(
+        texts.join("\n"),
+        &Report::new("materials show", records),
+        json,
+    )
 }
 
 /// The pictures of the material that were requested, each with its path.

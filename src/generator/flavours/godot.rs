@@ -7,10 +7,10 @@ use crate::generator::lut::SplitSumAxis;
 /// The record of this flavour.
 pub static FLAVOUR: Flavour = Flavour {
     name: "godot",
-    summary: "include files of the shading language",
+    summary: "include files of the shading language, as an add-on",
     host: "Godot 4.6",
     source: "https://docs.godotengine.org/en/stable/tutorials/shaders/shader_reference/shading_language.html",
-    proof: "run in Godot 4.6, in its Compatibility renderer",
+    proof: "run in Godot 4.6, in its Compatibility renderer; the script of the add-on parsed and not run",
     stock: Some(|material| Model::schlick_f90_of_sum(material.f0_in_engines())),
     coated_f0: None,
     languages: &["glsl"],

@@ -256,6 +256,18 @@ fn a_survey_tells_of_every_page() {
 fn pictures_are_drawn_where_they_are_told() {
     let place = Place::new();
     let text = place.done("materials show gold").out;
+    let both = place.done("materials show gold silver").out;
+    let silver = place.done("materials show silver").out;
+    assert_eq!(both, format!("{text}\n{silver}"));
+    let json = place.done("materials show gold silver --json -").out;
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    assert_eq!([&rows[0]["name"], &rows[1]["name"]], ["gold", "silver"]);
+    place.refused(
+        "materials show gold silver --png both.png",
+        &["--png", "materials compare"],
+    );
+    place.refused("materials show gold silvr", &["silver"]);
     let drawn = place.done("materials show gold --svg a/gold.svg --png a/gold.png");
     assert_eq!(drawn.out, text);
     assert!(

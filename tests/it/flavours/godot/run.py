@@ -64,7 +64,7 @@ def replaced(text, pattern, by):
 def project():
     """The files of the project: those beside this script, the flavour's, and the shader of the README, as it is and with Schlick's F."""
     files = {path.name: path.read_bytes() for path in (HERE / "project").iterdir() if path.is_file()}
-    files |= {f"fresnel/{path.name}": path.read_bytes() for path in FLAVOUR.iterdir()}
+    files |= {f"addons/fresnel/{path.name}": path.read_bytes() for path in FLAVOUR.iterdir()}
     readme = (FLAVOUR / "README.md").read_text(encoding="utf-8")
     shader = re.search(r"```glsl\n(.*?)```", readme, re.DOTALL)[1]
     files["readme.gdshader"] = shader.encode()

@@ -74,7 +74,7 @@ func middle(stage):
 	return [pixel.r8, pixel.g8, pixel.b8]
 
 func table_of(kind):
-	return load("res://fresnel/table_fitted%s.tres" % { "water": "_dielectric", "film": "_film" }.get(kind, ""))
+	return load("res://addons/fresnel/table_fitted%s.tres" % { "water": "_dielectric", "film": "_film" }.get(kind, ""))
 
 func lamps(stage):
 	var black = GradientTexture2D.new()
