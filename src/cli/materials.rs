@@ -471,6 +471,9 @@ fn text(m: &Material) -> String {
     ];
     lines.extend(fields.iter().filter_map(|(name, value)| field(name, value)));
     lines.push(String::new());
+    if !m.films.is_empty() {
+        lines.push("n and k of what lies below the films:".to_owned());
+    }
     let (samples, left_out) = samples(m);
     let rows: Vec<Vec<String>> = samples
         .into_iter()

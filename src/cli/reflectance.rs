@@ -150,6 +150,17 @@ impl Run<'_> {
         held: Vec<Option<String>>,
     ) -> Result<Output, Error> {
         let csv = self.csv.map(|file| (file, csv_text(&rows).into_bytes()));
+        // Who has the rows in a file needs no table of them.
+        let text = match self.csv {
+            Some(file) if file != Path::new("-") => {
+                format!(
+                    "{}: {} rows",
+                    crate::physics::foreign::path(file),
+                    rows.len()
+                )
+            }
+            _ => text,
+        };
         let report = Report::new(self.command, rows);
         let mut output = report_with_files(text, &report, self.json, Vec::from_iter(csv))?;
         let each = self.materials.iter().zip(held);

@@ -260,12 +260,16 @@ fn labels(points: &[ChartPoint], lines: &[[(f64, f64); 2]], plane: &Plane) -> Ve
         .iter()
         .map(|(at, text)| (*at, FONT.width(text)))
         .collect();
-    let places = place_names(&sized, FONT.leading - 3.0, &all, lines, plane.axes.area);
+    let page = Area {
+        right: FRAME.width - 6.0,
+        ..plane.axes.area
+    };
+    let places = place_names(&sized, FONT.leading - 3.0, &all, lines, page);
     let mut elements = Vec::new();
-    for (((at, text), (_, width)), place) in names.iter().zip(sized).zip(places) {
+    for ((at, text), place) in names.iter().zip(places) {
         let Some(place) = place else { continue };
         if place.is_led {
-            elements.push(led(*at, &place, width));
+            elements.push(led(place.leader(*at)));
         }
         let top = place.middle - FONT.leading / 2.0;
         elements.extend(FONT.draw_with_rim(text, place.left, top, "start"));
@@ -274,11 +278,9 @@ fn labels(points: &[ChartPoint], lines: &[[(f64, f64); 2]], plane: &Plane) -> Ve
 }
 
 /// A thin line from a point to its name.
-fn led((x, y): (f64, f64), place: &LabelPlace, width: f64) -> String {
-    let nearest = x.clamp(place.left, place.left + width);
+fn led([(x, y), (to_x, to_y)]: [(f64, f64); 2]) -> String {
     format!(
-        "<path stroke=\"{INK}\" stroke-opacity=\"0.3\" stroke-width=\"1\" d=\"M{x:.2} {y:.2}L{nearest:.2} {:.2}\"/>",
-        place.middle
+        "<path stroke=\"{INK}\" stroke-opacity=\"0.45\" stroke-width=\"1\" d=\"M{x:.2} {y:.2}L{to_x:.2} {to_y:.2}\"/>"
     )
 }
 
@@ -292,6 +294,30 @@ struct LabelPlace {
     /// What the name covers.
     area: Area,
     is_led: bool,
+}
+
+impl LabelPlace {
+    /// The line from its point to the nearest place of the name.
+    fn leader(&self, (x, y): (f64, f64)) -> [(f64, f64); 2] {
+        let Area {
+            left,
+            right,
+            top,
+            bottom,
+        } = self.area;
+        [(x, y), (x.clamp(left, right), y.clamp(top, bottom))]
+    }
+}
+
+/// Whether a line runs through an area.
+fn runs_through([from, to]: [(f64, f64); 2], area: &Area) -> bool {
+    const STEPS: u32 = 200;
+    (0..=STEPS).any(|step| {
+        let share = f64::from(step) / f64::from(STEPS);
+        let x = from.0 + share * (to.0 - from.0);
+        let y = from.1 + share * (to.1 - from.1);
+        x > area.left && x < area.right && y > area.top && y < area.bottom
+    })
 }
 
 /// Half the width of a point.
@@ -308,7 +334,8 @@ fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
 }
 
 /// A place for the name of each of these points, by its width and the height of all, in order, so that no name covers any of all
-/// points and no line of the chart crosses a name. Lines run across or down. `None` where there is no room.
+/// points and no line of the chart, nor one to another name, crosses a name. Lines of the chart run across or down. A line to a name
+/// passes no other point where there is such a place. `None` where there is no room.
 fn place_names(
     names: &[((f64, f64), f64)],
     height: f64,
@@ -322,13 +349,37 @@ fn place_names(
         let half = |a: f64, b: f64| (a - b).abs() / 2.0 + LINE;
         around(middle, half(from.0, to.0), half(from.1, to.1))
     }));
+    let (mut set, mut leaders): (Vec<Area>, Vec<[(f64, f64); 2]>) = (Vec::new(), Vec::new());
     let mut places = Vec::new();
     for (point, width) in names {
-        let free = candidates(*point, *width, height).find(|LabelPlace { area, .. }| {
-            area.lies_in(&page) && !taken.iter().any(|other| area.meets(other))
-        });
-        taken.extend(free.map(|place| place.area));
-        places.push(free);
+        let others = all.iter().filter(|other| *other != point);
+        let others: Vec<Area> = others.map(|other| around(*other, DOT, DOT)).collect();
+        let is_free = |place: &LabelPlace| {
+            let area = &place.area;
+            let leader = place.leader(*point);
+            area.lies_in(&page)
+                && !taken.iter().any(|other| area.meets(other))
+                && !leaders.iter().any(|line| runs_through(*line, area))
+                && !set.iter().any(|name| runs_through(leader, name))
+        };
+        let passes_none = |place: &LabelPlace| {
+            let leader = place.leader(*point);
+            !others.iter().any(|other| runs_through(leader, other))
+        };
+        let free: Vec<LabelPlace> = candidates(*point, *width, height)
+            .into_iter()
+            .filter(is_free)
+            .collect();
+        let place = free
+            .iter()
+            .find(|place| passes_none(place))
+            .or(free.first());
+        if let Some(place) = place {
+            taken.push(place.area);
+            set.push(place.area);
+            leaders.extend(place.is_led.then(|| place.leader(*point)));
+        }
+        places.push(place.copied());
     }
     places
 }
@@ -338,33 +389,47 @@ fn beside(left: f64, middle: f64, width: f64, height: f64) -> Area {
     around((left + width / 2.0, middle), width / 2.0, height / 2.0)
 }
 
-/// The candidates for a place: right, left, above and below, then the same farther off.
-fn candidates((x, y): (f64, f64), width: f64, height: f64) -> impl Iterator<Item = LabelPlace> {
+/// The candidates for a place: right, left, above and below, then all around, the nearest first.
+fn candidates((x, y): (f64, f64), width: f64, height: f64) -> Vec<LabelPlace> {
     let near = DOT + GAP;
-    // The shift of the left end and of the middle, and the direction in which further rings lie.
+    let place = |dx: f64, dy: f64, is_led: bool| {
+        let (left, middle) = (x + dx, y + dy);
+        LabelPlace {
+            left,
+            middle,
+            area: beside(left, middle, width, height),
+            is_led,
+        }
+    };
+    let half = height / 2.0;
     let sides = [
-        (near, 0.0, 1.0),
-        (-near - width, 0.0, -1.0),
-        (-width / 2.0, -near - height / 2.0, 0.0),
-        (-width / 2.0, near + height / 2.0, 0.0),
-        (near, -height, 1.0),
-        (near, height, 1.0),
-        (-near - width, -height, -1.0),
-        (-near - width, height, -1.0),
+        (near, 0.0),
+        (-near - width, 0.0),
+        (-width / 2.0, -near - half),
+        (-width / 2.0, near + half),
+        (near, -height),
+        (near, height),
+        (-near - width, -height),
+        (-near - width, height),
     ];
-    (0..6).flat_map(move |ring| {
-        let further = 1.0 + 0.9 * f64::from(ring);
-        sides.into_iter().map(move |(dx, dy, sign)| {
-            let dx = dx + sign * (f64::from(ring) * height);
-            let (left, middle) = (x + dx, y + dy * further);
-            LabelPlace {
-                left,
-                middle,
-                area: beside(left, middle, width, height),
-                is_led: ring > 0,
-            }
-        })
-    })
+    // Steps of a few units, as far as an eye follows a line.
+    let rows = (-12..=12).map(|row| 9.0 * f64::from(row));
+    let columns = || (-8..=8).map(|column| near + 12.0 * f64::from(column));
+    let around = rows.flat_map(|dy| {
+        let right = columns().map(move |dx| (dx, dy));
+        let left = columns().map(move |dx| (-dx - width, dy));
+        right.chain(left)
+    });
+    let mut led: Vec<LabelPlace> = around.map(|(dx, dy)| place(dx, dy, true)).collect();
+    led.sort_by(|one, other| {
+        let length = |place: &LabelPlace| {
+            let [from, to] = place.leader((x, y));
+            libm::hypot(to.0 - from.0, to.1 - from.1)
+        };
+        length(one).total_cmp(&length(other))
+    });
+    let beside = sides.map(|(dx, dy)| place(dx, dy, false));
+    beside.into_iter().chain(led).collect()
 }
 
 static TEMPLATE: &str = include_str!("../../templates/chart.html.tera");
@@ -483,6 +548,12 @@ mod tests {
         for (i, one) in areas.iter().enumerate() {
             assert!(one.lies_in(&page));
             assert!(!areas[..i].iter().any(|other| other.meets(one)));
+        }
+        // No line to a name runs through another name.
+        for (at, place) in points.iter().zip(&places) {
+            let Some(place) = place else { continue };
+            let mut others = areas.iter().filter(|area| **area != place.area);
+            assert!(!others.any(|area| runs_through(place.leader(*at), area)));
         }
     }
 

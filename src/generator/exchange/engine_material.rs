@@ -320,7 +320,7 @@ fn remarks(
     if surface.gamut == Gamut::Clip && written.iter().any(|value| !(0.0..=1.0).contains(value)) {
         let [red, green, blue] = written;
         remarks.push(format!(
-            "F0 is ({red:?}, {green:?}, {blue:?}), and is clipped to [0, 1]; the error is told against the clipped spectrum"
+            "the colour at normal incidence is ({red:?}, {green:?}, {blue:?}), and is clipped to [0, 1]; the error is told against the clipped spectrum"
         ));
     }
     if !surface.is_spectral() {

@@ -283,7 +283,7 @@ impl NodeError {
         let coated = in_coat.map_or_else(String::new, |coat| coat.words());
         match coat {
             Some(BelowCoat { index, mean_abs }) => format!(
-                "{node} computes {model} below its clear coat: error of both together {} on average, at most {most} (at {worst_degrees:.2} degrees outside; light in a coat of {index} is at most {:.2} degrees from the normal)",
+                "{node} computes {model} below its clear coat: error of both together {} on average over cosines, at most {most} (at {worst_degrees:.2} degrees outside; light in a coat of {index} is at most {:.2} degrees from the normal)",
                 rounded_up(*mean_abs),
                 libm::asin(1.0 / index).to_degrees()
             ),

@@ -380,7 +380,7 @@ fn in_a_script(text: &str) -> String {
 const TAKEN: &str = "arguments await break case catch class const continue debugger default delete do else enum eval export extends false \
     finally for function if implements import in instanceof interface let new null package private protected public return static super \
     switch this throw true try typeof undefined var void while with yield \
-    checked coated distance fitted fitted_dielectric fitted_film known materials methods named texels";
+    checked coated distance fitted fitted_dielectric fitted_film fresnel known materials methods named patch texels";
 
 /// The name of a material as a constant of a script: with a `$` where the name is taken.
 fn identifier(name: &str) -> String {

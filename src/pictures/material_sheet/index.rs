@@ -29,6 +29,9 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
     let k = material.k.as_ref().map(|curve| curve_series("k", curve, K));
     let mut subtitle = origin(&n, &material.n, three, range);
     subtitle += &without_k(k.as_ref());
+    if !material.films.is_empty() {
+        subtitle += " Of what lies below the films.";
+    }
     if drawn.medium.is_some() {
         subtitle += " Its own, not divided by the medium's.";
     }

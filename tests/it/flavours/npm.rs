@@ -100,7 +100,11 @@ patchWith(new THREE.MeshStandardMaterial(), "gold");
 // @ts-expect-error
 patchWith(new THREE.MeshBasicMaterial(), gold);
 // @ts-expect-error
-patchWith(new THREE.MeshStandardMaterial(), gold, { coats: 1.5 });
+patchWith(new THREE.MeshPhysicalMaterial(), gold, { coats: 1.5 });
+// @ts-expect-error
+patchWith(new THREE.MeshPhysicalMaterial(), gold, { coat: 1.6 });
+// @ts-expect-error
+patchWith(new THREE.MeshStandardMaterial(), gold, { coat: 1.5 });
 // @ts-expect-error
 playcanvas.patchWith(new pc.StandardMaterial(), gold);
 "#;

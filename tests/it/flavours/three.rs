@@ -216,7 +216,11 @@ fn furnace(told: &Value) {
 }
 
 fn spheres(told: &Value) {
-    for same in ["unpatched", "twice", "more_programs"] {
+    let hooks = ["hooked_later", "hooked_and_patched"];
+    for same in hooks
+        .into_iter()
+        .chain(["unpatched", "twice", "more_programs"])
+    {
         assert_eq!(told[same], 0, "{same}");
     }
     assert_eq!(told["back"], 0);

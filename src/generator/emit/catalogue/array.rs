@@ -220,8 +220,13 @@ fn header(
             .to_owned(),
     );
     lines.push("Code error: that of the library functions".to_owned());
+    // A list of one's own may hold one's own files.
+    let data = match order {
+        RowOrder::ByMethod => "CC0-1.0, each with its reference",
+        RowOrder::AsGiven => "each with its licence and reference",
+    };
     lines.push(format!(
-        "Data: CC0-1.0, each with its reference: `fresnel-gen materials show {}`",
+        "Data: {data}: `fresnel-gen materials show {}`",
         rows[0].argument
     ));
     lines.push(licence_line());

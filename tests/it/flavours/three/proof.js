@@ -251,7 +251,22 @@ function spheres() {
   patch(left.material, "water");
   const water = picture();
   patch(left.material, "gold");
+  // A hook that is set later takes the place of ours, and a new patch runs it.
+  const third = gold();
+  const own = third.onBeforeCompile;
+  patch(third, "silver");
+  third.onBeforeCompile = shader => own.call(third, shader);
+  right.material = third;
+  const later = picture();
+  right.material = gold();
+  const plain = picture();
+  right.material = patch(third, "gold");
+  const again = picture();
+  right.material = patch(gold(), "gold");
+  const ours = picture();
+  patch(right.material, "silver");
   return {
+    hooked_later: differences(later, plain, 1).changed, hooked_and_patched: differences(again, ours, 1).changed,
     patched: differences(before, after, 0), unpatched: differences(before, after, 1).changed, twice: differences(after, twice, 0).changed,
     more_programs: more, blue_of_gold_silver_water: [after, silver, water].map(middle), back: differences(after, picture(), 0).changed,
   };
