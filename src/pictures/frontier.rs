@@ -264,7 +264,7 @@ fn labels(points: &[ChartPoint], lines: &[[(f64, f64); 2]], plane: &Plane) -> Ve
         right: FRAME.width - 6.0,
         ..plane.axes.area
     };
-    let places = place_names(&sized, FONT.leading - 3.0, &all, lines, page);
+    let places = place_all(&sized, FONT.leading - 3.0, &all, lines, page);
     let mut elements = Vec::new();
     for ((at, text), place) in names.iter().zip(places) {
         let Some(place) = place else { continue };
@@ -331,6 +331,38 @@ const GAP: f64 = 3.0;
 fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
     let across = [x - half_width, x + half_width];
     Area::between(across, [y - half_height, y + half_height])
+}
+
+/// Places as [`place_names`] finds them, with names that found none put first, where that leaves fewer without a place.
+fn place_all(
+    names: &[((f64, f64), f64)],
+    height: f64,
+    all: &[(f64, f64)],
+    lines: &[[(f64, f64); 2]],
+    page: Area,
+) -> Vec<Option<LabelPlace>> {
+    let mut order: Vec<usize> = (0..names.len()).collect();
+    let mut best = place_names(names, height, all, lines, page);
+    for _ in names {
+        let without =
+            |places: &[Option<LabelPlace>]| places.iter().filter(|one| one.is_none()).count();
+        let Some(missing) = best.iter().position(Option::is_none) else {
+            break;
+        };
+        order.retain(|place| *place != missing);
+        order.insert(0, missing);
+        let sorted: Vec<((f64, f64), f64)> = order.iter().map(|place| names[*place]).collect();
+        let found = place_names(&sorted, height, all, lines, page);
+        let mut places = vec![None; names.len()];
+        for (place, found) in order.iter().zip(found) {
+            places[*place] = found;
+        }
+        if without(&places) >= without(&best) {
+            break;
+        }
+        best = places;
+    }
+    best
 }
 
 /// A place for the name of each of these points, by its width and the height of all, in order, so that no name covers any of all
