@@ -1,18 +1,20 @@
 //! `clean`: removes what this program wrote into a folder, and nothing else.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::cli::error::Error;
 use crate::cli::output::Output;
 use crate::cli::places::folder_or_current;
+use crate::generator;
 use crate::generator::envelope::json_text;
 use crate::generator::error::RequestFault;
 use crate::generator::generate::provenance;
+use crate::generator::output::folder::read;
 use crate::generator::output::lock::{Announce, Lock};
 use crate::generator::output::manifest::{self, Entry, Manifest, Scope};
-use crate::generator::output::ownership::{KeptFile, remove_manifest};
+use crate::generator::output::ownership::{KeptFile, could_be_written, remove_manifest};
 use crate::generator::output::tree::plan;
 use crate::generator::output::write::write;
 use crate::physics::foreign::{self, Foreign};
@@ -31,6 +33,22 @@ pub struct CleanFlags {
     pub list: bool,
 }
 
+/// Refuses a folder with a listed file that cannot be read: it would be taken for one that is gone.
+fn check_readable(out_dir: &Path, manifest: &Manifest) -> Result<(), Error> {
+    let ours = manifest
+        .files
+        .iter()
+        .filter(|entry| could_be_written(entry));
+    for entry in ours {
+        match read(&out_dir.join(&entry.file)) {
+            // What lies there is somebody else's, and stays.
+            Ok(_) | Err(generator::error::Error::NotAFile { .. }) => {}
+            Err(fault) => return Err(fault.into()),
+        }
+    }
+    Ok(())
+}
+
 /// Removes. `announce` gets what a person should know before the run ends.
 pub fn run(flags: &CleanFlags, announce: Announce) -> Result<Output, Error> {
     let out_dir = folder_or_current(&flags.out_dir);
@@ -41,6 +59,7 @@ pub fn run(flags: &CleanFlags, announce: Announce) -> Result<Output, Error> {
         );
         return Err(RequestFault::refused(why).into());
     };
+    check_readable(out_dir, &manifest)?;
     let mut lock = (!flags.list).then(|| Lock::take(out_dir, announce));
     let all = Scope {
         alone: true,

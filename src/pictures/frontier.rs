@@ -242,14 +242,14 @@ fn diamond(x: f64, y: f64) -> String {
 }
 
 /// Names of points: a user's first, then those of the frontier. A method's point with its best inputs has a
-/// name only on the frontier.
+/// name only on the frontier, where there is room.
 fn labels(points: &[ChartPoint], lines: &[[(f64, f64); 2]], plane: &Plane) -> Vec<String> {
     const FONT: &Font = &TICK;
     let has_name = |point: &&ChartPoint| point.is_on_frontier || !point.entry.is_best;
     let mut order: Vec<&ChartPoint> = points.iter().filter(has_name).collect();
     order.sort_by_key(|point| {
         let entry = point.entry;
-        (entry.user().is_none(), !point.is_on_frontier, entry.is_best)
+        (entry.user().is_none(), entry.is_best, !point.is_on_frontier)
     });
     let all: Vec<(f64, f64)> = points.iter().map(|point| plane.at(point)).collect();
     let names: Vec<((f64, f64), String)> = order
@@ -341,26 +341,24 @@ fn place_all(
     lines: &[[(f64, f64); 2]],
     page: Area,
 ) -> Vec<Option<LabelPlace>> {
+    let without = |places: &[Option<LabelPlace>]| places.iter().filter(|one| one.is_none()).count();
     let mut order: Vec<usize> = (0..names.len()).collect();
-    let mut best = place_names(names, height, all, lines, page);
+    let mut last = place_names(names, height, all, lines, page);
+    let mut best = last.clone();
     for _ in names {
-        let without =
-            |places: &[Option<LabelPlace>]| places.iter().filter(|one| one.is_none()).count();
-        let Some(missing) = best.iter().position(Option::is_none) else {
+        let Some(missing) = last.iter().position(Option::is_none) else {
             break;
         };
         order.retain(|place| *place != missing);
         order.insert(0, missing);
         let sorted: Vec<((f64, f64), f64)> = order.iter().map(|place| names[*place]).collect();
         let found = place_names(&sorted, height, all, lines, page);
-        let mut places = vec![None; names.len()];
         for (place, found) in order.iter().zip(found) {
-            places[*place] = found;
+            last[*place] = found;
         }
-        if without(&places) >= without(&best) {
-            break;
+        if without(&last) < without(&best) {
+            best.clone_from(&last);
         }
-        best = places;
     }
     best
 }

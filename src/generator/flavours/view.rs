@@ -228,9 +228,19 @@ fn mark(command: &str) -> String {
     line.replace(['<', '>'], "?")
 }
 
+/// The command where all of it may stand in a script, in JSON and in marked-up text. Of another only the start is shown: a command
+/// without some of its letters does something else.
 fn plain_command(command: &str) -> String {
-    let is_kept = |c: &char| is_plain(*c) || *c == '\'';
-    command.chars().filter(is_kept).collect()
+    let is_safe = |c: char| is_plain(c) || c == '\'';
+    if command.chars().all(is_safe) && !command.contains("--'") {
+        return command.to_owned();
+    }
+    let mut words = command.split(' ');
+    let start: Vec<&str> = words
+        .by_ref()
+        .take_while(|word| *word != "--material")
+        .collect();
+    format!("{} # and what manifest.json says", start.join(" "))
 }
 
 fn plain_reference(reference: &str) -> String {
@@ -291,11 +301,7 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
         function: format!("{prefix}{}_{}", row.name, row.method.name),
         library_function: format!("{prefix}{}", row.method.name),
         is_of_films,
-        is_opaque: if is_of_films {
-            row.class != MaterialKind::Dielectric
-        } else {
-            row.method.class != Class::Dielectric
-        },
+        is_opaque: row.class != MaterialKind::Dielectric,
         coefficients: row.coefficients.iter().map(numbers).collect(),
         numbers: of_table(&row.coefficients),
         average: numbers(&row.average.given),

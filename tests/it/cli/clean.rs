@@ -76,3 +76,23 @@ fn a_folder_of_adapters_gets_no_tree_unasked() {
     assert!(told.err.contains("adapters for engines only"), "{told:?}");
     assert_eq!(place.listed(), before);
 }
+
+/// A listed file that cannot be read is no file that is gone: the manifest would be lost, and what it lists could never be cleaned.
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_read_keeps_its_manifest() {
+    let place = Place::new();
+    place.done("--target wgsl,gles --material gold --method fitted");
+    let folder = place.path(&format!("{OUT}/wgsl"));
+    let aside = place.path("aside");
+    std::fs::rename(&folder, &aside).unwrap();
+    std::os::unix::fs::symlink("wgsl", &folder).unwrap(); // a link to itself
+    for command in ["clean", "clean --list"] {
+        let told = place.run(command);
+        assert_eq!(told.code, Some(2), "{told:?}");
+    }
+    std::fs::remove_file(&folder).unwrap();
+    std::fs::rename(&aside, &folder).unwrap();
+    place.done("clean");
+    assert!(!place.path(&format!("{OUT}/manifest.json")).exists());
+}

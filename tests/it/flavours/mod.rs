@@ -301,6 +301,59 @@ fn a_file_of_somebody_else_stays() {
     }
 }
 
+/// A command that a script or JSON could not hold as it is stands in none of them: without some letters it would do something else.
+#[test]
+fn a_command_is_whole_or_not_shown() {
+    let place = Place::new();
+    let name = "a';touch PWNED;'.toml";
+    place.put(name, MY_METAL);
+    place.put("Gl\u{e4}ser.toml", MY_METAL);
+    for file in [name, "Gl\u{e4}ser.toml"] {
+        let line = ["--flavour", "npm,three,materialx", "--material", file];
+        place.run_with(&line).ends(0);
+        let readme = place.read(&format!("{OUT}/three/README.md"));
+        let commands = block(&readme, "sh");
+        assert!(
+            commands.starts_with("fresnel-gen --flavour three # "),
+            "{commands}"
+        );
+        assert!(
+            !commands.contains("touch") && !commands.contains("ser.toml"),
+            "{commands}"
+        );
+        let package = place.read(&format!("{OUT}/npm/package.json"));
+        let package: Value = serde_json::from_str(&package).unwrap();
+        assert!(
+            !package["command"].as_str().unwrap().contains("touch"),
+            "{package}"
+        );
+        place.run_with(&["clean"]).ends(0);
+    }
+}
+
+/// Whether there is diffuse light is a matter of the material, and not of the function that follows it best.
+#[test]
+fn a_dielectric_is_never_opaque() {
+    let place = Place::new();
+    place.done("--flavour three --material zinc_sulfide,gold,silicon,water,oil_on_water,anodised_titanium_purple");
+    let module = place.read(&format!("{OUT}/three/materials.js"));
+    for (name, is_opaque) in [
+        ("zinc_sulfide", false),
+        ("gold", true),
+        ("silicon", true),
+        ("water", false),
+        ("oil_on_water", false),
+        ("anodised_titanium_purple", true),
+    ] {
+        let own = module
+            .split(&format!("export const {name} = {{"))
+            .nth(1)
+            .unwrap();
+        let own = own.split("isOpaque: ").nth(1).unwrap();
+        assert!(own.starts_with(&is_opaque.to_string()), "{name}");
+    }
+}
+
 /// What a material under a clear coat of index 1.5 reflects, at a cosine outside: at each wavelength and for s and p the series of all
 /// reflections between both interfaces.
 pub fn two_interfaces(name: &str, cos: f64) -> [f64; 3] {
