@@ -112,7 +112,8 @@ fn metals_have_f0_and_its_tint() {
     assert_eq!(gold["baseColorFactor"][3], 1.0);
     for text in [&ran.err, &joined(&ran.out)] {
         assert!(
-            text.contains("F0 is (1.0") && text.contains("clipped to [0, 1]"),
+            text.contains("the colour at normal incidence is (1.0")
+                && text.contains("clipped to [0, 1]"),
             "{ran:?}"
         );
     }
