@@ -10,7 +10,7 @@
 /// The code of a difference of 0.
 const NONE: i32 = 76;
 /// The code of a difference of 0 that is not between -44 and 50.
-const FAR: i32 = 0x3000;
+const FAR: i32 = 0x5000;
 
 /// How many steps there are from 0 to 1. With 2048 a number errs by at most 1/4096, as half precision does from .5 on. Materials' numbers
 /// for orthogonal functions are larger, so that these have finer steps: half precision from .5 on, and within 1/8192 below.

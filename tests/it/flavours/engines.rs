@@ -407,11 +407,16 @@ fn the_oldest_versions_take_it_too() {
     let [playcanvas, babylon] = &OLDEST;
     is_shown(
         playcanvas,
-        "webgl2",
+        "webgl2&few",
         &KINDS_OF_PLAYCANVAS,
         &REFUSED_BY_PLAYCANVAS,
     );
-    is_shown(babylon, "webgl2", &KINDS_OF_BABYLON, &REFUSED_BY_BABYLON);
+    is_shown(
+        babylon,
+        "webgl2&few",
+        &KINDS_OF_BABYLON,
+        &REFUSED_BY_BABYLON,
+    );
 }
 
 #[test]

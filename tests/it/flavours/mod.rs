@@ -494,7 +494,7 @@ fn numbers_of_text(text: &str, side: usize) -> Vec<Vec<i32>> {
             } else {
                 0
             };
-            all.push(left + above - corner + code - if code < 128 { 76 } else { 0x3000 });
+            all.push(left + above - corner + code - if code < 128 { 76 } else { 0x5000 });
         }
         all
     };
