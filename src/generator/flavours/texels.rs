@@ -28,7 +28,7 @@ fn in_steps(value: f64, of_one: u32) -> i32 {
 }
 
 /// Planes of a width, one after the other.
-pub(super) fn text(planes: &[Vec<f64>], width: usize, of_one: u32) -> String {
+pub(super) fn table_text(planes: &[Vec<f64>], width: usize, of_one: u32) -> String {
     let letters = planes.iter().flat_map(|plane| {
         let steps: Vec<i32> = plane.iter().map(|value| in_steps(*value, of_one)).collect();
         let letter = |i: usize| {
@@ -84,7 +84,7 @@ mod tests {
             vec![1.0, 0.25, -1.0, 0.0, -0.3, 1.0],
             vec![-1.0, 1.0, -1.0, 1.0, -1.0, 1.0],
         ];
-        let text = text(&planes, 3, 4096);
+        let text = table_text(&planes, 3, 4096);
         assert_eq!(text.chars().count(), 12);
         let steps = |plane: &Vec<f64>| plane.iter().map(|value| in_steps(*value, 4096)).collect();
         let want: Vec<Vec<i32>> = planes.iter().map(steps).collect();

@@ -232,14 +232,11 @@ fn mark(command: &str) -> String {
 /// without some of its letters does something else.
 fn plain_command(command: &str) -> String {
     let is_safe = |c: char| is_plain(c) || c == '\'';
-    if command.chars().all(is_safe) && !command.contains("--'") {
+    if command.chars().all(is_safe) {
         return command.to_owned();
     }
-    let mut words = command.split(' ');
-    let start: Vec<&str> = words
-        .by_ref()
-        .take_while(|word| *word != "--material")
-        .collect();
+    // The program, --flavour and its name.
+    let start: Vec<&str> = command.split(' ').take(3).collect();
     format!("{} # and what manifest.json says", start.join(" "))
 }
 
@@ -470,7 +467,7 @@ fn tables(
         let view = TableView {
             size,
             steps,
-            text: in_a_script(&texels::text(&planes, size, steps)),
+            text: in_a_script(&texels::table_text(&planes, size, steps)),
             cosine,
             roughness,
             base64: BASE64_STANDARD.encode(bytes),
@@ -482,7 +479,24 @@ fn tables(
 
 #[cfg(test)]
 mod tests {
-    use super::pascal;
+    use super::{pascal, plain_command};
+
+    #[test]
+    fn a_command_is_whole_or_its_start_alone() {
+        let plain = "fresnel-gen --flavour npm --material gold,'my metal.csv' --medium 1.5";
+        assert_eq!(plain_command(plain), plain);
+        for rest in [
+            r"--material 'a'\'';touch x;'\''.toml'",
+            r"--medium 'a\b.toml' --material gold",
+            "--illuminant 'Gl\u{e4}ser.csv'",
+        ] {
+            let shown = plain_command(&format!("fresnel-gen --flavour npm {rest}"));
+            assert_eq!(
+                shown,
+                "fresnel-gen --flavour npm # and what manifest.json says"
+            );
+        }
+    }
 
     #[test]
     fn names_in_capitals_stay_apart() {
