@@ -4,8 +4,9 @@ use serde_json::Value;
 
 use super::audit;
 use super::rows;
-use crate::cli::Place;
-use crate::verify::tools::put_compiler;
+use crate::cli::{Place, Ran};
+use crate::compilers::Tool;
+use crate::verify::tools::{copied, put_compiler};
 
 /// The largest error of Schlick's formula for gold.
 const SCHLICK: f64 = 0.022306;
@@ -512,4 +513,54 @@ fn a_broken_compiler_is_not_blamed_on_the_text() {
             );
         }
     }
+}
+
+/// DXC is not on most machines, and glslang is. A copy of the program finds none of the compilers that a checkout has.
+#[test]
+fn hlsl_is_read_by_glslang_where_dxc_is_missing() {
+    let glslang = Tool {
+        command: "glslangValidator",
+        package: "glslang-tools",
+    };
+    if !glslang.is_here("HLSL by glslang") {
+        return;
+    }
+    let place = place();
+    let program = copied(&place);
+    let path = std::env::var("PATH").unwrap();
+    let script = format!("PATH='{path}' exec glslangValidator \"$@\"");
+    put_compiler(&place, "bin/glslangValidator", &script);
+    let audit = |file: &str, path: &str, more: &[&str]| {
+        let mut command = std::process::Command::new(&program);
+        command.args(["audit", file, "--material", "gold", "--gpu", "none"]);
+        command
+            .args(more)
+            .env("PATH", path)
+            .current_dir(place.path(""));
+        Ran::new(format!("audit {file}"), command.output().unwrap())
+    };
+    let bin = place.path("bin").display().to_string();
+    let row = rows(&audit("same_signature.hlsl", &bin, &["--json", "-"]).ends(0)).remove(0);
+    let accepts = row["accepts"].as_object().unwrap();
+    assert_eq!(accepts["glslang (dxc is not here)"], "yes", "{row}");
+    assert!(
+        !accepts.keys().any(|name| name.starts_with("dxc ")),
+        "{row}"
+    );
+    let error = row["model_error"]["max_abs"].as_f64().unwrap();
+    assert!((error - SCHLICK).abs() < 2e-6, "{error}");
+    // What glslang cannot judge is not checked, and so is everything where it is missing too.
+    for (file, path) in [
+        ("half.hlsl", bin.as_str()),
+        ("min16.hlsl", &bin),
+        ("same_signature.hlsl", "/nothing"),
+    ] {
+        let ran = audit(file, path, &[]).ends(3);
+        assert!(ran.out.contains("dxc -HV 2018: not checked"), "{ran:?}");
+        assert!(ran.err.contains("no dxc here"), "{ran:?}");
+    }
+    // DXC alone is asked where it is, though it be broken.
+    put_compiler(&place, "bin/dxc", "exit 1");
+    let ran = audit("same_signature.hlsl", &bin, &[]).ends(3);
+    assert!(!ran.out.contains("glslang"), "{ran:?}");
 }

@@ -40,7 +40,7 @@ pub struct Host {
 const FROM_FILES: &[&str] = &["--allow-file-access-from-files"];
 
 /// What the browser is started with for pages of hosts.
-fn flags() -> Vec<&'static str> {
+pub fn flags() -> Vec<&'static str> {
     [&browser::SOFTWARE[..], FROM_FILES].concat()
 }
 
@@ -190,7 +190,8 @@ pub fn screenshot(place: &Place, folder: &Path) -> RgbImage {
     image::open(&picture).expect("a picture").to_rgb8()
 }
 
-fn link(packages: &Path, place: &Path) {
+/// The packages where modules look for them.
+pub fn link(packages: &Path, place: &Path) {
     std::os::unix::fs::symlink(packages, place).unwrap();
 }
 

@@ -2,11 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::host::Host;
-use super::host::at_most;
-use super::host::number;
-use super::host::shows_a_gold_sphere;
+use super::host::{Host, at_most, flags, link, number, packages, shows_a_gold_sphere};
 use super::{FILMS, subject, two_interfaces};
+use crate::browser;
+use crate::cli::Place;
 
 const THREE: Host = Host {
     flavour: "three",
@@ -251,4 +250,41 @@ fn nodes(renderer: &str, told: &Value) {
     says(&refused["sheen"], &["sheen"]);
     says(&refused["name"], &["glod", "\"gold\""]);
     says(&refused["material"], &["MeshStandardMaterial"]);
+}
+
+/// An artist's way to a coated metal without our adapter: the asset's material in a file with a mesh, read by the loader that viewers use.
+/// What is drawn is what glTF computes. That is right but near grazing angles, where its base goes to white, as the asset states.
+#[test]
+fn a_viewer_of_gltf_draws_a_coated_metal_as_its_file_says() {
+    let what = "glTF of a coated metal in a viewer";
+    let Some(packages) = packages(what, THREE.folder, THREE.package, THREE.version) else {
+        return;
+    };
+    let place = Place::new();
+    link(&packages, &place.path("node_modules"));
+    let asset = place.done("materials params gold --as gltf --coat 1.5").out;
+    let page = include_str!("three/gltf.html").replace("ASSET", &asset);
+    let told = browser::told(&place, &page, "</html>", "", &flags());
+    assert_eq!(told["heard"], json!([]));
+    assert_eq!(told["type"], "MeshPhysicalMaterial");
+    let asset: Value = serde_json::from_str(&asset).unwrap();
+    let base = &asset["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
+    let schlick = |f0: f64, cos: f64| f0 + (1.0 - f0) * (1.0 - cos).powi(5);
+    let rows = told["drawn"].as_array().unwrap();
+    assert!(rows.len() > 25);
+    for row in rows {
+        let cos = number(&row[0]);
+        let truth = two_interfaces("gold", cos);
+        for channel in 0..3 {
+            let drawn = number(&row[channel + 1]);
+            let coat = schlick(0.04, cos);
+            let law = coat + (1.0 - coat) * schlick(number(&base[channel]), cos);
+            let row = format!("{cos:.3}, channel {channel}: {drawn:.4}, glTF {law:.4}");
+            assert!(cos < 0.3 || (drawn - law).abs() < 0.004, "{row}");
+            assert!(
+                cos < 0.55 || (drawn - truth[channel]).abs() < 0.005,
+                "{row}"
+            );
+        }
+    }
 }

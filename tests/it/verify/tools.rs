@@ -25,7 +25,7 @@ fn put(place: &Place, folder: &str, word: &Path) {
 }
 
 /// The program elsewhere: a link would lead back to where it was built.
-fn copied(place: &Place) -> PathBuf {
+pub fn copied(place: &Place) -> PathBuf {
     fs::create_dir_all(place.path("elsewhere")).unwrap();
     let copy = place.path("elsewhere/fresnel-gen");
     fs::copy(PROGRAM, &copy).unwrap();
