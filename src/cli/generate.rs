@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
-    Choice, PrecisionFlags, effect_or_all, family, flavour, method_or_all, one_of, target_or_all,
+    Choice, PrecisionFlags, effect_or_all, flavour, gpu, method_or_all, one_of, target_or_all,
 };
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::{TreeFlags, file_only};
@@ -30,9 +30,9 @@ use crate::generator::output::tree::{self, TreePlan, plan};
 use crate::generator::output::write::{OutputFile, write, write_outputs};
 use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::budget::{Budget, BudgetRow, choose_within};
-use crate::lab::cost::{self, Family};
+use crate::lab::cost;
 use crate::language::effects::Effect;
-use crate::language::methods::{self, Method};
+use crate::language::methods::{self, Gpu, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::foreign::{self, Foreign, one_line};
 
@@ -79,9 +79,9 @@ pub struct GenerateFlags {
     /// Write the catalogue of these materials, in this order, in place of a function for each: coefficients as constants, buffer, textures and JSON, and the functions that take them
     #[arg(long, requires = "material", conflicts_with_all = ["method", "effect", "flavour", "film", "plan", "budget", "output", "matching_angle"])]
     pub catalogue: bool,
-    /// GPU family whose recorded costs --budget compares: rdna2, adreno330 ... as for `cost` [default: rdna2]
-    #[arg(long, value_name = "NAME", requires = "budget", value_parser = family())]
-    pub gpu: Option<&'static Family>,
+    /// GPU that functions are written for, and whose recorded costs --budget compares: a family as for `cost` (rdna2, adreno330 ...), desktop or phones [default: phones for gles, desktop for other targets; for --budget rdna2]
+    #[arg(long, value_name = "NAME", value_parser = gpu())]
+    pub gpu: Option<Gpu>,
     /// Write exactly the functions of this plan, which `fresnel-gen plan --json FILE` made
     #[arg(long, value_name = "FILE", value_parser = file_only("--plan"), conflicts_with_all = ["method", "effect", "material", "film", "medium", "matching_angle", "precision", "force", "budget", "space", "illuminant", "observer", "adaptation", "step", "wavelengths", "extrapolate", "gamut"])]
     pub plan: Option<PathBuf>,
@@ -218,8 +218,14 @@ fn chosen(flags: &GenerateFlags, request: Request) -> Result<(Request, Vec<Strin
     let Some(most) = flags.budget else {
         return Ok((request, Vec::new()));
     };
-    let usual = || cost::find(USUAL_GPU).expect("a test names it");
-    let budget = Budget::new(most, flags.gpu.unwrap_or_else(usual))?;
+    let gpu = flags.gpu.map_or(USUAL_GPU, Gpu::name);
+    let Some(family) = cost::find(gpu) else {
+        let why = format!(
+            "--budget compares costs on one family of GPUs, and {gpu} are several; name one with --gpu"
+        );
+        return Err(Error::usage(why));
+    };
+    let budget = Budget::new(most, family)?;
     if request.precision.is_half() {
         let why = "--budget is of functions in single precision; leave --precision f16 out";
         return Err(Error::usage(why));
@@ -269,6 +275,7 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         prefix: flags.prefix.clone(),
         matching_angle: flags.matching_angle,
         precision: flags.precision.precision(),
+        gpu: flags.gpu,
         force: flags.precision.force,
         chosen: BTreeMap::new(),
         viewing: flags.viewing.conditions()?,

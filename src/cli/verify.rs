@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::cli::error::Error;
 use crate::cli::flags::choice::{
-    Choice, PrecisionFlags, effect_or_all, method_or_all, one_of, target_or_all,
+    Choice, PrecisionFlags, effect_or_all, gpu_or_all, method_or_all, one_of, target_or_all,
 };
 use crate::cli::flags::material::{MaterialFlags, MediumFlags};
 use crate::cli::flags::output::CheckReportFlags;
@@ -37,7 +37,7 @@ use crate::lab::verify::{
     supervise,
 };
 use crate::language::effects::Effect;
-use crate::language::methods::Method;
+use crate::language::methods::{Gpu, Method};
 use crate::language::targets::Target;
 use crate::physics::foreign::{lines, one_line};
 use crate::physics::materials::ViewingConditions;
@@ -77,6 +77,9 @@ pub struct VerifyFlags {
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
+    /// GPU that files which are not there are written for; all: each form of each method too, on all targets [default: as the files say, else that of each target]
+    #[arg(long, value_name = "NAME", value_parser = gpu_or_all(), conflicts_with = "exhaustive")]
+    pub gpu: Option<Choice<Gpu>>,
     /// Folder whose files are run
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,
@@ -131,6 +134,7 @@ impl VerifyFlags {
             .seen_as(viewing)
             .list("precision", self.precision.precision.map(Precision::name))
             .switch("force", self.precision.force)
+            .list("gpu", &self.gpu)
             .list("matching-angle", self.matching_angle)
             .list("adapter", &self.adapter)
             .list("backend", self.backend.map(Backend::name))
@@ -154,7 +158,10 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         name: flags.adapter.clone(),
     };
     check_points(flags.points)?;
-    let plan = plan_of_request(&request, &flags.out_dir)?;
+    let mut plan = plan_of_request(&request, &flags.out_dir)?;
+    if matches!(flags.gpu, Some(Choice::All)) {
+        plan.add_variants(&request)?;
+    }
     if plan.files.is_empty() {
         return Err(RequestFault::NothingToDo {
             work: "run",
@@ -219,6 +226,10 @@ fn request(flags: &VerifyFlags) -> Result<Request, Error> {
         matching_angle: flags.matching_angle,
         precision: flags.precision.precision(),
         force: flags.precision.force,
+        gpu: match flags.gpu {
+            Some(Choice::One(_, gpu)) => Some(gpu),
+            _ => None,
+        },
         ..Request::default()
     })
 }

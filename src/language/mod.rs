@@ -5,7 +5,7 @@
 //! This wing imports physics only.
 //! Start with `methods/formulas/schlick.rs`, a complete method, and then read the header of [`ir`].
 
-// Rooms: ir < methods, targets < effects
+// Rooms: ir < methods < targets < effects
 
 pub mod effects;
 pub mod ir;

@@ -10,7 +10,7 @@ use crate::generator::flavours::{self, Flavour};
 use crate::generator::request::Methods;
 use crate::lab::cost::{FAMILIES, Family};
 use crate::language::effects::{self, Effect};
-use crate::language::methods::{self, Method};
+use crate::language::methods::{self, Gpu, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::names::UnknownName;
 use crate::physics::num::Precision;
@@ -221,6 +221,19 @@ pub fn precision() -> impl Fn(&str) -> Result<Precision, UnknownName> + Clone {
 /// The parser of the name of a GPU family.
 pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone {
     one_of("GPU family", FAMILIES, |family| family.name)
+}
+
+/// The parser of the name of what functions are written for.
+pub fn gpu() -> impl Fn(&str) -> Result<Gpu, UnknownName> + Clone {
+    str::parse
+}
+
+/// The same, or `all`.
+pub fn gpu_or_all() -> impl Fn(&str) -> Result<Choice<Gpu>, UnknownName> + Clone {
+    |word| match word {
+        "all" => Ok(Choice::All),
+        name => Ok(Choice::One(name.to_owned(), name.parse()?)),
+    }
 }
 
 /// The parser of the name of a GPU family, or `all`.

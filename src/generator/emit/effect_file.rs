@@ -98,7 +98,8 @@ impl EffectRequest<'_> {
         if self.unusual_method().is_some() && !part.function.reflectance.is_used() {
             return Ok(Vec::new());
         }
-        let built = part.function.built(self.method);
+        let method = naming.written(self.method, FunctionForm::Library);
+        let built = part.function.built(method);
         let built = built.map_err(|fault| Error::generated(self.effect.name, fault))?;
         let emitted = |built: BuiltEffect| match built.name.strip_prefix(part.function.name) {
             Some(scalar) if !scalar.is_empty() => {

@@ -9,18 +9,20 @@ use crate::generator::fit::{Measured, ModelError, known_film, model_error, thick
 use crate::generator::reference::MaterialInMedium;
 use crate::language::effects::{Effect, EffectFunction};
 use crate::language::ir::{BrokenRule, Checked};
-use crate::language::methods::{Method, Values};
+use crate::language::methods::{Gpu, Method, Values};
 use crate::language::targets;
 use crate::physics::names::identifier_fault;
 use crate::physics::num::Precision;
 
-/// How functions are named. The name shows half precision.
+/// How functions are named and written. The name shows half precision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Naming {
     /// The prefix of every function's name.
     pub prefix: String,
     /// The functions' precision.
     pub precision: Precision,
+    /// The GPU whose variants of methods are written; none for each method as it is given.
+    pub gpu: Option<Gpu>,
 }
 
 impl Default for Naming {
@@ -28,11 +30,27 @@ impl Default for Naming {
         Naming {
             prefix: "fresnel_".to_owned(),
             precision: Precision::F32,
+            gpu: None,
         }
     }
 }
 
 impl Naming {
+    /// The name of a method's library function, which its file has too.
+    pub fn library(&self, method: &Method) -> String {
+        self.name(method.name, "")
+    }
+
+    /// A method as it is written here.
+    pub(in crate::generator) fn written(
+        &self,
+        method: &'static Method,
+        form: FunctionForm,
+    ) -> &'static Method {
+        let of = |gpu| method.written_for(gpu, form.name(), self.precision);
+        self.gpu.map_or(method, of)
+    }
+
     /// The value of `--prefix` in a command that repeats a run; none where it is the default.
     pub(crate) fn flag_of_prefix(prefix: &str) -> Option<&str> {
         Some(prefix).filter(|prefix| *prefix != Naming::default().prefix)
@@ -175,6 +193,7 @@ fn in_forms(
 ) -> Result<Vec<EmittedFunction>, Error> {
     let mut functions = Vec::new();
     for form in forms {
+        let method = naming.written(method, *form);
         let Some(function) = form.graph(method, naming.precision) else {
             continue;
         };
@@ -219,6 +238,7 @@ pub fn specialised_function(
     naming: &Naming,
     bounds: &Bounds,
 ) -> Result<EmittedFunction, Error> {
+    let method = naming.written(method, FunctionForm::Specialised);
     let Specialised {
         function,
         constants,

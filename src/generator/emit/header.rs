@@ -14,7 +14,7 @@ use super::figures::{
 use super::function::{EmittedFunction, FunctionForm};
 use crate::generator::fit::Measured;
 use crate::generator::reference::{IndexSource, MaterialInMedium};
-use crate::language::methods::{Contract, Method, TEXELS};
+use crate::language::methods::{Contract, Gpu, Method, TEXELS};
 use crate::language::targets::Target;
 use crate::physics::num::Precision;
 
@@ -72,6 +72,8 @@ pub struct Heading<'a> {
     pub form: HeaderForm,
     /// The command.
     pub command: &'a str,
+    /// What functions are written for.
+    pub gpu: Option<Gpu>,
 }
 
 impl Heading<'_> {
@@ -89,6 +91,7 @@ impl Heading<'_> {
             HeaderForm::Short => {
                 lines.extend(short_promises(target, method, precision));
                 lines.push(costs(functions));
+                lines.extend(self.gpu_line(&functions[0]));
                 lines.extend(short_mean_line(functions));
                 lines.extend(functions.iter().find_map(average::coefficients_line));
                 lines.push(short_source(method));
@@ -108,6 +111,7 @@ impl Heading<'_> {
                 lines.extend(promises(precision, method));
                 let cost = |one: &EmittedFunction| format!("{}: {}", one.name, operations(one));
                 lines.extend(functions.iter().map(cost));
+                lines.extend(self.gpu_line(&functions[0]));
                 lines.extend(functions.iter().find_map(average::mean_line));
                 lines.extend(functions.iter().find_map(average::coefficients_line));
                 lines.push(licence_line());
@@ -195,6 +199,7 @@ impl Heading<'_> {
                 lines[1] += &format!(". {OUTPUT_LICENCE}");
                 lines.extend(short_promises(target, method, precision));
                 lines.push(costs(std::slice::from_ref(emitted)));
+                lines.extend(self.gpu_line(emitted));
                 lines.extend(short_mean_line(std::slice::from_ref(emitted)));
                 lines.push(short_source(method));
             }
@@ -217,6 +222,17 @@ impl Heading<'_> {
             }
         }
         comment::lines(lines)
+    }
+
+    /// What a function was written for, where its method has other forms.
+    fn gpu_line(&self, emitted: &EmittedFunction) -> Option<String> {
+        let gpu = self.gpu?.words();
+        let method = emitted.method;
+        match (method.variant, method.variants) {
+            ("", []) => None,
+            ("", _) => Some(format!("Form: the usual one, the cheapest on {gpu}")),
+            (variant, _) => Some(format!("Form: {variant}, the cheapest on {gpu}")),
+        }
     }
 
     /// The first lines of a file.

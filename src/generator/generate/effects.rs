@@ -85,6 +85,7 @@ impl Run<'_> {
         &self,
         effect: &'static Effect,
         subject: Option<&'s MaterialInMedium>,
+        target: &Target,
     ) -> Result<(EffectRequest<'s>, Vec<EmittedFunction>), Error> {
         let usual = subject.map_or(USUAL_METHOD, MaterialInMedium::main_method);
         let usual = methods::find(usual).expect("the usual methods are registered");
@@ -93,24 +94,24 @@ impl Run<'_> {
             method: self.effects.method.unwrap_or(usual),
             subject,
         };
-        let functions = request.functions(&self.naming)?;
+        let functions = request.functions(&self.naming(target, &request.stem()))?;
         Ok((request, functions))
     }
 
     /// All files of effects.
     pub fn effect_files(&self, owners: &mut Owners) -> Result<Vec<GeneratedFile>, Error> {
         let mut files = Vec::new();
-        for (request, functions) in self.effect_functions()? {
-            let stem = request.stem();
-            for emitted in &functions {
-                owners.claim(&emitted.name, &stem)?;
-            }
-            for target in &self.targets {
+        for target in &self.targets {
+            for (request, functions) in self.effect_functions(target)? {
+                let stem = request.stem();
+                let naming = self.naming(target, &stem);
+                for emitted in &functions {
+                    owners.claim(&emitted.name, &stem)?;
+                }
                 let command = self.effect_command(target, &request);
-                let naming = &self.naming;
                 files.push(GeneratedFile {
-                    artifact: emit::effect_file(target, &request, &functions, naming, &command)?,
-                    functions: functions.clone(),
+                    artifact: emit::effect_file(target, &request, &functions, &naming, &command)?,
+                    functions,
                     subject: None,
                 });
             }
@@ -124,11 +125,12 @@ impl Run<'_> {
     /// No effect has any functions.
     pub fn effect_functions(
         &self,
+        target: &Target,
     ) -> Result<Vec<(EffectRequest<'_>, Vec<EmittedFunction>)>, Error> {
         let mut all = Vec::new();
         for effect in &self.effects.effects {
             for subject in self.effect_subjects() {
-                all.push(self.effect(effect, subject)?);
+                all.push(self.effect(effect, subject, target)?);
             }
         }
         all.retain(|(_, functions)| !functions.is_empty());
@@ -161,13 +163,16 @@ impl Run<'_> {
     }
 
     /// The effects with all their functions. Functions that several materials share appear once.
-    pub fn whole_effects(&self) -> Result<Vec<(EffectRequest<'_>, Vec<EmittedFunction>)>, Error> {
+    pub fn whole_effects(
+        &self,
+        target: &Target,
+    ) -> Result<Vec<(EffectRequest<'_>, Vec<EmittedFunction>)>, Error> {
         let mut all = Vec::new();
         for effect in &self.effects.effects {
             for (place, subject) in self.effect_subjects().into_iter().enumerate() {
-                let (request, changed) = self.effect(effect, subject)?;
+                let (request, changed) = self.effect(effect, subject, target)?;
                 let functions = match place {
-                    0 => request.whole(&self.naming)?,
+                    0 => request.whole(&self.naming(target, &request.stem()))?,
                     _ => changed,
                 };
                 all.push((request, functions));
@@ -179,10 +184,11 @@ impl Run<'_> {
 
     /// The command that writes a file of an effect again.
     pub fn effect_command(&self, target: &Target, effect: &EffectRequest) -> String {
+        let gpu = self.naming(target, &effect.stem()).gpu;
         let method = effect.unusual_method();
         let (subject, form) = (effect.subject, HeaderForm::default());
         self.command(
-            target,
+            (target, gpu),
             Some(effect.effect),
             method.as_slice(),
             subject,

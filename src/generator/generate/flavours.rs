@@ -104,7 +104,7 @@ impl Run<'_> {
             return Err(RequestFault::refused(format!("{}; leave it out", without(named))).into());
         }
         self.refuse_names_of_pages(&subjects)?;
-        let rows = emit::adapter_rows(&subjects, &self.naming)?;
+        let rows = emit::adapter_rows(&subjects, &self.request.naming())?;
         let reference = subjects
             .first()
             .map(|subject| subject.reference.surface.seen.clone());

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use crate::generator::bake::as_tables_are_seen;
 use crate::generator::emit::{
-    self, Artifact, Bounds, EmittedFunction, Heading, NAGA_VERSION, Naming,
+    self, Artifact, Bounds, EmittedFunction, FunctionForm, Heading, NAGA_VERSION, Naming,
 };
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::flavours::Flavour;
@@ -23,7 +23,7 @@ use crate::generator::output::write::write;
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::Subjects;
 use crate::generator::request::{Materials, Request, each_once};
-use crate::language::methods::Method;
+use crate::language::methods::{Gpu, Method};
 use crate::language::targets::Target;
 use crate::physics::digest::sha256;
 use crate::physics::foreign;
@@ -167,6 +167,8 @@ pub struct ExistingContents {
     pub methods: KeptMethods,
     /// The files whose comments have the full form, with their folder and without their extension.
     pub full_headers: BTreeSet<String>,
+    /// The GPUs that files were written for, where a command named one; by the same names.
+    pub gpus: BTreeMap<String, Gpu>,
 }
 
 /// Generates everything that the request asks for, and keeps the graphs. For a file in `existing`, the methods and the form of
@@ -221,7 +223,6 @@ struct Run<'r> {
     flavours: Vec<&'static Flavour>,
     subjects: Vec<(MaterialInMedium, String)>,
     left_out: Vec<SurfaceError>,
-    naming: Naming,
     bounds: Bounds,
     /// The contents of existing files that are compared with what would be written.
     existing: Option<&'r ExistingContents>,
@@ -251,16 +252,29 @@ impl<'r> Run<'r> {
             left_out: subjects.left_out,
             effects: effects::wanted(request, named.as_deref())?,
             named,
-            naming: request.naming(),
             bounds: Bounds::recorded(),
             existing: None,
         })
     }
 
+    /// How functions are named and written in a file of a target, named without its extension.
+    fn naming(&self, target: &Target, stem: &str) -> Naming {
+        let stem = format!("{}/{stem}", target.name);
+        let there = self.existing.and_then(|existing| existing.gpus.get(&stem));
+        Naming {
+            gpu: there.copied().or(self.request.gpu).or(Some(target.gpu)),
+            ..self.request.naming()
+        }
+    }
+
     /// The functions of a method's library file, and their companions.
-    fn library_functions(&self, method: &'static Method) -> Result<Vec<EmittedFunction>, Error> {
-        let mut functions = emit::library_functions(method, &self.naming)?;
-        functions.extend(emit::companions(method, &self.naming)?);
+    fn library_functions(
+        &self,
+        method: &'static Method,
+        naming: &Naming,
+    ) -> Result<Vec<EmittedFunction>, Error> {
+        let mut functions = emit::library_functions(method, naming)?;
+        functions.extend(emit::companions(method, naming)?);
         Ok(functions)
     }
 
@@ -269,17 +283,19 @@ impl<'r> Run<'r> {
         method: &'static Method,
         owners: &mut Owners,
     ) -> Result<Vec<GeneratedFile>, Error> {
-        let functions = self.library_functions(method)?;
-        for emitted in &functions {
-            owners.claim(&emitted.name, "the library")?;
-        }
         let mut files = Vec::new();
         for target in &self.targets {
+            let naming = self.naming(target, &self.request.naming().library(method));
+            let functions = self.library_functions(method, &naming)?;
+            for emitted in &functions {
+                owners.claim(&emitted.name, "the library")?;
+            }
             let form = self.form(target, &functions[0].name);
-            let command = self.command(target, None, &[method.name], None, form);
+            let command = self.command((target, naming.gpu), None, &[method.name], None, form);
             let heading = Heading {
                 form,
                 command: &command,
+                gpu: naming.gpu,
             };
             for artifact in emit::library(target, method, &functions, heading)? {
                 files.push(GeneratedFile {
@@ -303,7 +319,9 @@ impl<'r> Run<'r> {
         let mut files = Vec::new();
         for target in &self.targets {
             let methods = written::methods_of(self, target, subject, kept);
-            let functions = self.specialised(&methods, subject, &mut ready)?;
+            let stem = format!("materials/{}", self.request.naming().material(subject));
+            let naming = self.naming(target, &stem);
+            let functions = self.specialised(&methods, subject, &naming, &mut ready)?;
             let usual = written::usual(self.request, subject);
             let names = |methods: &[&'static Method]| -> Vec<&str> {
                 methods.iter().map(|method| method.name).collect()
@@ -312,14 +330,14 @@ impl<'r> Run<'r> {
             if named == names(&usual) {
                 named.clear();
             }
-            let stem = format!("materials/{}", self.naming.material(subject));
             let form = self.form(target, &stem);
-            let command = self.command(target, None, &named, Some(subject), form);
+            let command = self.command((target, naming.gpu), None, &named, Some(subject), form);
             let heading = Heading {
                 form,
                 command: &command,
+                gpu: naming.gpu,
             };
-            for artifact in emit::material(target, subject, &functions, &self.naming, heading)? {
+            for artifact in emit::material(target, subject, &functions, &naming, heading)? {
                 files.push(GeneratedFile {
                     artifact,
                     functions: functions.clone(),
@@ -333,21 +351,23 @@ impl<'r> Run<'r> {
         Ok(files)
     }
 
-    /// The functions of these methods for a material. Those that are ready by the method's name are taken.
+    /// The functions of these methods for a material. Those that are ready, by the method's name and variant, are taken.
     fn specialised(
         &self,
         methods: &[&'static Method],
         subject: &MaterialInMedium,
-        ready: &mut BTreeMap<&'static str, EmittedFunction>,
+        naming: &Naming,
+        ready: &mut BTreeMap<[&'static str; 2], EmittedFunction>,
     ) -> Result<Vec<EmittedFunction>, Error> {
         let mut functions = Vec::new();
         for method in methods {
-            if !ready.contains_key(method.name) {
-                let emitted =
-                    emit::specialised_function(method, subject, &self.naming, &self.bounds)?;
-                ready.insert(method.name, emitted);
+            let method = naming.written(method, FunctionForm::Specialised);
+            let key = [method.name, method.variant];
+            if !ready.contains_key(&key) {
+                let emitted = emit::specialised_function(method, subject, naming, &self.bounds)?;
+                ready.insert(key, emitted);
             }
-            functions.push(ready[method.name].clone());
+            functions.push(ready[&key].clone());
         }
         Ok(functions)
     }

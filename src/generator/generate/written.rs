@@ -14,7 +14,7 @@ use crate::generator::output::manifest::{Entry, Manifest};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request};
 use crate::language::effects::Effect;
-use crate::language::methods::{self, InHalf, Method};
+use crate::language::methods::{self, Gpu, InHalf, Method};
 use crate::language::targets::{Finish, Target};
 use crate::physics::num::Precision;
 
@@ -167,7 +167,7 @@ impl Run<'_> {
     /// The command that makes a file again: one of an effect, of a material, or of the library.
     pub(super) fn command(
         &self,
-        target: &Target,
+        (target, gpu): (&Target, Option<Gpu>),
         effect: Option<&Effect>,
         methods: &[&str],
         subject: Option<&MaterialInMedium>,
@@ -189,6 +189,7 @@ impl Run<'_> {
             .list("medium", medium.map(|(argument, _)| argument))
             .list("prefix", Naming::flag_of_prefix(&request.prefix))
             .list("precision", precision.map(Precision::name))
+            .list("gpu", gpu.filter(|gpu| *gpu != target.gpu).map(Gpu::name))
             .switch("force", request.force && request.precision.is_half())
             .seen_on(&request.viewing, subject.map(|one| &one.reference.surface))
             .list(
@@ -234,11 +235,14 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     let (mut pages, mut owners) = (Vec::new(), Owners::default());
     let form = run.form(target, "");
+    let naming = run.naming(target, "");
     let mut add = |emitted: &EmittedFunction, method: &Method, subject| {
-        let command = run.command(target, None, &[method.name], subject, form) + " -o -";
+        let written = (*target, naming.gpu);
+        let command = run.command(written, None, &[method.name], subject, form) + " -o -";
         let heading = Heading {
             form,
             command: &command,
+            gpu: naming.gpu,
         };
         let page = emit::single(target, emitted, subject, heading)?;
         // Only the first function keeps directives such as `enable f16;`: no code may precede them.
@@ -251,7 +255,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     };
     for (subject, _) in &run.subjects {
         let methods = named_or(&run, &subject.name, &[registered(subject.main_method())]);
-        for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
+        for emitted in run.specialised(&methods, subject, &naming, &mut BTreeMap::new())? {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
             add(&emitted, emitted.method, Some(subject))?;
         }
@@ -260,8 +264,8 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         for method in library_methods(run.request, run.named.as_deref()) {
             // Only one function of a module can be written: the method's own.
             let functions = match target.pages.len() {
-                1 => run.library_functions(method)?,
-                _ => emit::library_functions(method, &run.naming)?,
+                1 => run.library_functions(method, &naming)?,
+                _ => emit::library_functions(method, &naming)?,
             };
             for emitted in emit::written_for(target, functions) {
                 add(&emitted, method, None)?;
@@ -278,7 +282,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
 
 /// The functions of effects, one after the other. Those that the method and the material do not change are in their default form.
 fn effects(run: &Run, target: &'static Target) -> Result<Vec<u8>, Error> {
-    let all = run.whole_effects()?;
+    let all = run.whole_effects(target)?;
     if target.finish == Finish::Spirv && all.len() > 1 {
         let why = format!("-o takes one effect for {}: name one --effect", target.name);
         return Err(RequestFault::refused(why).into());

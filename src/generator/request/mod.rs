@@ -11,7 +11,7 @@ use crate::generator::flavours::Flavour;
 use crate::generator::reference::{Derivation, MaterialInMedium};
 use crate::generator::request::source::{Loaded, Subjects, check_is_bare, load};
 use crate::language::effects::Effect;
-use crate::language::methods::{self, Method};
+use crate::language::methods::{self, Gpu, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::materials::{Material, MaterialKind, ViewingConditions};
 use crate::physics::num::Precision;
@@ -42,6 +42,8 @@ pub struct Request {
     pub matching_angle: Option<f64>,
     /// The functions' precision.
     pub precision: Precision,
+    /// The GPU that functions are written for. None: that of each target.
+    pub gpu: Option<Gpu>,
     /// Whether to write methods in half precision that lose too much accuracy there.
     pub force: bool,
     /// The one method of each material, by the material's name, where a budget chose them; otherwise empty.
@@ -71,6 +73,7 @@ impl Default for Request {
             prefix: Naming::default().prefix,
             matching_angle: None,
             precision: Precision::F32,
+            gpu: None,
             force: false,
             chosen: BTreeMap::new(),
             viewing: ViewingConditions::default(),
@@ -193,6 +196,7 @@ impl Request {
         Naming {
             prefix: self.prefix.clone(),
             precision: self.precision,
+            gpu: self.gpu,
         }
     }
 

@@ -56,8 +56,10 @@ pub fn functions(
         };
         for method in methods.iter().copied() {
             if !(precision.is_half() && method.half.library_refusal().is_some()) {
-                let library = library_functions(method, &naming)?;
-                found.extend(library.into_iter().map(CostedFunction::library));
+                for method in method.with_variants() {
+                    let library = library_functions(method, &naming)?;
+                    found.extend(library.into_iter().map(CostedFunction::library));
+                }
             }
         }
         for material in materials {
@@ -124,6 +126,7 @@ impl CostedFunction {
     pub fn is_reference(&self) -> bool {
         self.id.effect.is_none()
             && self.id.method_name() == Some(REFERENCE)
+            && self.id.variant().is_empty()
             && self.id.form == FunctionForm::Library
             && !self.id.precision.is_half()
     }
@@ -236,6 +239,11 @@ impl FunctionId {
         self.method.map(|method| method.name)
     }
 
+    /// The variant of the method; empty for the usual form.
+    pub fn variant(&self) -> &'static str {
+        self.method.map_or("", |method| method.variant)
+    }
+
     /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`,
     /// `exit_transmittance: schlick`.
     pub fn label(&self) -> String {
@@ -245,12 +253,18 @@ impl FunctionId {
             1 if self.method.is_some() => ", one channel",
             _ => "",
         };
+        let variant = self.variant();
+        let variant = if variant.is_empty() {
+            String::new()
+        } else {
+            format!(", {variant}")
+        };
         let half = if self.precision.is_half() {
             ", f16"
         } else {
             ""
         };
-        format!("{}{channel}{half}", names.join(": "))
+        format!("{}{channel}{variant}{half}", names.join(": "))
     }
 
     /// Writes the columns that rows of methods begin with.
@@ -259,6 +273,7 @@ impl FunctionId {
     /// The serialiser refuses one.
     pub fn serialize_columns<Row: SerializeMap>(&self, row: &mut Row) -> Result<(), Row::Error> {
         row.serialize_entry("method", &self.method_name())?;
+        row.serialize_entry("variant", self.variant())?;
         row.serialize_entry("material", &self.material)?;
         row.serialize_entry("form", &self.form)?;
         row.serialize_entry("channels", &self.channels)?;
@@ -271,12 +286,13 @@ impl fmt::Display for FunctionId {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
         let effect = self.effect.unwrap_or_default();
         let method = self.method_name().unwrap_or_default();
+        let variant = self.variant();
         let material = self.material.as_deref().unwrap_or_default();
         let (form, channels) = (self.form.name(), self.channels);
         let precision = self.precision.name();
         write!(
             to,
-            "{effect},{method},{material},{form},{channels},{precision}"
+            "{effect},{method},{variant},{material},{form},{channels},{precision}"
         )
     }
 }

@@ -12,7 +12,7 @@ use super::function::FunctionId;
 use super::probe::Probe;
 use crate::generator::emit::FunctionForm;
 use crate::language::ir::Checked;
-use crate::language::methods::Method;
+use crate::language::methods::{Gpu, Method};
 use crate::physics::num::Precision;
 use crate::physics::records;
 
@@ -30,13 +30,29 @@ pub struct CostRecord {
     pub functions: BTreeMap<String, String>,
     /// The largest cost among functions whose shaders differ in numbers alone, by the hash of the shader without its numbers.
     pub shapes: BTreeMap<String, f64>,
+    /// The family, as functions are written for it.
+    pub gpu: Option<Gpu>,
 }
 
 impl CostRecord {
-    /// The record of a library function of three channels in single precision.
+    /// The record of a library function of three channels in single precision, as it is written for the family.
     pub fn library(&self, method: &'static Method) -> Option<CostFigures> {
-        let id = FunctionId::library(method, FunctionForm::Library, Precision::F32);
-        self.of(&id)
+        self.of_library(method, FunctionForm::Library, Precision::F32)
+    }
+
+    /// The record of a library function as it is written for the family.
+    pub fn of_library(
+        &self,
+        method: &'static Method,
+        form: FunctionForm,
+        precision: Precision,
+    ) -> Option<CostFigures> {
+        let of = |gpu| method.written_for(gpu, form.name(), precision);
+        self.of(&FunctionId::library(
+            self.gpu.map_or(method, of),
+            form,
+            precision,
+        ))
     }
 
     /// The record of a function.
@@ -54,6 +70,7 @@ const COMPILER: &str = "# compiler: ";
 struct RecordedCost {
     effect: String,
     method: String,
+    variant: String,
     material: String,
     form: String,
     channels: String,
@@ -73,7 +90,11 @@ struct RecordedCost {
 pub fn records(family: &str) -> CostRecord {
     let file = FOLDER.get_file(format!("{family}.csv"));
     let text = file.and_then(|file| file.contents_utf8());
-    text.map(parse).unwrap_or_default()
+    let record = text.map(parse).unwrap_or_default();
+    CostRecord {
+        gpu: Gpu::find(family),
+        ..record
+    }
 }
 
 /// Parses the text of a record.
@@ -103,6 +124,7 @@ fn parse(text: &str) -> CostRecord {
         let id = [
             row.effect,
             row.method,
+            row.variant,
             row.material,
             row.form,
             row.channels,
@@ -208,9 +230,13 @@ pub fn known_library_cost(
     if is_scalar && !method.has_scalar_form() {
         return None;
     }
+    let gpu = Gpu::find(family.name);
+    let method = gpu.map_or(method, |gpu| {
+        method.written_for(gpu, form.name(), precision)
+    });
     let function = method.function_in(precision, is_scalar).ok()?;
     let recorded = || {
-        let figures = record.of(&FunctionId::library(method, form, precision))?;
+        let figures = record.of_library(method, form, precision)?;
         Some(KnownCost {
             cost: figures.cost(),
             basis: CostBasis::Function,
@@ -226,11 +252,11 @@ mod tests {
 
     #[test]
     fn a_record_is_read() {
-        let head = "effect,method,material,form,channels,precision,shader,shape,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
-        let row = ",schlick,,library,3,f32,0123456789abcdef,00ff,57,,28,8,9,,7";
+        let head = "effect,method,variant,material,form,channels,precision,shader,shape,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+        let row = ",schlick,,,library,3,f32,0123456789abcdef,00ff,57,,28,8,9,,7";
         let others = [
-            ",schlick,gold,specialised,3,f32,01,aa,50,,28,8,9,,5",
-            ",schlick,water,specialised,3,f32,02,aa,50,,28,8,9,,6",
+            ",schlick,,gold,specialised,3,f32,01,aa,50,,28,8,9,,5",
+            ",schlick,,water,specialised,3,f32,02,aa,50,,28,8,9,,6",
         ];
         let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n{}\n", others.join("\n"));
         let record = parse(&text);

@@ -1,7 +1,7 @@
 //! The plan of a verification, made from a request, an output folder and its manifest: which files are run, and what their
 //! functions mean. Supervisor and workers make the same plan from the same flags, so that a number names a file.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::generator::emit::{EmittedFunction, HeaderForm};
@@ -13,9 +13,12 @@ use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::source::Source;
 use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::verify::shipped::{Folder, ShippedPage, replace_with_today};
-use crate::language::methods::{self, Method};
+use crate::language::methods::{self, Gpu, Method};
 use crate::language::targets::{self, Target};
 use crate::physics::num::Precision;
+
+/// A folder that is not there: what would be written is planned.
+const NO_FOLDER: &str = "/nonexistent/fresnel-gen";
 
 /// The plan of a request, with the text of the files in a folder.
 ///
@@ -29,6 +32,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
     let held = ExistingContents {
         methods: held_methods(request, &meant, &shipped, &kept)?,
         full_headers: full_headers(&meant, &shipped)?,
+        gpus: gpus(&meant, &shipped),
     };
     let exact = if is_as_meant(&meant, &held) {
         meant.files.clone()
@@ -127,6 +131,16 @@ fn full_headers(meant: &GeneratedWithGraphs, shipped: &Folder) -> Result<BTreeSe
     Ok(full)
 }
 
+/// The GPUs that files of the folder were written for, by the manifest. They are compared with files for these.
+fn gpus(meant: &GeneratedWithGraphs, shipped: &Folder) -> BTreeMap<String, Gpu> {
+    let path = |made: &GeneratedFile| made.artifact.path.clone();
+    let gpu = |path: String| {
+        let gpu = shipped.gpu(&path)?;
+        Some((path.split('.').next()?.to_owned(), gpu))
+    };
+    meant.files.iter().map(path).filter_map(gpu).collect()
+}
+
 /// The key of a material's file, which is its target and material, and the material itself.
 fn material_file<'a>(
     meant: &'a GeneratedWithGraphs,
@@ -141,6 +155,7 @@ fn material_file<'a>(
 /// generated again.
 fn is_as_meant(meant: &GeneratedWithGraphs, held: &ExistingContents) -> bool {
     held.full_headers.is_empty()
+        && held.gpus.is_empty()
         && meant.files.iter().all(|made| {
             let file = material_file(meant, made);
             let held = file.and_then(|(file, _)| held.methods.get(&file));
@@ -251,6 +266,35 @@ pub struct PlannedFile {
 }
 
 impl VerifyPlan {
+    /// Adds the library files of the methods' other forms, each once, as they would be written for GPUs that want them.
+    ///
+    /// # Errors
+    /// The request cannot be met.
+    pub fn add_variants(&mut self, request: &Request) -> Result<(), Error> {
+        let methods = request.methods.named();
+        let mut methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
+        methods.retain(|method| !method.variants.is_empty());
+        if methods.is_empty() || !request.effects.is_empty() {
+            return Ok(());
+        }
+        for gpu in Gpu::covering() {
+            let request = Request {
+                gpu: Some(gpu),
+                methods: Methods::These(methods.clone()),
+                materials: Materials::None,
+                ..request.clone()
+            };
+            let others = plan_of_request(&request, Path::new(NO_FOLDER))?;
+            for file in others.files {
+                let is_planned = |known: &PlannedFile| known.has_text_of(&file);
+                if !self.files.iter().any(is_planned) {
+                    self.files.push(file);
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// The materials with whose values a method's library functions are run.
     pub fn trial_subjects(&self, method: &Method) -> impl Iterator<Item = &MaterialInMedium> {
         let own = if self.others.is_empty() {
@@ -267,6 +311,19 @@ impl VerifyPlan {
 }
 
 impl PlannedFile {
+    /// Whether it is for the same target and holds functions of the same text as another.
+    fn has_text_of(&self, other: &PlannedFile) -> bool {
+        let variants = |file: &PlannedFile| -> Vec<[&str; 2]> {
+            let methods = file.functions.iter().map(|one| one.method);
+            methods.map(|one| [one.name, one.variant]).collect()
+        };
+        let is_library = |file: &PlannedFile| file.subject.is_none();
+        self.target.name == other.target.name
+            && is_library(self) == is_library(other)
+            && self.precision() == other.precision()
+            && variants(self) == variants(other)
+    }
+
     /// The precision of its functions.
     pub fn precision(&self) -> Precision {
         self.functions

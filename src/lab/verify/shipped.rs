@@ -12,6 +12,7 @@ use crate::generator::output::manifest::{self, Entry, Manifest};
 use crate::lab::verify::listed::{self, Listed};
 use crate::lab::verify::outline::{Item, Outline, outline};
 use crate::lab::verify::tampering;
+use crate::language::methods::Gpu;
 use crate::language::targets::{self, Target};
 use crate::physics::foreign::Foreign;
 use crate::physics::num::Precision;
@@ -133,6 +134,15 @@ impl Folder<'_> {
         let bytes = folder::read(&self.path.join(path))?.filter(|_| !path.ends_with(".spv"));
         let text = bytes.unwrap_or_default();
         Ok(HeaderForm::in_text(&String::from_utf8_lossy(&text)))
+    }
+
+    /// The GPU that a file of the folder was written for, where its command names one.
+    pub fn gpu(&self, path: &str) -> Option<Gpu> {
+        let (manifest, _) = self.manifest.as_ref()?;
+        let entry = manifest.files.iter().find(|entry| entry.file == path)?;
+        let command = entry.detail.get("command")?.as_str()?;
+        let mut words = command.split(' ').skip_while(|word| *word != "--gpu");
+        words.nth(1)?.parse().ok()
     }
 
     /// The page of a file. `asked` says which of its functions are to be run.

@@ -46,6 +46,11 @@ pub struct Method {
     pub half: InHalf,
     /// Builds the formula.
     pub build: Build,
+    /// The name of this way to write it; empty for the usual one.
+    pub variant: &'static str,
+    /// Other ways to write it, which mean the same and are cheaper on some GPUs: this method with another `build`. They promise what it
+    /// promises. See [`Gpu`](super::Gpu).
+    pub variants: &'static [&'static Method],
     /// A form that is cheaper once constants are folded in. With F0 known, F0 + (1 - F0) w is one multiplication and addition a
     /// channel. At run time F0 (1 - w) + w is, since 1 - w is one number for three channels.
     pub for_constants: Option<Build>,
@@ -92,6 +97,8 @@ impl Method {
         contract: Contract::Kept,
         half: InHalf::within(0.0),
         build: |x| x.cosine(),
+        variant: "",
+        variants: &[],
         for_constants: None,
         coefficients: None,
         plain: None,
@@ -178,6 +185,11 @@ pub enum Origin {
 }
 
 impl Method {
+    /// The usual way to write it, then its variants.
+    pub fn with_variants(&'static self) -> impl Iterator<Item = &'static Method> {
+        core::iter::once(self).chain(self.variants.iter().copied())
+    }
+
     /// The library function: three channels, or the scalar form, with run-time arguments.
     ///
     /// # Errors

@@ -12,6 +12,7 @@ use crate::physics::names::{UnknownName, named};
 mod affine;
 mod claims;
 mod formulas;
+mod gpu;
 mod input;
 mod limits;
 mod media;
@@ -24,6 +25,7 @@ pub use claims::{ByClass, ColourClaim, HALF_AIM, InHalf, Spread};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
+pub use gpu::{Gpu, MIXES, Mix};
 pub use input::{BareBase, FilmSample, Input, InputSource, Inputs, KnownFilm, KnownSurface, Range};
 pub use media::{Class, MediaSet};
 pub use method::{Contract, Forms, Light, Method, Origin, Values};
@@ -39,6 +41,11 @@ pub use shape::{Factor, Shape};
 pub fn find(name: &str) -> Option<&'static Method> {
     let found = ALL.iter().find(|method| method.name == name).copied();
     found.or_else(|| find(renamed(name, RENAMED)?.new))
+}
+
+/// Every method in every way in which it is written.
+pub fn all_variants() -> impl Iterator<Item = &'static Method> {
+    ALL.iter().flat_map(|method| method.with_variants())
 }
 
 impl FromStr for &'static Method {
@@ -57,13 +64,33 @@ pub fn find_input(name: &str) -> Option<&'static Input> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, Input, find_input};
+    use std::collections::BTreeSet;
+
+    use super::{ALL, Gpu, Input, all_variants, find_input};
     use crate::language::ir::{Op, Payload};
     use crate::physics::num::Precision;
 
+    /// A variant is its method but for the text, and its name is its own.
+    #[test]
+    fn variants_promise_what_their_method_promises() {
+        for method in ALL {
+            let names: BTreeSet<&str> = method.with_variants().map(|one| one.variant).collect();
+            assert_eq!(names.len(), 1 + method.variants.len(), "{}", method.name);
+            for variant in method.variants {
+                assert_eq!(variant.name, method.name);
+                assert_eq!(variant.claims.code_ulp, method.claims.code_ulp);
+                assert!(variant.variants.is_empty() && !variant.variant.is_empty());
+            }
+        }
+        for gpu in Gpu::all() {
+            assert_eq!(gpu.name().parse(), Ok(gpu));
+        }
+        assert!("rdna".parse::<Gpu>().is_err());
+    }
+
     #[test]
     fn every_form_of_every_method_is_well_formed() {
-        for method in ALL {
+        for method in all_variants() {
             for precision in Precision::ALL {
                 method.function_in(precision, false).unwrap();
                 if method.has_scalar_form() {

@@ -6,6 +6,7 @@
 use super::glsl;
 use super::spelling::Spelling;
 use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
+use crate::language::methods::Gpu;
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -40,6 +41,7 @@ pub static TARGET: Target = Target {
     validators: VALIDATORS,
     nests_comments: false,
     stack: Stack::OpenGlEs(&HARNESS),
+    gpu: Gpu::PHONES,
 };
 
 /// OpenGL ES 3.0 has no compute shaders, so a vertex shader writes its result to transform feedback, exact to the last bit.

@@ -5,6 +5,7 @@ use super::target::{
     Finish, Frame, GLSLANG, HalfText, Harness, Page, PointHarness, Stack, Target, Validator,
 };
 use crate::language::ir::Op;
+use crate::language::methods::Gpu;
 use crate::physics::num::Precision;
 
 /// The record of this target.
@@ -33,6 +34,7 @@ pub static TARGET: Target = Target {
     validators: VALIDATORS,
     nests_comments: false,
     stack: Stack::None,
+    gpu: Gpu::DESKTOP,
 };
 
 /// The harness that runs a user's desktop GLSL, which glslang compiles to SPIR-V.

@@ -9,6 +9,7 @@ use super::target::{
     Validator,
 };
 use crate::language::ir::Op;
+use crate::language::methods::Gpu;
 use crate::physics::num::Precision;
 
 /// The record of this target.
@@ -85,6 +86,7 @@ pub static TARGET: Target = Target {
     ],
     nests_comments: false,
     stack: Stack::DxcToVulkan(&HARNESS),
+    gpu: Gpu::DESKTOP,
 };
 
 static HARNESS: Harness = Harness {

@@ -4,6 +4,7 @@
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
 use crate::language::ir::Op;
+use crate::language::methods::Gpu;
 use crate::physics::num::Precision;
 
 /// The record of this target.
@@ -44,6 +45,7 @@ pub static TARGET: Target = Target {
     validators: VALIDATORS,
     nests_comments: false,
     stack: Stack::None,
+    gpu: Gpu::DESKTOP,
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

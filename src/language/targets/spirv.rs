@@ -6,6 +6,7 @@
 
 use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
 use super::wgsl;
+use crate::language::methods::Gpu;
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -43,6 +44,7 @@ pub static TARGET: Target = Target {
     validators: VALIDATORS,
     nests_comments: true,
     stack: Stack::SpirvModule,
+    gpu: Gpu::DESKTOP,
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

@@ -2,6 +2,7 @@
 //! what a program puts there.
 
 use super::spelling::Spelling;
+use crate::language::methods::Gpu;
 use crate::physics::num::Precision;
 
 /// An output language.
@@ -40,6 +41,8 @@ pub struct Target {
     pub nests_comments: bool,
     /// What runs its files on this machine.
     pub stack: Stack,
+    /// The GPU that its functions are written for where none is named.
+    pub gpu: Gpu,
 }
 
 /// What runs the files of a target. A text file runs inside a program around it.

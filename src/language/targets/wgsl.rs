@@ -5,6 +5,7 @@ use super::target::{
     Compiler, Finish, Frame, HalfText, Harness, Page, PointHarness, Stack, Target, Validator,
 };
 use crate::language::ir::Op;
+use crate::language::methods::Gpu;
 use crate::physics::num::Precision;
 
 /// The record of this target.
@@ -37,6 +38,7 @@ pub static TARGET: Target = Target {
     validators: &[NAGA_VALIDATOR, tint(ENDING)],
     nests_comments: true,
     stack: Stack::Wgpu(&HARNESS),
+    gpu: Gpu::DESKTOP,
 };
 
 const PROGRAM: Harness = Harness {

@@ -20,6 +20,7 @@ use crate::lab::fault::Fault;
 use crate::lab::gpu::Wanted;
 use crate::lab::verify::run::{Devices, ExecutionPath, ShippedFunction};
 use crate::lab::verify::{Status, Trial, material_trial};
+use crate::language::methods::Gpu;
 use crate::language::targets::{GLES, Target, WGSL};
 
 /// The targets whose text is run.
@@ -102,6 +103,7 @@ impl<'a> Written<'a> {
         let subject = &judged.material.subject;
         let naming = Naming {
             precision: request.precision,
+            gpu: Gpu::find(request.family.name),
             ..Naming::default()
         };
         let functions = if chosen.is_specialised() {
@@ -137,6 +139,7 @@ impl<'a> Written<'a> {
         let heading = Heading {
             form: HeaderForm::Short,
             command: "fresnel-gen --plan plan.json",
+            gpu: self.naming.gpu,
         };
         let (subject, chosen) = (&self.judged.material.subject, self.judged.chosen());
         let files = if chosen.is_specialised() {

@@ -20,7 +20,10 @@ const RANDOM: usize = 3000;
 /// Methods whose functions take numbers, and keep the contract.
 pub fn numeric() -> impl Iterator<Item = &'static Method> {
     let kept = |method: &&&Method| method.contract == Contract::Kept && !method.is_textured();
-    methods::ALL.iter().filter(kept).copied()
+    methods::ALL
+        .iter()
+        .filter(kept)
+        .flat_map(|method| method.with_variants())
 }
 
 pub fn library(method: &Method, precision: Precision) -> Checked {

@@ -290,7 +290,8 @@ fn files(target: &'static targets::Target) -> Vec<(EmittedFunction, Vec<u8>)> {
     let naming = Naming::default();
     let kept = |method: &&&'static Method| method.contract == Contract::Kept;
     let mut files = Vec::new();
-    for method in methods::ALL.iter().filter(kept) {
+    let written = methods::ALL.iter().filter(kept);
+    for method in written.flat_map(|method| method.with_variants()) {
         for emitted in emit::library_functions(method, &naming).unwrap() {
             let one = std::slice::from_ref(&emitted);
             // A module returns a colour: it has no scalar form.

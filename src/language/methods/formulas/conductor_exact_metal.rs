@@ -32,11 +32,44 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::Specialised("t squared overflows for k of 16 and more"),
     build,
+    variants: &[&ONE_DIVISION],
     replacement: Some(conductor_exact::as_it_is),
     ..Method::BASE
 };
 
+/// R_s and R_p over one denominator.
+static ONE_DIVISION: Method = Method {
+    variant: "one_division",
+    build: one_division,
+    variants: &[],
+    ..METHOD
+};
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let Steps { c2, s2, r, u } = steps(x);
+    let sum = (r + c2).named("sum", "");
+    let r_s = (1.0 - 2.0 * u / (sum + u))
+        .named("r_s", "R_s, without a difference that rounds twice near 1");
+    let whole = (r * c2 + s2.squared()).named("x", "");
+    (r_s * (whole / (whole + u * s2))).saturate()
+}
+
+fn one_division<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let Steps { c2, s2, r, u } = steps(x);
+    let sum = (r + c2).named("sum", "");
+    let whole = (r * c2 + s2.squared()).named("x", "");
+    ((sum - u) * whole / ((sum + u) * (whole + u * s2))).saturate()
+}
+
+/// What both forms begin with.
+struct Steps<'b> {
+    c2: Expr<'b>,
+    s2: Expr<'b>,
+    r: Expr<'b>,
+    u: Expr<'b>,
+}
+
+fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
     let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
     let smallest = conductor_exact::least_squared(x.precision());
     let c2 = c.squared().named("c2", "");
@@ -49,11 +82,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let b2 = (r + t).at_least(smallest).named("b2", "2 b^2");
     let u = std::f64::consts::SQRT_2 * c * (twice * b2.inverse_sqrt());
     let u = u.named("u", "2 a c, since a b = n k");
-    let sum = (r + c2).named("sum", "");
-    let r_s = (1.0 - 2.0 * u / (sum + u))
-        .named("r_s", "R_s, without a difference that rounds twice near 1");
-    let whole = (r * c2 + s2.squared()).named("x", "");
-    (r_s * (whole / (whole + u * s2))).saturate()
+    Steps { c2, s2, r, u }
 }
 
 #[cfg(test)]

@@ -61,6 +61,7 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within(0.0016),
     build,
+    variants: &[&DIP_FIRST],
     for_constants: Some(for_constants),
     affine: Some(Affine {
         numbers: &[
@@ -74,6 +75,14 @@ pub static METHOD: Method = Method {
     ..Method::BASE
 };
 
+/// The depth of the dip in each channel first: for GPUs that compute vectors, or count waits.
+static DIP_FIRST: Method = Method {
+    variant: "dip_first",
+    build: dip_first,
+    variants: &[],
+    ..METHOD
+};
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (f0, tint) = (x.get(Input::F0), x.get(Input::TINT));
     let m5 = grazing_weight(x);
@@ -84,6 +93,20 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let second = (m5 - of_white).named("second", "the weight of white where the tint is 0");
     let bare = f0 * (tint * of_f0 + first) + (tint * of_white + second);
     bare.saturate()
+}
+
+/// `F0 + (1 - c)^5 (1 - F0 + (tint b - b) c (1 - c))`. With a tint of 1 the difference is 0, since both products round alike.
+fn dip_first<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    if x.is_half() {
+        return build(x);
+    }
+    let (f0, tint) = (x.get(Input::F0), x.get(Input::TINT));
+    let b =
+        (SCALE * 9031.0 * f0 + SCALE * 7776.0).named("b", "the depth of the dip without a tint");
+    let c = x.cosine();
+    let m5 = grazing_weight(x);
+    let arch = (c * (1.0 - c)).named("arch", "c (1 - c)");
+    (f0 + m5 * (1.0 - f0 + (tint * b - b) * arch)).saturate()
 }
 
 fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {

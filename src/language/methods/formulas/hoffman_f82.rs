@@ -45,6 +45,7 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within(0.0017),
     build,
+    variants: &[&DIP_FIRST, &RISE],
     for_constants: Some(for_constants),
     affine: Some(Affine {
         numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 7776 / 16807)"],
@@ -54,12 +55,56 @@ pub static METHOD: Method = Method {
     ..Method::BASE
 };
 
+/// The depth of the dip in each channel first: for GPUs that compute vectors, or count waits.
+static DIP_FIRST: Method = Method {
+    variant: "dip_first",
+    build: dip_first,
+    variants: &[],
+    ..METHOD
+};
+
+/// What is added to F0, by weights that channels share.
+static RISE: Method = Method {
+    variant: "rise",
+    build: rise,
+    variants: &[],
+    ..METHOD
+};
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let m5 = grazing_weight(x);
     let b = (PEAK * dip(x.cosine(), m5)).named("b", "the weight of f82: 1 at 81.79 degrees");
     let a =
         (m5 - WEIGHT_82 * b).named("a", "the weight of white: 1 at grazing, 0 at 81.79 degrees");
     between(x, a, b)
+}
+
+/// `F0 + (1 - c)^5 (1 - F0 + b c (1 - c))`, `b = (823543 / 46656) (F82 - F_S(1/7))`.
+fn dip_first<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    if x.is_half() {
+        return build(x);
+    }
+    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    let c = x.cosine();
+    let b = PEAK * f82 - PEAK * WEIGHT_82 - PEAK * (1.0 - WEIGHT_82) * f0;
+    let b = b.named("b", "less than 0 where there is a dip");
+    let m5 = grazing_weight(x);
+    let arch = (c * (1.0 - c)).named("arch", "c (1 - c)");
+    (f0 + m5 * (1.0 - f0 + b * arch)).saturate()
+}
+
+/// `F0 + (1 - c)^5 (F82 d + (1 - w d) - F0 (1 + (1 - w) d))`, `d = (823543 / 46656) c (1 - c)`, `w = 7776 / 16807`.
+fn rise<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    if x.is_half() {
+        return build(x);
+    }
+    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    let c = x.cosine();
+    let d = (PEAK * (c * (1.0 - c))).named("d", "");
+    let white = (1.0 - WEIGHT_82 * d).named("white", "");
+    let less = (-1.0 - (1.0 - WEIGHT_82) * d).named("less", "");
+    let m5 = grazing_weight(x);
+    (f0 + m5 * (f0 * less + white + f82 * d)).saturate()
 }
 
 /// `F0 (1 - a - b) + F82 b + a`, clamped to [0, 1]: the form that is affine in F0 and F82 and keeps white white. The channels share
