@@ -11,7 +11,7 @@ use crate::generator::error::unknown;
 use crate::generator::request::source::{self, load};
 use crate::generator::request::{Materials, Methods, Request};
 use crate::lab::budget::is_choosable;
-use crate::language::methods::Method;
+use crate::language::methods::{Gpu, Method};
 use crate::physics::foreign::Foreign;
 use crate::physics::materials;
 use crate::physics::num::Precision;
@@ -78,6 +78,7 @@ pub fn planned(
         chosen,
         viewing,
         precision: precision(file, plan)?,
+        gpu: request.gpu.or_else(|| Gpu::find(&plan.gpu)),
         ..request
     })
 }

@@ -23,6 +23,7 @@ mod f82;
 mod films;
 mod fits;
 mod flavours;
+mod forms;
 mod furnace;
 mod gallery;
 mod gamut;

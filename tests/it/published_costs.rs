@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use fresnel_gen::generator::emit::FunctionForm;
-use fresnel_gen::lab::cost::{FAMILIES, FunctionId, records};
+use fresnel_gen::lab::cost::{FAMILIES, records};
 use fresnel_gen::language::methods;
 use fresnel_gen::physics::num::Precision;
 
@@ -42,14 +42,15 @@ pub fn recorded() -> Vec<PublishedCost> {
     fresnel_gen::physics::records::rows(&text)
 }
 
-/// What ours costs there.
+/// What ours costs there, in the form that is written for the family.
 pub fn own(gpu: &str, ours: &str, channels: usize) -> f64 {
     let form = match channels {
         1 => FunctionForm::Scalar,
         _ => FunctionForm::Library,
     };
-    let key = FunctionId::library(methods::find(ours).unwrap(), form, Precision::F32);
-    records(gpu).of(&key).expect("it is recorded").cost()
+    let method = methods::find(ours).expect("it is a method");
+    let figures = records(gpu).of_library(method, form, Precision::F32);
+    figures.expect("it is recorded").cost()
 }
 
 /// What a class of functions is called in the document: ours, and the channels.

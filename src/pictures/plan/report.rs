@@ -327,6 +327,9 @@ pub struct PlanFile {
     pub schema: u32,
     /// `plan` and its flags.
     pub command: String,
+    /// The GPU whose costs decided.
+    #[serde(default)]
+    pub gpu: String,
     /// The colour space of the functions.
     pub space: String,
     /// The functions.

@@ -32,7 +32,7 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::Specialised("t squared overflows for k of 16 and more"),
     build,
-    variants: &[&ONE_DIVISION],
+    variants: &[&ONE_DIVISION, &SUM_FIRST],
     replacement: Some(conductor_exact::as_it_is),
     ..Method::BASE
 };
@@ -45,8 +45,34 @@ static ONE_DIVISION: Method = Method {
     ..METHOD
 };
 
+/// The usual form with other sums and products first: for VideoCore.
+static SUM_FIRST: Method = Method {
+    variant: "sum_first",
+    build: sum_first,
+    ..ONE_DIVISION
+};
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let Steps { c2, s2, r, u } = steps(x);
+    let smallest = conductor_exact::least_squared(x.precision());
+    let roots = roots(x, |n, k| 2.0 * n * k, smallest);
+    let c = x.cosine();
+    let u = std::f64::consts::SQRT_2 * c * (roots.twice * roots.b);
+    reflected(roots, u.named("u", "2 a c, since a b = n k"))
+}
+
+fn sum_first<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let smallest = conductor_exact::least_squared(x.precision());
+    let twice = |n: Expr<'b>, k: Expr<'b>| {
+        let product = (n * k).named("nk", "");
+        product + product
+    };
+    let roots = roots(x, twice, smallest);
+    let c = x.cosine();
+    let u = std::f64::consts::SQRT_2 * c * roots.twice * roots.b;
+    reflected(roots, u.named("u", "2 a c, since a b = n k"))
+}
+
+fn reflected<'b>(Roots { c2, s2, r, .. }: Roots<'b>, u: Expr<'b>) -> Expr<'b> {
     let sum = (r + c2).named("sum", "");
     let r_s = (1.0 - 2.0 * u / (sum + u))
         .named("r_s", "R_s, without a difference that rounds twice near 1");
@@ -54,35 +80,55 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     (r_s * (whole / (whole + u * s2))).saturate()
 }
 
+/// The least 2 b² of a metal, of n = .001 and k = n / 4. With a smaller one products overflow outside of the domain.
+const LEAST_B2: f64 = 1e-7;
+
+/// `F = (d - 2 u) (x / (d (x + u s²)))`, `d = r + c² + u`.
 fn one_division<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let Steps { c2, s2, r, u } = steps(x);
-    let sum = (r + c2).named("sum", "");
+    let roots = roots(x, |n, k| 2.0 * n * k, LEAST_B2);
+    let c = x.cosine();
+    let u = std::f64::consts::SQRT_2 * c * (roots.twice * roots.b);
+    let u = u.named("u", "2 a c, since a b = n k");
+    let Roots { c2, s2, r, .. } = roots;
+    let d = (r + c2 + u).named("d", "");
     let whole = (r * c2 + s2.squared()).named("x", "");
-    ((sum - u) * whole / ((sum + u) * (whole + u * s2))).saturate()
+    ((d - 2.0 * u) * (whole / (d * (whole + u * s2)))).saturate()
 }
 
-/// What both forms begin with.
-struct Steps<'b> {
+/// What the forms begin with.
+struct Roots<'b> {
     c2: Expr<'b>,
     s2: Expr<'b>,
+    /// 2 n k.
+    twice: Expr<'b>,
+    /// a² + b².
     r: Expr<'b>,
-    u: Expr<'b>,
+    /// 1 / (√2 b).
+    b: Expr<'b>,
 }
 
-fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
+fn roots<'b>(
+    x: &Inputs<'b>,
+    twice: impl Fn(Expr<'b>, Expr<'b>) -> Expr<'b>,
+    least_b2: f64,
+) -> Roots<'b> {
     let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
     let smallest = conductor_exact::least_squared(x.precision());
     let c2 = c.squared().named("c2", "");
     let s2 = (1.0 - c2).named("s2", "sin^2 theta");
     let t = (k.squared() + s2 - n.squared()).named("t", "k^2 - n^2 + sin^2 theta");
-    let twice = (2.0 * n * k).named("nk2", "");
+    let twice = twice(n, k).named("nk2", "");
     // `smallest` is added, since a GPU fuses the sum with the product. Compilers may use x / sqrt(x) for a root: NaN at 0.
     let r = (t.squared() + (twice.squared() + smallest)).sqrt();
     let r = r.named("r", "a^2 + b^2, above 0");
-    let b2 = (r + t).at_least(smallest).named("b2", "2 b^2");
-    let u = std::f64::consts::SQRT_2 * c * (twice * b2.inverse_sqrt());
-    let u = u.named("u", "2 a c, since a b = n k");
-    Steps { c2, s2, r, u }
+    let b2 = (r + t).at_least(least_b2).named("b2", "2 b^2");
+    Roots {
+        c2,
+        s2,
+        twice,
+        r,
+        b: b2.inverse_sqrt(),
+    }
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within_but(0.0015, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
-    variants: &[&PRODUCT, &TWO_SQUARES, &SQUARED_PRODUCT],
+    variants: &[&TWO_SQUARES, &MULTIPLIED_OUT],
     plain: Some(plain),
     average: Some(FittedAverage {
         build: average,
@@ -62,26 +62,19 @@ pub static METHOD: Method = Method {
     ..Method::BASE
 };
 
-/// `q = τ / (u² (cg + s²))`, before it is multiplied out.
-static PRODUCT: Method = Method {
-    variant: "product",
-    build: product,
+/// `F = ((cg)² + s⁴) q²`: for GPUs that count waits.
+static TWO_SQUARES: Method = Method {
+    variant: "two_squares",
+    build: two_squares,
     variants: &[],
     ..METHOD
 };
 
-/// The same with `F = ((cg)² + s⁴) q²`.
-static TWO_SQUARES: Method = Method {
-    variant: "two_squares",
-    build: two_squares,
-    ..PRODUCT
-};
-
-/// `F = ((cg)² + s⁴) q²` with the usual q.
-static SQUARED_PRODUCT: Method = Method {
-    variant: "squared_product",
-    build: squared_product,
-    ..PRODUCT
+/// `q = τ / (v + τ v + h + g²)`, `v = c² + h`, `h = cg`: for Mali-G72.
+static MULTIPLIED_OUT: Method = Method {
+    variant: "multiplied_out",
+    build: multiplied_out,
+    ..TWO_SQUARES
 };
 
 /// The smallest radicand, so that the quotient stays finite past the critical angle, and at 90 degrees where η = 1.
@@ -93,62 +86,59 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         let steps = steps(x);
         return steps.reflected(steps.mean());
     }
-    let c = x.cosine();
-    let (c2, s4) = squares(c);
-    let [tau, g2, g] = refracted(x, c2);
-    let q = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
-    let q = q.named("q", "");
+    let roots = roots(x);
+    let Roots { c2, s4, g2, .. } = roots;
+    let q = quotient(x.cosine(), roots);
     ((c2 * g2 + s4) * q.squared()).at_most(1.0)
-}
-
-/// `τ`, `g²` and `g`.
-fn refracted<'b>(x: &Inputs<'b>, c2: Expr<'b>) -> [Expr<'b>; 3] {
-    let eta = x.get(Input::ETA);
-    let apart = (eta - 1.0).named("apart", "");
-    let tau = (apart * eta + apart).named("tau", "eta^2 - 1 without its cancellation near 1");
-    let g2 = (tau + c2).at_least(SMALLEST_SQUARE).named(
-        "g2",
-        "square of eta cos theta_t; next to 0 past the critical angle",
-    );
-    [tau, g2, g2.sqrt().named("g", "")]
-}
-
-fn product<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
-    let c = x.cosine();
-    let c2 = c.squared().named("c2", "");
-    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
-    let [tau, g2, g] = refracted(x, c2);
-    let u = (g + c).named("u", "");
-    let q = (tau / (u * u * (c * g + s2))).named("q", "");
-    ((c2 * g2 + s2.squared()) * q.squared()).at_most(1.0)
 }
 
 fn two_squares<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
         return build(x);
     }
-    let c = x.cosine();
-    let c2 = c.squared().named("c2", "");
-    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
-    let [tau, _, g] = refracted(x, c2);
-    let (u, h) = ((g + c).named("u", ""), (c * g).named("h", ""));
-    let q = (tau / (u.squared() * (h + s2))).named("q", "");
-    ((h.squared() + s2.squared()) * q.squared()).at_most(1.0)
+    let roots = roots(x);
+    let q = quotient(x.cosine(), roots);
+    let h = (x.cosine() * roots.g).named("h", "");
+    ((h.squared() + roots.s4) * q.squared()).at_most(1.0)
 }
 
-fn squared_product<'b>(x: &Inputs<'b>) -> Expr<'b> {
+fn multiplied_out<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
         return build(x);
     }
-    let c = x.cosine();
+    let Roots { tau, c2, s4, g2, g } = roots(x);
+    let h = (x.cosine() * g).named("h", "");
+    let v = (c2 + h).named("v", "");
+    let q = (tau / ((v + tau * v) + (h + g2))).named("q", "");
+    ((c2 * g2 + s4) * q.squared()).at_most(1.0)
+}
+
+/// What q is made of.
+#[derive(Clone, Copy)]
+struct Roots<'b> {
+    tau: Expr<'b>,
+    c2: Expr<'b>,
+    s4: Expr<'b>,
+    g2: Expr<'b>,
+    g: Expr<'b>,
+}
+
+fn roots<'b>(x: &Inputs<'b>) -> Roots<'b> {
+    let (c, eta) = (x.cosine(), x.get(Input::ETA));
     let (c2, s4) = squares(c);
-    let [tau, g2, g] = refracted(x, c2);
-    let h = (c * g).named("h", "");
-    let q = (tau / (c * ((tau + 1.0) * (g + c) + g) + g2)).named("q", "");
-    ((h.squared() + s4) * q.squared()).at_most(1.0)
+    let apart = (eta - 1.0).named("apart", "");
+    let tau = (apart * eta + apart).named("tau", "eta^2 - 1 without its cancellation near 1");
+    let g2 = (tau + c2).at_least(SMALLEST_SQUARE).named(
+        "g2",
+        "square of eta cos theta_t; next to 0 past the critical angle",
+    );
+    let g = g2.sqrt().named("g", "");
+    Roots { tau, c2, s4, g2, g }
+}
+
+fn quotient<'b>(c: Expr<'b>, Roots { tau, g2, g, .. }: Roots<'b>) -> Expr<'b> {
+    let q = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
+    q.named("q", "")
 }
 
 /// For eta well above 1, where nothing cancels: `q = (g - c) / (g + η² c)`.

@@ -33,22 +33,30 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within(0.0013),
     build,
-    variants: &[&EACH_CHANNEL],
+    variants: &[&FROM_WHITE],
     for_constants: Some(for_constants),
     affine: Some(Affine::to_white(affine_weights)),
     ..Method::BASE
 };
 
-/// `F0 + (1 - F0) w` in each channel: for GPUs that compute vectors, or count waits.
-static EACH_CHANNEL: Method = Method {
-    variant: "each_channel",
-    build: for_constants,
+/// `1 - (1 - F0) (1 - w)`: for GPUs that count waits.
+static FROM_WHITE: Method = Method {
+    variant: "from_white",
+    build: from_white,
     variants: &[],
     ..METHOD
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     to_white(x.get(Input::F0), grazing_weight(x))
+}
+
+fn from_white<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    if x.is_half() {
+        return build(x);
+    }
+    let kept = (1.0 - grazing_weight(x)).named("kept", "");
+    1.0 + (x.get(Input::F0) - 1.0) * kept
 }
 
 fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {

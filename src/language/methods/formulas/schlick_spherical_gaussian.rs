@@ -31,18 +31,9 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within(0.0008),
     build,
-    variants: &[&EACH_CHANNEL],
     for_constants: Some(for_constants),
     affine: Some(Affine::to_white(affine_weights)),
     ..Method::BASE
-};
-
-/// `F0 + (1 - F0) w` in each channel, as for `schlick`.
-static EACH_CHANNEL: Method = Method {
-    variant: "each_channel",
-    build: for_constants,
-    variants: &[],
-    ..METHOD
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
