@@ -8,7 +8,8 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 33 scalar operations; fresnel_f82_tint_average 30
+// Cost: 36 scalar operations; fresnel_f82_tint_average 30
+// Form: dip_first, the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
 // fresnel_f82_tint_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
 // Source: Kutz, Hasan, Edmondson, 2021, https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html
@@ -17,16 +18,13 @@
 #define FRESNEL_F82_TINT_GLES
 
 highp vec3 fresnel_f82_tint(highp float cos_theta, highp vec3 f0, highp vec3 tint) {
+    highp vec3 b = 9.484718 * f0 + 8.166667; // the depth of the dip without a tint
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
-    highp float dip = c * (m5 * m); // c (1 - c)^6
-    highp float of_f0 = 9.484718 * dip;
-    highp float of_white = 8.166667 * dip;
-    highp float first = 1.0 - m5 - of_f0; // the weight of f0 where the tint is 0
-    highp float second = m5 - of_white; // the weight of white where the tint is 0
-    return clamp(f0 * (tint * of_f0 + first) + (tint * of_white + second), 0.0, 1.0);
+    highp float arch = c * m; // c (1 - c)
+    return clamp(f0 + m5 * (1.0 - f0 + (tint * b - b) * arch), 0.0, 1.0);
 }
 
 highp vec3 fresnel_f82_tint_average(highp vec3 f0, highp vec3 tint) {

@@ -8,7 +8,8 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 27 scalar operations; fresnel_hoffman_f82_average 27
+// Cost: 32 scalar operations; fresnel_hoffman_f82_average 27
+// Form: rise, the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
 // fresnel_hoffman_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
 // Source: Hoffman, 2019, https://renderwonk.com/publications/mam2019/
@@ -19,12 +20,12 @@
 highp vec3 fresnel_hoffman_f82(highp float cos_theta, highp vec3 f0, highp vec3 f82) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
+    highp float d = 17.651384 * (c * m);
+    highp float white = 1.0 - 0.46266437 * d;
+    highp float less = -1.0 - 0.53733563 * d;
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
-    highp float b = 17.651384 * (c * (m5 * m)); // the weight of f82: 1 at 81.79 degrees
-    highp float a = m5 - 0.46266437 * b; // the weight of white: 1 at grazing, 0 at 81.79 degrees
-    highp float kept = 1.0 - a - b; // the weight of f0
-    return clamp(f0 * kept + (f82 * b + a), 0.0, 1.0);
+    return clamp(f0 + m5 * (f0 * less + white + f82 * d), 0.0, 1.0);
 }
 
 highp vec3 fresnel_hoffman_f82_average(highp vec3 f0, highp vec3 f82) {

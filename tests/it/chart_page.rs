@@ -199,26 +199,24 @@ fn the_pictures_in_docs_are_of_the_whole_catalogue() {
         .subjects()
         .expect("the catalogue is read")
         .materials();
-    let data = chart_data(
+    let mut data = chart_data(
         &materials,
         Space::Srgb,
         None,
         String::new(),
         &mut |_, _, _| {},
     );
-    for (gpu, file) in [("rdna2", "chart.svg"), ("adreno630", "chart-adreno630.svg")] {
+    for (gpu, command, file) in [
+        ("rdna2", "chart", "chart.svg"),
+        ("adreno630", "chart --gpu adreno630", "chart-adreno630.svg"),
+    ] {
+        command.clone_into(&mut data.command);
+        let set = data.sets.iter().find(|set| set.name == "metals-median");
+        let cost = data.costs.iter().find(|cost| cost.name == gpu);
         let view = ChartView {
             data: &data,
-            set: data
-                .sets
-                .iter()
-                .find(|set| set.name == "metals-median")
-                .expect("a set"),
-            cost: data
-                .costs
-                .iter()
-                .find(|cost| cost.name == gpu)
-                .expect("an axis"),
+            set: set.expect("it is a set"),
+            cost: cost.expect("it is an axis"),
             error: 0,
         };
         let picture = chart_svg(&view).expect("it has points");

@@ -111,10 +111,10 @@ fn shapes_are_those_of_todays_shaders() {
             .partition(|line| line.starts_with("# ") || line.starts_with("effect,"));
         let mut text = head.join("\n") + "\n";
         for line in lines {
-            let cells: Vec<&str> = line.splitn(9, ',').collect();
-            let shape = shapes.get(&cells[..7].join(","));
+            let cells: Vec<&str> = line.splitn(10, ',').collect();
+            let shape = shapes.get(&cells[..8].join(","));
             let shape = shape.unwrap_or_else(|| panic!("run tests/costs: {line}"));
-            text += &format!("{},{shape},{}\n", cells[..7].join(","), cells[8]);
+            text += &format!("{},{shape},{}\n", cells[..8].join(","), cells[9]);
         }
         super::bless::check(&path, text.as_bytes());
     }

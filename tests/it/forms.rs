@@ -191,8 +191,10 @@ fn forms_are_verified() {
         return crate::not_checked(&format!("forms by verify: {}", ran.err));
     }
     let rows = ran.ends(0).json()["rows"].as_array().unwrap().clone();
+    // The mean over the hemisphere has one form.
+    let mut own = rows.iter().filter(|row| row["form"] == "library");
     assert!(
-        rows.iter().all(|row| row["variant"] == "dip_first"),
+        own.all(|row| row["variant"] == "dip_first" && row["shipped"] == true),
         "{rows:?}"
     );
     let all = place.run("verify --target wgsl,gles,spirv --method hoffman_f82,schlick --gpu all --points 200 --out-dir none --json -");

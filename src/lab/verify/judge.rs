@@ -335,6 +335,7 @@ fn row_without_run(file: &PlannedFile, emitted: &EmittedFunction) -> VerifyRow {
         effect: emitted.effect.map(|part| part.effect.name.to_owned()),
         method: emitted.method.name.to_owned(),
         material: None,
+        variant: emitted.method.variant.to_owned(),
         form: emitted.form,
         precision: emitted.precision,
         function: emitted.name.clone(),

@@ -26,6 +26,9 @@ pub struct VerifyRow {
     pub effect: Option<String>,
     /// The method. For an effect's function, the one that computes R.
     pub method: String,
+    /// The variant of the method; empty for the usual form.
+    #[serde(default)]
+    pub variant: String,
     /// The material, as a user types it. None where the run timed out or crashed, and for an effect's function.
     pub material: Option<String>,
     /// Its form.
