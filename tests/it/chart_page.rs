@@ -208,7 +208,7 @@ fn the_pictures_in_docs_are_of_the_whole_catalogue() {
     );
     for (gpu, command, file) in [
         ("rdna2", "chart", "chart.svg"),
-        ("adreno630", "chart --gpu adreno630", "chart-adreno630.svg"),
+        ("adreno630", "chart --gpu adreno630", "adreno630-chart.svg"),
     ] {
         command.clone_into(&mut data.command);
         let set = data.sets.iter().find(|set| set.name == "metals-median");

@@ -8,7 +8,7 @@ use crate::generator::error::RequestFault;
 use crate::generator::exchange::{self, Format};
 use crate::generator::flavours::{self, Flavour};
 use crate::generator::request::Methods;
-use crate::lab::cost::{FAMILIES, Family};
+use crate::lab::cost::{self, FAMILIES, Family, GpuCompiler};
 use crate::language::effects::{self, Effect};
 use crate::language::methods::{self, Gpu, Method};
 use crate::language::targets::{self, Target};
@@ -224,15 +224,26 @@ pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone
 }
 
 /// The parser of the name of what functions are written for.
-pub fn gpu() -> impl Fn(&str) -> Result<Gpu, UnknownName> + Clone {
-    str::parse
+pub fn gpu() -> impl Fn(&str) -> Result<Gpu, String> + Clone {
+    |name| {
+        name.parse()
+            .map_err(|unknown: UnknownName| no_gpu(name, &unknown))
+    }
+}
+
+/// Why there is no such GPU. Of some families nothing is recorded.
+fn no_gpu(name: &str, unknown: &UnknownName) -> String {
+    match cost::find(name).map(|family| family.compiler) {
+        Some(GpuCompiler::None(why)) => format!("no costs are recorded of {name}: {why}"),
+        _ => unknown.to_string(),
+    }
 }
 
 /// The same, or `all`.
-pub fn gpu_or_all() -> impl Fn(&str) -> Result<Choice<Gpu>, UnknownName> + Clone {
+pub fn gpu_or_all() -> impl Fn(&str) -> Result<Choice<Gpu>, String> + Clone {
     |word| match word {
         "all" => Ok(Choice::All),
-        name => Ok(Choice::One(name.to_owned(), name.parse()?)),
+        name => Ok(Choice::One(name.to_owned(), gpu()(name)?)),
     }
 }
 

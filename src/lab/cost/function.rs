@@ -112,7 +112,8 @@ impl CostedFunction {
         CostedFunction::new(FunctionId::of_library_file(&emitted), emitted.function)
     }
 
-    fn new(id: FunctionId, graph: Checked) -> CostedFunction {
+    /// A function of this identity with another graph.
+    pub fn new(id: FunctionId, graph: Checked) -> CostedFunction {
         CostedFunction {
             is_asked: true,
             probe: Probe::new(&graph, id.precision),

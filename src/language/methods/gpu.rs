@@ -48,6 +48,8 @@ impl Gpu {
     pub const DESKTOP: Gpu = Gpu("desktop");
     /// Phones.
     pub const PHONES: Gpu = Gpu("phones");
+    /// No GPU: operations are counted, and each method is written in its usual form.
+    const OPERATIONS: Gpu = Gpu("operations");
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -65,7 +67,8 @@ impl Gpu {
         let families = CHOICES.iter().map(|row| Gpu(&row.gpu));
         let mut all: Vec<Gpu> = families.filter(|gpu| !gpu.is_mix()).collect();
         all.dedup();
-        MIXES.iter().map(|mix| mix.gpu).chain(all)
+        let mixes = MIXES.iter().map(|mix| mix.gpu);
+        mixes.chain([Gpu::OPERATIONS]).chain(all)
     }
 
     /// The one of this name. There is none for a family that no compiler is known of.

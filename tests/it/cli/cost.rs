@@ -98,7 +98,8 @@ fn where_a_compiler_is_absent_the_record_serves_if_it_is_of_the_same_shader() {
             .iter()
             .all(|row| row["net_inverse_throughput"].as_f64().unwrap() > 0.0)
     );
-    assert_eq!((known.len(), unknown.len()), (5, 2), "{rows:#?}");
+    // Schlick's has a second form, for three channels and for one.
+    assert_eq!((known.len(), unknown.len()), (7, 2), "{rows:#?}");
     for row in &unknown {
         assert_eq!(row["material"], "copper");
         assert!(

@@ -336,7 +336,7 @@ const USED: [(&str, bool); 61] = [
     ),
     ("plan s.toml --json plan.json", true),
     (
-        "verify --target gles --method schlick --effect coat --material gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --prefix my_ --matching-angle 80 --precision f16 --force --points 500 --out-dir o --adapter a --backend vulkan --tools t --limit 9 --shards 3 --shard 1 --require-all --json v.json --junit v.xml",
+        "verify --target gles --method schlick --gpu all --effect coat --material gold --film 1.38:100nm --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --prefix my_ --matching-angle 80 --precision f16 --force --points 500 --out-dir o --adapter a --backend vulkan --tools t --limit 9 --shards 3 --shard 1 --require-all --json v.json --junit v.xml",
         false,
     ),
     (

@@ -42,12 +42,21 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within(0.0015),
     build,
+    variants: &[&EACH_CHANNEL],
     affine: Some(Affine {
         numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 0.4)"],
         build: numbers,
         weights: affine_weights,
     }),
     ..Method::BASE
+};
+
+/// `F0 + A (1 - F0) + B (F82 - F0)` in each channel: for GPUs that count waits.
+static EACH_CHANNEL: Method = Method {
+    variant: "each_channel",
+    build: each_channel,
+    variants: &[],
+    ..METHOD
 };
 
 /// The constant that makes u 5/8 at cos θ = 1/7.
@@ -57,6 +66,21 @@ const SLOPE: f64 = 1.66 * 64.0 / 15.0;
 const START: f64 = -0.16;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let [a, b] = weights(x);
+    between(x, a, b)
+}
+
+fn each_channel<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    if x.is_half() {
+        return build(x);
+    }
+    let [a, b] = weights(x);
+    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    (f0 + a * (1.0 - f0) + b * (f82 - f0)).saturate()
+}
+
+/// A and B.
+fn weights<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
     let c = x.cosine();
     let w = c / (1.0 / (1.0 + BEND) + BEND / (1.0 + BEND) * c);
     let w = w.named("w", "1 at normal incidence, 0 at grazing");
@@ -65,11 +89,10 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let s = (u * w).named("s", "");
     let a = u - s * (11.0 / 3.0 - 8.0 / 3.0 * w);
     let b = s * (SLOPE + START - SLOPE * w);
-    between(
-        x,
+    [
         a.named("a", "the weight of white"),
         b.named("b", "the weight of f82"),
-    )
+    ]
 }
 
 /// The reflectance of F0 = 0 at 81.79 degrees that is taken out of F82: then the weight A + .4 B is hardly below 0 anywhere.

@@ -31,13 +31,30 @@ pub static METHOD: Method = Method {
     },
     half: InHalf::within(0.0008),
     build,
+    variants: &[&EACH_CHANNEL],
     for_constants: Some(for_constants),
     affine: Some(Affine::to_white(affine_weights)),
     ..Method::BASE
 };
 
+/// `F0 - (F0 - 1) w` in each channel: for GPUs that count waits.
+static EACH_CHANNEL: Method = Method {
+    variant: "each_channel",
+    build: each_channel,
+    variants: &[],
+    ..METHOD
+};
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     to_white(x.get(Input::F0), weight(x))
+}
+
+fn each_channel<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    if x.is_half() {
+        return build(x);
+    }
+    let f0 = x.get(Input::F0);
+    f0 - (f0 - 1.0) * weight(x)
 }
 
 fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
