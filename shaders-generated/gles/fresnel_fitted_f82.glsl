@@ -10,6 +10,7 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0504, worst at 87.3 degrees
 // Cost: 30 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 20; fresnel_fitted_f82_average 27;
 //     fresnel_fitted_f82_average_scalar 9
+// Form: the usual one, the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
 // fresnel_fitted_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
 // Source: the form is fresnel-gen's; the two colours that it takes: Hoffman, 2019,
@@ -36,8 +37,7 @@ highp float fresnel_fitted_f82_scalar(highp float cos_theta, highp float f0, hig
     highp float s = u * w;
     highp float a = u - s * (3.6666667 - 2.6666667 * w); // the weight of white
     highp float b = s * (6.9226665 - 7.082667 * w); // the weight of f82
-    highp float kept = 1.0 - a - b; // the weight of f0
-    return clamp(f0 * kept + (f82 * b + a), 0.0, 1.0);
+    return clamp(f0 + a * (1.0 - f0) + b * (f82 - f0), 0.0, 1.0);
 }
 
 highp vec3 fresnel_fitted_f82_average(highp vec3 f0, highp vec3 f82) {

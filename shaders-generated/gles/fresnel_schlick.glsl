@@ -9,8 +9,8 @@
 //     80 degrees
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 12 scalar operations; fresnel_schlick_scalar 8; fresnel_schlick_average 12; fresnel_schlick_average_scalar
-//     4
+// Cost: 12 scalar operations; fresnel_schlick_scalar 10; fresnel_schlick_average 12;
+//     fresnel_schlick_average_scalar 4
 // Form: the usual one, the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
 // fresnel_schlick_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
@@ -30,11 +30,8 @@ highp vec3 fresnel_schlick(highp float cos_theta, highp vec3 f0) {
 
 highp float fresnel_schlick_scalar(highp float cos_theta, highp float f0) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
-    highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    highp float m2 = m * m;
-    highp float m5 = m2 * m2 * m;
-    highp float kept = 1.0 - m5; // the weight of f0
-    return f0 * kept + m5;
+    highp float p = c * (2.0 - c) - 1.0; // -(1 - c)^2
+    return f0 - p * p * ((1.0 - c) * (f0 - 1.0));
 }
 
 highp vec3 fresnel_schlick_average(highp vec3 f0) {
