@@ -14,6 +14,9 @@ const COSINES: usize = 200;
 /// A text means the same if no result in f64 differs by more.
 const SAME: f64 = 1e-9;
 
+/// A unit in the last place of results from 1/2 to 1.
+const HALF_UNIT: f64 = 1.0 / (1u64 << 24) as f64;
+
 /// What texts of a method are held against.
 pub struct Judge {
     method: &'static Method,
@@ -126,20 +129,14 @@ impl Judge {
             let exact = evaluate(graph, &self.arguments::<f64>(&run.inputs, &run.cosines));
             let single = evaluate(graph, &self.arguments::<f32>(&run.inputs, &run.cosines));
             for (place, meaning) in run.meaning.iter().enumerate() {
-                for channel in 0..channels {
-                    let want = meaning[channel];
-                    if !((exact.at(place)[channel] - want).abs() <= SAME) {
+                let (exact, single) = (exact.at(place), single.at(place));
+                for ((want, exact), single) in meaning.iter().zip(exact).zip(single).take(channels)
+                {
+                    let off = (f64::from(single) - want).abs();
+                    if off.is_nan() || (exact - want).is_nan() || (exact - want).abs() > SAME {
                         return None;
                     }
-                    let off = (f64::from(single.at(place)[channel]) - want).abs();
-                    if off.is_nan() {
-                        return None;
-                    }
-                    let unit = if floor_only {
-                        1.0 / f64::from(1 << 24)
-                    } else {
-                        unit(want)
-                    };
+                    let unit = if floor_only { HALF_UNIT } else { unit(*want) };
                     if floor_only || off > ABSOLUTE_FLOOR {
                         worst = worst.max(off / unit);
                     }

@@ -6,6 +6,7 @@ mod flavours;
 pub mod tables;
 mod written;
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -363,11 +364,13 @@ impl<'r> Run<'r> {
         for method in methods {
             let method = naming.written(method, FunctionForm::Specialised);
             let key = [method.name, method.variant];
-            if !ready.contains_key(&key) {
-                let emitted = emit::specialised_function(method, subject, naming, &self.bounds)?;
-                ready.insert(key, emitted);
-            }
-            functions.push(ready[&key].clone());
+            functions.push(match ready.entry(key) {
+                Entry::Occupied(known) => known.get().clone(),
+                Entry::Vacant(place) => {
+                    let made = emit::specialised_function(method, subject, naming, &self.bounds)?;
+                    place.insert(made).clone()
+                }
+            });
         }
         Ok(functions)
     }
