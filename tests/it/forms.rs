@@ -154,17 +154,16 @@ fn a_file_says_for_which_gpu_it_is() {
     let text = |more: &str| place.done(&format!("--method f82_tint {more} -o -")).out;
     let (usual, phones) = (text("--target hlsl"), text("--target gles"));
     assert!(
-        usual
-            .contains("Form: the usual one, the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA"),
+        usual.contains("Form: usual; the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA"),
         "{usual}"
     );
     assert!(
-        phones.contains("Form: dip_first, the cheapest on phones (Adreno 630, Mali-G57 and"),
+        phones.contains("Form: dip_first; the cheapest on phones (Adreno 630, Mali-G57 and"),
         "{phones}"
     );
     let adreno = text("--target hlsl --gpu adreno330");
     assert!(
-        adreno.contains("Form: dip_first, the cheapest on adreno330"),
+        adreno.contains("Form: dip_first; the cheapest on adreno330"),
         "{adreno}"
     );
     assert!(adreno.contains(" --gpu adreno330 "), "{adreno}");

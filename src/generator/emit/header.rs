@@ -91,7 +91,7 @@ impl Heading<'_> {
             HeaderForm::Short => {
                 lines.extend(short_promises(target, method, precision));
                 lines.push(costs(functions));
-                lines.extend(self.gpu_line(&functions[0]));
+                lines.extend(self.gpu_line(functions));
                 lines.extend(short_mean_line(functions));
                 lines.extend(functions.iter().find_map(average::coefficients_line));
                 lines.push(short_source(method));
@@ -111,7 +111,7 @@ impl Heading<'_> {
                 lines.extend(promises(precision, method));
                 let cost = |one: &EmittedFunction| format!("{}: {}", one.name, operations(one));
                 lines.extend(functions.iter().map(cost));
-                lines.extend(self.gpu_line(&functions[0]));
+                lines.extend(self.gpu_line(functions));
                 lines.extend(functions.iter().find_map(average::mean_line));
                 lines.extend(functions.iter().find_map(average::coefficients_line));
                 lines.push(licence_line());
@@ -199,7 +199,7 @@ impl Heading<'_> {
                 lines[1] += &format!(". {OUTPUT_LICENCE}");
                 lines.extend(short_promises(target, method, precision));
                 lines.push(costs(std::slice::from_ref(emitted)));
-                lines.extend(self.gpu_line(emitted));
+                lines.extend(self.gpu_line(std::slice::from_ref(emitted)));
                 lines.extend(short_mean_line(std::slice::from_ref(emitted)));
                 lines.push(short_source(method));
             }
@@ -224,15 +224,27 @@ impl Heading<'_> {
         comment::lines(lines)
     }
 
-    /// What a function was written for, where its method has other forms.
-    fn gpu_line(&self, emitted: &EmittedFunction) -> Option<String> {
+    /// The form of each function and what it was chosen for, where its method has several.
+    fn gpu_line(&self, functions: &[EmittedFunction]) -> Option<String> {
         let gpu = self.gpu?.words();
-        let method = emitted.method;
-        match (method.variant, method.variants) {
-            ("", []) => None,
-            ("", _) => Some(format!("Form: the usual one, the cheapest on {gpu}")),
-            (variant, _) => Some(format!("Form: {variant}, the cheapest on {gpu}")),
+        let form = |one: &EmittedFunction| match one.method.variant {
+            "" => "usual",
+            variant => variant,
+        };
+        let first = &functions[0];
+        if first.method.variant.is_empty() && first.method.variants.is_empty() {
+            return None;
         }
+        let scalar = functions[1..].iter();
+        let scalar =
+            scalar.filter(|one| one.form == FunctionForm::Scalar && form(one) != form(first));
+        let others: String = scalar
+            .map(|one| format!(", {} {}", one.name, form(one)))
+            .collect();
+        Some(format!(
+            "Form: {}{others}; the cheapest on {gpu}",
+            form(first)
+        ))
     }
 
     /// The first lines of a file.
