@@ -9,7 +9,7 @@
 // Domain: k of n / 4 and more; with less it loses digits, and near k = 0 it is wrong: there conductor_exact serves
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
 // Cost: 89 scalar operations, among them 6 roots, 6 divisions
-// Form: sum_first, the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
+// Form: sum_first; the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
 // Source: Glassner, 1995, https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 
 #ifndef FRESNEL_CONDUCTOR_EXACT_METAL_GLES

@@ -11,7 +11,8 @@
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Cost: 58 scalar operations, among them 3 roots, 3 divisions; fresnel_dielectric_exact_scalar 23;
 //     fresnel_dielectric_exact_average 42; fresnel_dielectric_exact_average_scalar 14
-// Form: the usual one, the cheapest on phones (Adreno 630, Mali-G57 and Mali-G72 alike)
+// Form: usual, fresnel_dielectric_exact_scalar two_squares; the cheapest on phones (Adreno 630, Mali-G57 and
+//     Mali-G72 alike)
 // fresnel_dielectric_exact_average: the mean of F over the hemisphere, weighted by cosine, as compensation of
 //     multiple scattering takes it; off by at most 0.0008 for eta 1/3 to 3
 // Source: Cook, Torrance, 1982, https://doi.org/10.1145/357290.357293

@@ -9,7 +9,7 @@
 // Domain: k of n / 4 and more; with less it loses digits, and near k = 0 it is wrong: there conductor_exact serves
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
 // Cost: 89 scalar operations, among them 6 roots, 3 divisions
-// Form: one_division, the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
+// Form: one_division; the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
 // Source: Glassner, 1995, https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 
 #ifndef FRESNEL_CONDUCTOR_EXACT_METAL_HLSL

@@ -11,7 +11,7 @@
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Cost: 58 scalar operations, among them 3 roots, 3 divisions; fresnel_dielectric_exact_scalar 22;
 //     fresnel_dielectric_exact_average 42; fresnel_dielectric_exact_average_scalar 14
-// Form: the usual one, the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
+// Form: usual; the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
 // fresnel_dielectric_exact_average: the mean of F over the hemisphere, weighted by cosine, as compensation of
 //     multiple scattering takes it; off by at most 0.0008 for eta 1/3 to 3
 // Source: Cook, Torrance, 1982, https://doi.org/10.1145/357290.357293

@@ -9,7 +9,7 @@
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
 // Cost: 33 scalar operations; fresnel_f82_tint_average 30
-// Form: the usual one, the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
+// Form: usual; the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
 // fresnel_f82_tint_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
 // Source: Kutz, Hasan, Edmondson, 2021, https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html

@@ -10,7 +10,7 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0504, worst at 87.3 degrees
 // Cost: 30 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 20; fresnel_fitted_f82_average 27;
 //     fresnel_fitted_f82_average_scalar 9
-// Form: the usual one, the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
+// Form: usual; the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
 // fresnel_fitted_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
 // Source: the form is fresnel-gen's; the two colours that it takes: Hoffman, 2019,

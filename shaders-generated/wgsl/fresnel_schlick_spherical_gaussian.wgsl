@@ -11,7 +11,7 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.279, worst at 84.5 degrees
 // Cost: 12 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8;
 //     fresnel_schlick_spherical_gaussian_average 12; fresnel_schlick_spherical_gaussian_average_scalar 4
-// Form: the usual one, the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
+// Form: usual; the cheapest on desktops (RDNA 2, Intel Xe and NVIDIA Maxwell alike)
 // fresnel_schlick_spherical_gaussian_average: the mean of F over the hemisphere, weighted by cosine, as
 //     compensation of multiple scattering takes it
 // Source: Karis, 2013, https://blog.selfshadow.com/publications/s2013-shading-course/
