@@ -103,15 +103,10 @@ pub fn expression(graph: &Checked, kept: &[&str]) -> Result<RecExpr<Formula>, St
     Ok(text[root].build_recexpr(|id| text[id].clone()))
 }
 
-/// The step of a formula, from those before it.
-fn step<'b>(
-    formula: &Formula,
-    of: impl Fn(&Id) -> Expr<'b>,
-    builder: &'b Builder,
-) -> Option<Expr<'b>> {
-    Some(match formula {
-        Formula::Argument(_) => return None,
-        Formula::Number(number) => builder.number(number.value()),
+/// What an operation gives of the steps before it; none of a leaf.
+fn computed<'b>(operation: &Formula, of: impl Fn(&Id) -> Expr<'b>) -> Option<Expr<'b>> {
+    Some(match operation {
+        Formula::Argument(_) | Formula::Number(_) => return None,
         Formula::Add([a, b]) => of(a) + of(b),
         Formula::Sub([a, b]) => of(a) - of(b),
         Formula::Mul([a, b]) => of(a) * of(b),
@@ -150,23 +145,7 @@ pub fn checked(text: &RecExpr<Formula>, like: &Checked) -> Result<Checked, Strin
             named.insert(name, own.named(name, ""));
         }
     }
-    let mut steps: Vec<Expr> = Vec::new();
-    for (place, formula) in text.as_ref().iter().enumerate() {
-        let own = match formula {
-            Formula::Argument(name) => *named.get(name.as_str()).ok_or("an argument is unknown")?,
-            _ => {
-                let of = |id: &Id| steps[usize::from(*id)];
-                let own = step(formula, of, &builder).ok_or("it is no step")?;
-                // What is used twice has a name.
-                match formula {
-                    Formula::Number(_) => own,
-                    _ => own.named(&format!("t{place}"), ""),
-                }
-            }
-        };
-        steps.push(own);
-    }
-    let result = *steps.last().ok_or("it is empty")?;
+    let result = built(text, &builder, &named, "t")?;
     let result = if like.ty() == Ty::Vec3 {
         result.rgb()
     } else {
@@ -183,11 +162,11 @@ fn of_step<'b>(
     builder: &'b Builder,
     named: &HashMap<&str, Expr<'b>>,
 ) -> Result<Expr<'b>, String> {
-    let is_one = |node: &&Node| node.label.as_ref().is_some_and(|label| label.name == name);
+    let is_one = |node: &Node| node.label.as_ref().is_some_and(|label| label.name == name);
     let place = like
         .nodes
         .iter()
-        .position(|node| is_one(&node))
+        .position(is_one)
         .ok_or("there is no such step")?;
     let part = Function {
         result: place,
@@ -195,21 +174,28 @@ fn of_step<'b>(
     };
     let part = check_in(Precision::F32, part.compact()).map_err(|fault| fault.to_string())?;
     let text = expression(&part, &[])?;
+    built(&text, builder, named, name)
+}
+
+/// The value of an expression. Its steps are named by a prefix and their place, since what is used twice needs a name.
+fn built<'b>(
+    text: &RecExpr<Formula>,
+    builder: &'b Builder,
+    named: &HashMap<&str, Expr<'b>>,
+    prefix: &str,
+) -> Result<Expr<'b>, String> {
     let mut steps: Vec<Expr> = Vec::new();
-    for (i, formula) in text.as_ref().iter().enumerate() {
+    for (place, formula) in text.as_ref().iter().enumerate() {
         let own = match formula {
             Formula::Argument(word) => *named.get(word.as_str()).ok_or("an argument is unknown")?,
-            _ => {
+            Formula::Number(number) => builder.number(number.value()),
+            operation => {
                 let of = |id: &Id| steps[usize::from(*id)];
-                step(formula, of, builder).ok_or("it is no step")?
+                let own = computed(operation, of).ok_or("it is no operation")?;
+                own.named(&format!("{prefix}{place}"), "")
             }
         };
-        let is_leaf = matches!(formula, Formula::Number(_) | Formula::Argument(_));
-        steps.push(if is_leaf {
-            own
-        } else {
-            own.named(&format!("{name}{i}"), "")
-        });
+        steps.push(own);
     }
     steps.pop().ok_or_else(|| "it is empty".to_owned())
 }

@@ -78,7 +78,7 @@ pub struct Fact {
     pub is_colour: bool,
 }
 
-/// Which arguments are colours.
+/// Which arguments and named steps are colours.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     colours: BTreeSet<String>,
@@ -86,9 +86,12 @@ pub struct Known {
 
 impl Known {
     pub fn of(graph: &Checked) -> Known {
-        let colours = graph.params.iter().filter(|param| param.ty == Ty::Vec3);
+        let arguments = graph.params.iter().map(|param| (&param.name, param.ty));
+        let steps = graph.nodes.iter();
+        let steps = steps.filter_map(|node| Some((&node.label.as_ref()?.name, node.ty)));
+        let colours = arguments.chain(steps).filter(|(_, ty)| *ty == Ty::Vec3);
         Known {
-            colours: colours.map(|param| param.name.clone()).collect(),
+            colours: colours.map(|(name, _)| name.clone()).collect(),
         }
     }
 }

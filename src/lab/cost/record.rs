@@ -47,12 +47,19 @@ impl CostRecord {
         form: FunctionForm,
         precision: Precision,
     ) -> Option<CostFigures> {
+        let written = self.written(method, form, precision);
+        self.of(&FunctionId::library(written, form, precision))
+    }
+
+    /// A method as it is written for the family.
+    fn written(
+        &self,
+        method: &'static Method,
+        form: FunctionForm,
+        precision: Precision,
+    ) -> &'static Method {
         let of = |gpu| method.written_for(gpu, form.name(), precision);
-        self.of(&FunctionId::library(
-            self.gpu.map_or(method, of),
-            form,
-            precision,
-        ))
+        self.gpu.map_or(method, of)
     }
 
     /// The record of a function.
@@ -230,11 +237,10 @@ pub fn known_library_cost(
     if is_scalar && !method.has_scalar_form() {
         return None;
     }
-    let gpu = Gpu::find(family.name);
-    let method = gpu.map_or(method, |gpu| {
-        method.written_for(gpu, form.name(), precision)
-    });
-    let function = method.function_in(precision, is_scalar).ok()?;
+    let function = record
+        .written(method, form, precision)
+        .function_in(precision, is_scalar)
+        .ok()?;
     let recorded = || {
         let figures = record.of_library(method, form, precision)?;
         Some(KnownCost {
