@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::physics::num::each_channel;
+
 /// The distance of an orthographic camera, in heights of its picture. Rays at the upper and the lower edge are turned by 5e-7
 /// radians.
 const DISTANT: f64 = 1e6;
@@ -84,7 +86,7 @@ impl Camera {
 
     /// A world direction in camera axes.
     pub fn turned(&self, direction: DVec3) -> DVec3 {
-        DVec3::from_array(self.axes.map(|axis| axis.dot(direction)))
+        DVec3::from_array(each_channel(|i| self.axes[i].dot(direction)))
     }
 
     /// A direction in camera axes as a world direction.

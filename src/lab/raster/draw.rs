@@ -18,6 +18,7 @@ use glam::DVec3;
 
 use super::camera::Camera;
 use super::mesh::{Mesh, Vertex};
+use crate::physics::num::each_channel;
 
 /// Pixels by which the bounding box of a triangle is widened, for the rounding of its corners.
 const ROUNDING: f64 = 1e-6;
@@ -59,10 +60,14 @@ impl SurfacePoint {
 
 /// Draws a frame.
 pub fn draw(mesh: &Mesh, camera: &Camera) -> Frame {
-    let points = surface_points(mesh, camera).into_iter();
+    let drawn = Drawn::new(mesh, camera, &|_| false);
+    let covered = drawn.covered().map(|(place, name)| {
+        let seen = drawn.seen(place, name);
+        (place, seen.cos_theta)
+    });
     Frame {
         size: camera.lens.size,
-        covered: points.map(|point| (point.place, point.cos_theta)).collect(),
+        covered: covered.collect(),
     }
 }
 
@@ -77,104 +82,163 @@ pub fn surface_points_of(
     camera: &Camera,
     is_one_sided: &dyn Fn(u32) -> bool,
 ) -> Vec<SurfacePoint> {
-    let screen = Screen::new(camera);
-    let corners: Vec<Corner> = mesh
-        .vertices
-        .iter()
-        .map(|vertex| screen.corner(camera.relative(vertex.position)))
-        .collect();
-    let mut depth = DepthBuffer::new(screen.size);
-    for (name, triangle) in mesh.triangles.iter().enumerate() {
-        let triangle = triangle.map(|corner| corners[corner as usize]);
-        let name = name as u32;
-        depth.enter(&screen, name, triangle, is_one_sided(name));
-    }
-    let point = |(place, name): (usize, &u32)| {
-        let triangle = mesh.triangles[*name as usize];
-        let positions = triangle.map(|corner| corners[corner as usize].position);
-        let vertices = triangle.map(|corner| mesh.vertices[corner as usize]);
-        let ray = screen.ray(place);
-        let weights = weights(ray, positions);
-        let (normal, cos_theta) = seen_normal(ray, positions, weights, &vertices, camera);
+    let drawn = Drawn::new(mesh, camera, is_one_sided);
+    let point = |(place, triangle): (u32, u32)| {
+        let seen = drawn.seen(place, triangle);
         SurfacePoint {
-            place: place as u32,
-            triangle: *name,
-            cos_theta,
-            normal: camera.in_world(normal).normalize(),
-            to_camera: -camera.in_world(ray).normalize(),
-            weights,
+            place,
+            triangle,
+            cos_theta: seen.cos_theta,
+            normal: camera.in_world(seen.normal).normalize(),
+            to_camera: -camera.in_world(seen.ray).normalize(),
+            weights: seen.weights,
         }
     };
-    let names = depth.names.iter().enumerate();
-    let covered = names.filter(|(_, name)| **name != NONE);
-    covered.map(point).collect()
+    drawn.covered().map(point).collect()
+}
+
+/// A mesh in front of a camera, with the nearest triangle of every pixel.
+struct Drawn<'a> {
+    mesh: &'a Mesh,
+    camera: &'a Camera,
+    screen: Screen,
+    corners: Vec<Corner>,
+    depth: DepthBuffer,
+}
+
+/// The part of a triangle at a pixel, in camera axes. `normal` is on the visible side and has any length.
+struct Seen {
+    ray: DVec3,
+    weights: [f64; 3],
+    normal: DVec3,
+    cos_theta: f64,
+}
+
+impl Drawn<'_> {
+    fn new<'a>(
+        mesh: &'a Mesh,
+        camera: &'a Camera,
+        is_one_sided: &dyn Fn(u32) -> bool,
+    ) -> Drawn<'a> {
+        let screen = Screen::new(camera);
+        let vertices = mesh.vertices.iter();
+        let corners: Vec<Corner> = vertices
+            .map(|vertex| screen.corner(camera.relative(vertex.position)))
+            .collect();
+        let mut depth = DepthBuffer::new(screen.size);
+        for (name, triangle) in mesh.triangles.iter().enumerate() {
+            let name = name as u32;
+            let triangle = each_channel(|i| &corners[triangle[i] as usize]);
+            depth.enter(&screen, name, triangle, &|| is_one_sided(name));
+        }
+        Drawn {
+            mesh,
+            camera,
+            screen,
+            corners,
+            depth,
+        }
+    }
+
+    /// The covered pixels in scan order, and their triangles.
+    fn covered(&self) -> impl Iterator<Item = (u32, u32)> {
+        let names = self.depth.names.iter().enumerate();
+        names
+            .filter(|(_, name)| **name != NONE)
+            .map(|(place, name)| (place as u32, *name))
+    }
+
+    fn seen(&self, place: u32, triangle: u32) -> Seen {
+        let triangle = self.mesh.triangles[triangle as usize];
+        let positions = each_channel(|i| self.corners[triangle[i] as usize].position);
+        let vertices = each_channel(|i| &self.mesh.vertices[triangle[i] as usize]);
+        let ray = self.screen.ray(place as usize);
+        let weights = weights(ray, positions);
+        let (normal, cos_theta) = seen_normal(ray, positions, weights, vertices, self.camera);
+        Seen {
+            ray,
+            weights,
+            normal,
+            cos_theta,
+        }
+    }
 }
 
 /// The grid of pixels.
 struct Screen {
     size: [u32; 2],
     pixels_a_slope: f64,
+    /// The slopes of the rays through the centres of all columns, and of all rows.
+    slopes: [Vec<f64>; 2],
     /// The smallest and the largest visible 1/z.
     inverse_depths: [f64; 2],
 }
 
-/// A corner relative to the camera, and its position on the screen.
-#[derive(Clone, Copy)]
+/// A corner relative to the camera. On either axis, pixels whose centres lie behind it start at `from`, and those whose centres
+/// lie before it end at `to`.
 struct Corner {
     position: DVec3,
-    x: f64,
-    y: f64,
+    from: [u32; 2],
+    to: [u32; 2],
 }
 
 impl Screen {
     fn new(camera: &Camera) -> Screen {
+        let (size, pixels_a_slope) = (camera.lens.size, camera.pixels_a_slope());
+        let slopes = size.map(|pixels| {
+            let middle = f64::from(pixels) / 2.0;
+            let slope = |place| (f64::from(place) + 0.5 - middle) / pixels_a_slope;
+            (0..pixels).map(slope).collect()
+        });
         Screen {
-            size: camera.lens.size,
-            pixels_a_slope: camera.pixels_a_slope(),
+            size,
+            pixels_a_slope,
+            slopes,
             inverse_depths: [camera.far.recip(), camera.near.recip()],
         }
     }
 
     fn corner(&self, position: DVec3) -> Corner {
-        let [width, height] = self.size.map(f64::from);
-        let scale = self.pixels_a_slope / position.z;
-        Corner {
-            position,
-            x: width / 2.0 + scale * position.x,
-            y: height / 2.0 + scale * position.y,
+        let (mut from, mut to) = ([0; 2], self.size);
+        // A triangle that reaches behind the camera may cover any pixel.
+        if position.z > 0.0 {
+            let scale = self.pixels_a_slope / position.z;
+            for (axis, slope) in [position.x, position.y].into_iter().enumerate() {
+                let at = f64::from(self.size[axis]) / 2.0 + scale * slope;
+                from[axis] = rounded_up(at - 0.5 - ROUNDING);
+                to[axis] = to[axis].min(after(at - 0.5 + ROUNDING));
+            }
         }
-    }
-
-    /// The slope of the ray through a column's or a row's centre.
-    fn slope(&self, axis: usize, place: usize) -> f64 {
-        (place as f64 + 0.5 - f64::from(self.size[axis]) / 2.0) / self.pixels_a_slope
+        Corner { position, from, to }
     }
 
     fn ray(&self, place: usize) -> DVec3 {
         let width = self.size[0] as usize;
-        let (x, y) = (self.slope(0, place % width), self.slope(1, place / width));
+        let (x, y) = (self.slopes[0][place % width], self.slopes[1][place / width]);
         DVec3::new(x, y, 1.0)
     }
+}
 
-    /// The columns or rows whose centres lie between these positions.
-    fn centres(&self, axis: usize, places: [f64; 3]) -> std::ops::Range<usize> {
-        let [a, b, c] = places;
-        let first = (a.min(b).min(c) - 0.5 - ROUNDING).ceil();
-        let last = (a.max(b).max(c) - 0.5 + ROUNDING).floor();
-        // A conversion from float saturates at 0 and at the largest integer.
-        first as usize..((last + 1.0) as usize).min(self.size[axis] as usize)
-    }
+/// The least whole number from 0 that is not below `x`. `ceil` and `floor` are calls on x86-64, and conversions saturate.
+fn rounded_up(x: f64) -> u32 {
+    let whole = x as u32;
+    whole.saturating_add(u32::from(f64::from(whole) < x))
+}
 
-    /// The columns and rows of a triangle's bounding box. All of them where it reaches behind the camera.
-    fn range(&self, triangle: &[Corner; 3]) -> [std::ops::Range<usize>; 2] {
-        if triangle.iter().any(|corner| corner.position.z <= 0.0) {
-            return self.size.map(|pixels| 0..pixels as usize);
-        }
-        [
-            self.centres(0, triangle.map(|corner| corner.x)),
-            self.centres(1, triangle.map(|corner| corner.y)),
-        ]
+/// The least whole number from 0 that is above `x`.
+fn after(x: f64) -> u32 {
+    if x >= 0.0 {
+        (x as u32).saturating_add(1)
+    } else {
+        0
     }
+}
+
+/// The columns or rows of a triangle's bounding box.
+fn range([a, b, c]: [&Corner; 3], axis: usize) -> std::ops::Range<usize> {
+    let from = a.from[axis].min(b.from[axis]).min(c.from[axis]);
+    let to = a.to[axis].max(b.to[axis]).max(c.to[axis]);
+    from as usize..to as usize
 }
 
 /// The nearest triangle so far at every pixel, and 1/z there.
@@ -192,27 +256,33 @@ impl DepthBuffer {
         }
     }
 
-    fn enter(&mut self, screen: &Screen, name: u32, triangle: [Corner; 3], is_one_sided: bool) {
-        let [columns, rows] = screen.range(&triangle);
+    fn enter(
+        &mut self,
+        screen: &Screen,
+        name: u32,
+        triangle: [&Corner; 3],
+        is_one_sided: &dyn Fn() -> bool,
+    ) {
+        let (columns, rows) = (range(triangle, 0), range(triangle, 1));
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        let positions = triangle.map(|corner| corner.position);
+        let positions = each_channel(|i| triangle[i].position);
         let det = positions[0].dot(positions[1].cross(positions[2]));
-        let is_hidden = is_one_sided && det > 0.0;
-        if det == 0.0 || !det.is_finite() || is_hidden {
+        if det == 0.0 || !det.is_finite() || det > 0.0 && is_one_sided() {
             return;
         }
         let [farthest, nearest] = screen.inverse_depths;
-        let edges = edges(positions).map(|edge| edge * det.signum());
+        let planes = edges(positions);
+        let edges = each_channel(|i| planes[i] * det.signum());
         let (least, most) = depths(positions);
         let width = screen.size[0] as usize;
         for row in rows {
-            let y = screen.slope(1, row);
-            let along = edges.map(|edge| edge.y * y + edge.z);
+            let y = screen.slopes[1][row];
+            let along = each_channel(|i| edges[i].y * y + edges[i].z);
             for column in columns.clone() {
-                let x = screen.slope(0, column);
-                let e = [0, 1, 2].map(|i| edges[i].x * x + along[i]);
+                let x = screen.slopes[0][column];
+                let e = each_channel(|i| edges[i].x * x + along[i]);
                 if e[0] < 0.0 || e[1] < 0.0 || e[2] < 0.0 {
                     continue;
                 }
@@ -235,19 +305,19 @@ fn edges([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
 
 /// The smallest and the largest 1/z of a triangle, to clamp to: seen edge-on, a triangle has an inexact determinant.
 fn depths(positions: [DVec3; 3]) -> (f64, f64) {
-    let depths = positions.map(|position| position.z.recip());
-    if depths.iter().any(|depth| *depth <= 0.0) {
+    let [a, b, c] = each_channel(|i| positions[i].z.recip());
+    if a <= 0.0 || b <= 0.0 || c <= 0.0 {
         return (0.0, f64::MAX);
     }
-    let [a, b, c] = depths;
     (a.min(b).min(c), a.max(b).max(c))
 }
 
 /// The barycentric coordinates of the point where a ray meets a triangle.
 fn weights(ray: DVec3, positions: [DVec3; 3]) -> [f64; 3] {
-    let weights = edges(positions).map(|edge| edge.dot(ray));
+    let edges = edges(positions);
+    let weights = each_channel(|i| edges[i].dot(ray));
     let whole = weights[0] + weights[1] + weights[2];
-    weights.map(|weight| weight / whole)
+    each_channel(|i| weights[i] / whole)
 }
 
 /// The normal on the visible side, in camera axes, and the cosine between it and the direction to the camera.
@@ -255,7 +325,7 @@ fn seen_normal(
     ray: DVec3,
     positions: [DVec3; 3],
     weights: [f64; 3],
-    vertices: &[Vertex; 3],
+    vertices: [&Vertex; 3],
     camera: &Camera,
 ) -> (DVec3, f64) {
     let normal = |i: usize| weights[i] * vertices[i].normal;
