@@ -78,9 +78,10 @@ fn class(class: MaterialClass) -> Vec<&'static MaterialInMedium> {
 /// The largest errors of a method's library function over the materials of a class.
 fn errors(of: MaterialClass, name: &str, inputs: InputChoice) -> Vec<f64> {
     let method = methods::find(name).expect("it is a method");
+    let function = method.function(false).expect("it builds");
     let error = |subject: &&MaterialInMedium| {
         let curve = FitCurve::new(|c| subject.reference.at(c));
-        let errors = MethodErrors::new(method, inputs, subject, &curve, Space::Srgb);
+        let errors = MethodErrors::new((method, &function), inputs, subject, &curve, Space::Srgb);
         errors.max_abs.expect("it is no texture")
     };
     class(of).iter().map(error).collect()

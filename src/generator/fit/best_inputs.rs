@@ -24,7 +24,7 @@ const STEP: f64 = 1e-5;
 const GAIN: f64 = 1e-6;
 
 struct InputSearch<'a> {
-    function: Checked,
+    function: &'a Checked,
     inputs: &'static [Input],
     curve: &'a FitCurve,
 }
@@ -41,13 +41,17 @@ fn channels(channel: Option<usize>) -> Range<usize> {
     channel.map_or(0..3, |channel| channel..channel + 1)
 }
 
-/// The inputs near the intended ones that minimise the largest error. None for a method that reads a texture.
-pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Option<Values> {
+/// The inputs near the intended ones that minimise the largest error of a library function. None for a method that reads a texture.
+pub fn best_inputs(
+    (method, function): (&Method, &Checked),
+    intended: &Values,
+    curve: &FitCurve,
+) -> Option<Values> {
     if method.is_textured() {
         return None;
     }
     let rival = InputSearch {
-        function: method.function(false).ok()?,
+        function,
         inputs: method.inputs,
         curve,
     };
@@ -140,7 +144,7 @@ impl InputSearch<'_> {
 
     /// The error against the curve at each point: of one channel, or of all, point by point.
     fn missed(&self, values: &Values, channel: Option<usize>) -> Vec<f64> {
-        let given = values_at(&self.function, self.inputs, values, &self.curve.cosines);
+        let given = values_at(self.function, self.inputs, values, &self.curve.cosines);
         let mut missed = Vec::new();
         for (point, seen) in self.curve.seen.iter().enumerate() {
             let given = given.at(point);
@@ -234,6 +238,7 @@ mod tests {
     /// A method with its intended inputs and its best ones.
     struct Case {
         method: &'static Method,
+        function: Checked,
         curve: FitCurve,
         intended: Values,
         best: Values,
@@ -244,9 +249,11 @@ mod tests {
             let law = |c| [0, 1, 2].map(|i| optics::conductor(n[i], k[i], c).unpolarised());
             let curve = FitCurve::new(law);
             let intended = values(method, &Channels { n: *n, k: *k }, &Derivation::default());
-            let best = best_inputs(method, &intended, &curve).expect("it has inputs");
+            let function = method.function(false).expect("it builds");
+            let best = best_inputs((method, &function), &intended, &curve).expect("it has inputs");
             Case {
                 method,
+                function,
                 curve,
                 intended,
                 best,
@@ -259,7 +266,7 @@ mod tests {
 
         fn search(&self) -> InputSearch<'_> {
             InputSearch {
-                function: self.method.function(false).expect("it builds"),
+                function: &self.function,
                 inputs: self.method.inputs,
                 curve: &self.curve,
             }

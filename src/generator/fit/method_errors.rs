@@ -35,10 +35,10 @@ pub enum InputChoice {
 const BUILT: &str = "a test builds every method";
 
 impl MethodErrors {
-    /// The errors of a method's library function. Angles at which it gives no number are left out. `curve` is the reference
-    /// reflectance of the material.
+    /// The errors of a method's library function, which is given too. Angles at which it gives no number are left out. `curve` is
+    /// the reference reflectance of the material.
     pub fn new(
-        method: &Method,
+        (method, function): (&Method, &Checked),
         inputs: InputChoice,
         subject: &MaterialInMedium,
         curve: &FitCurve,
@@ -48,12 +48,11 @@ impl MethodErrors {
         if method.is_textured() {
             return MethodErrors::of_texture(method, &values, subject);
         }
-        let best = || best_inputs(method, &values, curve);
+        let best = || best_inputs((method, function), &values, curve);
         let best = (inputs == InputChoice::Best).then(best).flatten();
         let values = best.unwrap_or(values);
-        let function: Checked = method.function(false).expect(BUILT);
         let run = |cosines: &[f64]| -> Value<f64> {
-            values_at(&function, method.inputs, &values, cosines)
+            values_at(function, method.inputs, &values, cosines)
         };
         let error = error_of(&subject.reference, &run);
         let perceived = perceived(&subject.reference, space, &run);

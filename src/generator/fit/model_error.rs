@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
+use crate::generator::reference::{ANGLES, COSINES, ReferenceCurve};
 use crate::language::ir::{Checked, Column, Function, Texels, Ty, Value, evaluate};
 use crate::language::methods::{TEXELS, WARP, unwarped};
 use crate::physics::num::{Half, Num, each_channel};
@@ -77,14 +77,14 @@ pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelErro
 
 /// The model error of three channels that `values` gives at some cosines.
 pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
-    let (at, want) = (cosines(ANGLES), reference.table());
-    let given = values(&at);
-    let mut error = difference(&given, &want, &at);
+    let (at, want) = (&COSINES[..], reference.table());
+    let given = values(at);
+    let mut error = difference(&given, &want, at);
     let first = (error.max_abs, error.worst_cos);
     let wide = libm::acos(first.1).max(1e-3) / 8.0;
     error.keep_larger(refined(first, wide, reference, values));
-    if is_totally_reflecting(&at, &want) {
-        for start in worst_of_channels(&given, &want, &at) {
+    if is_totally_reflecting(at, &want) {
+        for start in worst_of_channels(&given, &want, at) {
             error.keep_larger(refined(start, 2.0 * BETWEEN, reference, values));
         }
     }
@@ -144,9 +144,9 @@ pub fn error_from(
     seen: impl Fn(f64) -> [f64; 3],
     values: &dyn Fn(&[f64]) -> Value<f64>,
 ) -> ModelError {
-    let at = cosines(ANGLES);
+    let at = &COSINES[..];
     let want: Vec<[f64; 3]> = at.iter().map(|c| seen(*c)).collect();
-    difference(&values(&at), &want, &at)
+    difference(&values(at), &want, at)
 }
 
 /// The error of values at these cosines against the exact law. Means are over the first [`ANGLES`], or over all where there are

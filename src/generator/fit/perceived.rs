@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
+use crate::generator::reference::{ANGLES, COSINES, ReferenceCurve};
 use crate::language::ir::Value;
 use crate::physics::spectra::{Lab, Space, ciede2000, xyz_to_lab};
 
@@ -26,11 +26,8 @@ pub fn perceived(
     space: Space,
     values: &dyn Fn(&[f64]) -> Value<f64>,
 ) -> Perceived {
-    let at: Vec<f64> = cosines(ANGLES)[..ANGLES]
-        .iter()
-        .copied()
-        .step_by(EVERY)
-        .collect();
+    let at = COSINES[..ANGLES].iter().copied().step_by(EVERY);
+    let at: Vec<f64> = at.collect();
     let table = reference.table();
     let wanted = table[..ANGLES].iter().step_by(EVERY);
     let given = values(&at);

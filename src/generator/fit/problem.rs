@@ -10,9 +10,8 @@ use super::exact::{Exact, fit_meeting, rounded_coefficients};
 use super::minimax::{Limit, Points, weighted_sum};
 use super::rounded::rounded;
 use super::weight::{Weight, luminance, shares};
-use crate::generator::reference::{MaterialInMedium, reference_reflectance};
-use crate::language::methods::{Input, Light, Method, Shape, Values, unwarped};
-use crate::physics::materials::Surface;
+use crate::generator::reference::{MaterialInMedium, ReferenceCurve};
+use crate::language::methods::{Input, Method, Shape, Values, unwarped};
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::{Gamut, Space};
 
@@ -91,20 +90,25 @@ impl FitCurve {
 
     /// The curve of a material in unpolarised light, in its gamut.
     pub fn of(subject: &MaterialInMedium) -> FitCurve {
-        FitCurve::of_surface(&subject.reference.surface)
+        FitCurve::of_reference(&subject.reference, subject.reference.surface.gamut)
     }
 
     /// The same before colours are clipped: a clipped curve has a corner, and a function that ends with a clamp clips by itself.
     pub fn unclipped(subject: &MaterialInMedium) -> FitCurve {
-        let mut surface = subject.reference.surface.clone();
-        if surface.gamut == Gamut::Clip {
-            surface.gamut = Gamut::Keep;
-        }
-        FitCurve::of_surface(&surface)
+        let gamut = match subject.reference.surface.gamut {
+            Gamut::Clip => Gamut::Keep,
+            other => other,
+        };
+        FitCurve::of_reference(&subject.reference, gamut)
     }
 
-    fn of_surface(surface: &Surface) -> FitCurve {
-        FitCurve::new(|c| reference_reflectance(surface, Light::Unpolarised, c))
+    fn of_reference(reference: &ReferenceCurve, gamut: Gamut) -> FitCurve {
+        let cosines = cosines();
+        let seen = reference.unclipped_at_fitted(&cosines).iter();
+        FitCurve {
+            seen: seen.map(|colour| gamut.apply(*colour).to_array()).collect(),
+            cosines,
+        }
     }
 }
 

@@ -10,4 +10,6 @@ pub use material_in_medium::{
     Derivation, FITTED_IN_ENGINES, LEAST_FITTED_N, MaterialClass, MaterialInMedium,
     THESIS_MATCHING_COS, Typed,
 };
-pub use reference_curve::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};
+pub use reference_curve::{
+    ANGLES, COSINES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
+};

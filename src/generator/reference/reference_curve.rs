@@ -1,7 +1,7 @@
 //! The reference reflectance: the exact law of a surface, in light of one polarisation. Errors of methods are measured
 //! against it.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::DVec3;
 
@@ -14,6 +14,9 @@ use crate::physics::spectra::Gamut;
 pub const ANGLES: usize = 2048;
 /// Additional cosines close to grazing: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
 const GRAZING: usize = 120;
+/// [`cosines`] of [`ANGLES`].
+pub static COSINES: LazyLock<Vec<f64>> = LazyLock::new(|| cosines(ANGLES));
+
 /// The reference of methods: a surface under viewing conditions, in light of one polarisation.
 #[derive(Clone, Debug)]
 pub struct ReferenceCurve {
@@ -24,6 +27,8 @@ pub struct ReferenceCurve {
     /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut. It is expensive, so it is computed once, at the first use,
     /// for all clones.
     unclipped: Arc<OnceLock<Vec<DVec3>>>,
+    /// The same at the cosines at which forms are fitted.
+    fitted: Arc<OnceLock<Vec<DVec3>>>,
 }
 
 impl ReferenceCurve {
@@ -33,16 +38,24 @@ impl ReferenceCurve {
             surface,
             light,
             unclipped: Arc::default(),
+            fitted: Arc::default(),
         }
     }
 
     fn unclipped(&self) -> &[DVec3] {
-        self.unclipped.get_or_init(|| {
-            let cosines = cosines(ANGLES).into_iter();
-            cosines
-                .map(|cos_theta| reflected(&self.surface, self.light, cos_theta))
-                .collect()
-        })
+        self.unclipped.get_or_init(|| self.reflected_at(&COSINES))
+    }
+
+    fn reflected_at(&self, cosines: &[f64]) -> Vec<DVec3> {
+        let cosines = cosines.iter();
+        cosines
+            .map(|cos_theta| reflected(&self.surface, self.light, *cos_theta))
+            .collect()
+    }
+
+    /// Its reflectance before the gamut at the cosines at which forms are fitted, which are always the same.
+    pub fn unclipped_at_fitted(&self, cosines: &[f64]) -> &[DVec3] {
+        self.fitted.get_or_init(|| self.reflected_at(cosines))
     }
 
     /// The same reference without a gamut: colours outside the working space stay as they are.

@@ -11,7 +11,8 @@ use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::lab::overdraw::library_times;
-use crate::language::methods::{ALL, Light};
+use crate::language::ir::Checked;
+use crate::language::methods::{ALL, Light, Method};
 use crate::physics::num::in_parallel;
 use crate::physics::spectra::Space;
 
@@ -46,17 +47,42 @@ pub fn chart_data(
     }
 }
 
+/// The data of these methods alone, with their intended inputs.
+pub fn intended_data(
+    methods: impl Iterator<Item = &'static Method>,
+    materials: &[MaterialInMedium],
+    space: Space,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> ChartData {
+    let entries: Vec<ChartEntry> = methods.map(intended).collect();
+    let errors = errors(&entries, materials, space, progress);
+    ChartData {
+        costs: axes(&entries),
+        sets: sets(materials, &errors),
+        entries,
+        command: String::new(),
+    }
+}
+
+/// A method with its intended inputs.
+fn intended(method: &'static Method) -> ChartEntry {
+    ChartEntry {
+        function: FunctionOrigin::Method(method),
+        is_best: false,
+        fetches: library(method).fetches(),
+    }
+}
+
+fn library(method: &Method) -> Checked {
+    method.function(false).expect("a test builds every method")
+}
+
 /// Every method for unpolarised light, and a second entry with its best inputs where its inputs can be chosen.
 fn entries() -> Vec<ChartEntry> {
     let mut entries = Vec::new();
     let unpolarised = ALL.iter().copied();
     for method in unpolarised.filter(|method| method.light == Light::Unpolarised) {
-        let library = method.function(false).expect("a test builds every method");
-        let own = ChartEntry {
-            function: FunctionOrigin::Method(method),
-            is_best: false,
-            fetches: library.fetches(),
-        };
+        let own = intended(method);
         entries.push(own.clone());
         if !method.is_fitted() && !method.is_textured() && !method.keeps_inputs() {
             entries.push(ChartEntry {
@@ -75,7 +101,9 @@ fn errors(
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Vec<Vec<MethodErrors>> {
-    let one = |i: usize| entry_errors(entries, &materials[i], space);
+    let function = |entry: &ChartEntry| entry.method().map(library);
+    let functions: Vec<Option<Checked>> = entries.iter().map(function).collect();
+    let one = |i: usize| entry_errors(entries, &functions, &materials[i], space);
     in_parallel(materials.len(), &one, &mut |done, whole| {
         progress(done, whole, "materials");
     })
@@ -84,22 +112,24 @@ fn errors(
 /// The errors of all entries for a material. Unknown for methods that do not describe it.
 fn entry_errors(
     entries: &[ChartEntry],
+    functions: &[Option<Checked>],
     material: &MaterialInMedium,
     space: Space,
 ) -> Vec<MethodErrors> {
-    let curve = FitCurve::new(|c| material.reference.at(c));
-    let one = |entry: &ChartEntry| match entry.method() {
-        Some(method) if material.is_described_by(method) => {
+    let curve = FitCurve::of(material);
+    let one = |(entry, function): (&ChartEntry, &Option<Checked>)| match (entry.method(), function)
+    {
+        (Some(method), Some(function)) if material.is_described_by(method) => {
             let inputs = if entry.is_best {
                 InputChoice::Best
             } else {
                 InputChoice::Intended
             };
-            MethodErrors::new(method, inputs, material, &curve, space)
+            MethodErrors::new((method, function), inputs, material, &curve, space)
         }
         _ => MethodErrors::default(),
     };
-    entries.iter().map(one).collect()
+    entries.iter().zip(functions).map(one).collect()
 }
 
 /// An axis for each family with recorded costs, and one of times.

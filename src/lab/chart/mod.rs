@@ -7,7 +7,7 @@ mod sets;
 mod view;
 
 pub use audited::charted_function;
-pub use data::{chart_data, cost_names};
+pub use data::{chart_data, cost_names, intended_data};
 pub use sets::{STATISTICS, set_name};
 pub use view::{
     ChartData, ChartEntry, ChartPoint, ChartView, CostAxis, ERRORS, ErrorAxis, FunctionOrigin,

@@ -112,9 +112,9 @@ pub fn method_numbers(data: &ChartData) -> Vec<MethodNumbers> {
     shown_methods().map(numbers).collect()
 }
 
-/// The index of a method with its intended inputs in the chart's data.
+/// The index of a method in the chart's data.
 fn entry(data: &ChartData, method: &Method) -> Option<usize> {
-    let is_own = |entry: &ChartEntry| !entry.is_best && entry.name() == method.name;
+    let is_own = |entry: &ChartEntry| entry.name() == method.name;
     data.entries.iter().position(is_own)
 }
 

@@ -19,7 +19,7 @@ use tera::Context;
 
 use crate::generator::emit;
 use crate::generator::reference::MaterialInMedium;
-use crate::lab::chart::{ERRORS, chart_data};
+use crate::lab::chart::{ERRORS, intended_data};
 use crate::physics::spectra::Space;
 use crate::pictures::html;
 use crate::pictures::scene::{
@@ -92,7 +92,7 @@ pub fn gallery(
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Gallery, LoweringFault> {
-    let data = chart_data(subjects, space, None, String::new(), progress);
+    let data = intended_data(materials::shown_methods(), subjects, space, progress);
     let (mut orbits, mut played) = (Vec::new(), Vec::new());
     let mut textures = BTreeMap::from([(SKY.to_owned(), packed::sky_texture())]);
     let mut meshes = BTreeMap::new();

@@ -136,6 +136,38 @@ const SEEDS: [([f64; 2], [DVec3; 2]); 11] = [
     ([0.97, 0.0], [AZURE, AZURE]),
 ];
 
+/// A seed of a part or of a part beside it.
+struct Seed {
+    place: DVec2,
+    /// Its index in [`SEEDS`], and by how many parts it is shifted.
+    kind: usize,
+    shift: i64,
+    /// Twice the distances to all seeds.
+    apart: Vec<f64>,
+}
+
+/// The seeds of a part and of both parts beside it.
+static ALL_SEEDS: LazyLock<Vec<Seed>> = LazyLock::new(|| {
+    let mut seeds = Vec::new();
+    for shift in -1..=1 {
+        for (kind, ([far, angle], _)) in SEEDS.into_iter().enumerate() {
+            let turned = f64::to_radians(angle + f64::from(shift) * 360.0 / PARTS);
+            seeds.push(Seed {
+                place: far * DVec2::from_angle(turned),
+                kind,
+                shift: i64::from(shift),
+                apart: Vec::new(),
+            });
+        }
+    }
+    let places: Vec<DVec2> = seeds.iter().map(|seed| seed.place).collect();
+    for seed in &mut seeds {
+        let apart = places.iter().map(|other| 2.0 * other.distance(seed.place));
+        seed.apart = apart.collect();
+    }
+    seeds
+});
+
 /// The piece at a place of the wall.
 struct Piece {
     colour: DVec3,
@@ -295,30 +327,25 @@ fn medallion(from: DVec2, size: f64, petals: f64, id: [i64; 2], colours: [DVec3;
 
 /// The mosaic's piece with the nearest seed. Its lead runs where two seeds are equally near.
 fn mosaic(local: DVec2, part: i64) -> Piece {
-    let mut seeds = Vec::with_capacity(3 * SEEDS.len());
-    for shift in -1..=1 {
-        for (i, ([far, angle], _)) in SEEDS.into_iter().enumerate() {
-            let turned = f64::to_radians(angle + f64::from(shift) * 360.0 / PARTS);
-            let seed = far * DVec2::from_angle(turned);
-            seeds.push((seed, i, i64::from(shift)));
+    let seeds = &*ALL_SEEDS;
+    let square = |seed: &Seed| local.distance_squared(seed.place);
+    let (mut seed, mut least) = (&seeds[0], f64::INFINITY);
+    for other in seeds {
+        let square = square(other);
+        if square < least {
+            (seed, least) = (other, square);
         }
     }
-    let square = |seed: &DVec2| local.distance_squared(*seed);
-    let nearest = seeds
-        .iter()
-        .min_by(|a, b| square(&a.0).total_cmp(&square(&b.0)));
-    let &(seed, kind, shift) = nearest.expect("there are seeds");
     let mut to_lead = f64::INFINITY;
-    for (other, ..) in &seeds {
-        let apart = other.distance(seed);
-        if apart > 1e-9 {
-            to_lead = to_lead.min((square(other) - square(&seed)) / (2.0 * apart));
+    for (other, apart) in seeds.iter().zip(&seed.apart) {
+        if *apart > 2e-9 {
+            to_lead = to_lead.min((square(other) - least) / apart);
         }
     }
-    let part = (part + shift).rem_euclid(PARTS as i64);
+    let part = (part + seed.shift).rem_euclid(PARTS as i64);
     Piece {
-        colour: SEEDS[kind].1[(part % 2) as usize],
-        number: [kind as i64, part],
+        colour: SEEDS[seed.kind].1[(part % 2) as usize],
+        number: [seed.kind as i64, part],
         to_lead,
         half_lead: LEAD,
     }
