@@ -23,16 +23,26 @@ impl Texels {
         [width, height]: [usize; 2],
         texel: impl Fn(usize, usize) -> DVec4 + Sync,
     ) -> Texels {
-        let row = |row: usize| -> Vec<[f32; 4]> {
-            let at = |column| texel(column, row).to_array();
-            let rounded = |value| f16::from_f64(value).to_f32();
-            (0..width).map(|column| at(column).map(rounded)).collect()
+        let [table] = Texels::baked_together([width, height], |column, row| [texel(column, row)]);
+        table
+    }
+
+    /// Several tables of one size, whose texels at a column and row are computed together.
+    pub fn baked_together<const N: usize>(
+        [width, height]: [usize; 2],
+        texels: impl Fn(usize, usize) -> [DVec4; N] + Sync,
+    ) -> [Texels; N] {
+        let rounded = |texel: DVec4| texel.to_array().map(|value| f16::from_f64(value).to_f32());
+        let row = |row: usize| -> Vec<[[f32; 4]; N]> {
+            let at = |column| texels(column, row).map(rounded);
+            (0..width).map(at).collect()
         };
-        Texels {
+        let rows = in_parallel(height, &row, &mut |_, _| {});
+        std::array::from_fn(|i| Texels {
             width,
             height,
-            texels: in_parallel(height, &row, &mut |_, _| {}).concat(),
-        }
+            texels: rows.iter().flatten().map(|texels| texels[i]).collect(),
+        })
     }
 
     /// Its width and height.

@@ -45,15 +45,14 @@ pub static WINDOW: LazyLock<Window> = LazyLock::new(|| {
         let share = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) / SIDE as f64;
         DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) * HALF - CENTRE
     };
-    let normal = |column, row| {
-        let slope = slope(place(column, row));
+    let [paint, normals] = Texels::baked_together([SIDE; 2], |column, row| {
+        let place = place(column, row);
+        let piece = (place.length() <= ROSE).then(|| piece(place));
+        let slope = slope(place, piece.as_ref());
         let normal = DVec3::new(-slope.x, slope.y, 1.0).normalize();
-        normal.extend(1.0)
-    };
-    Window {
-        paint: Texels::baked([SIDE; 2], |column, row| paint(place(column, row))),
-        normals: Texels::baked([SIDE; 2], normal),
-    }
+        [paint(place, piece.as_ref()), normal.extend(1.0)]
+    });
+    Window { paint, normals }
 });
 
 /// The picture shows a ball of this radius around the origin.
@@ -178,13 +177,11 @@ struct Piece {
     half_lead: f64,
 }
 
-/// The colour at a place. Alpha is 1 for glass, 0 for lead and stone.
-fn paint(place: DVec2) -> DVec4 {
-    let radius = place.length();
-    if radius > ROSE {
+/// The colour at a place, of which the piece is known where it lies in the rose. Alpha is 1 for glass, 0 for lead and stone.
+fn paint(place: DVec2, piece: Option<&Piece>) -> DVec4 {
+    let Some(piece) = piece else {
         return stone(place).extend(0.0);
-    }
-    let piece = piece(place);
+    };
     if piece.to_lead < piece.half_lead {
         let worn = 0.8 + 0.4 * smooth_noise(90.0 * place);
         return (DVec3::new(0.16, 0.17, 0.19) * worn).extend(0.0);
@@ -200,14 +197,13 @@ fn paint(place: DVec2) -> DVec4 {
 }
 
 /// The slope at a place, to the right and up: rounded leads, bumps of glass.
-fn slope(place: DVec2) -> DVec2 {
-    let radius = place.length();
-    if radius > ROSE {
+fn slope(place: DVec2, here: Option<&Piece>) -> DVec2 {
+    let Some(here) = here else {
+        let radius = place.length();
         let rim = ((radius - ROSE) / RIM).min(1.0);
         let rounded = 1.6 * (2.0 * rim - 1.0) * f64::from(u8::from(rim < 1.0));
         return -rounded * place / radius + 0.25 * grain(place);
-    }
-    let here = piece(place);
+    };
     if here.to_lead < here.half_lead {
         let step = 1e-4;
         let away = DVec2::new(
@@ -255,10 +251,12 @@ fn stone(place: DVec2) -> DVec3 {
     let to_joint = (turn - turn.round()).abs() * std::f64::consts::TAU * radius / blocks;
     let is_joint = radius > ROSE + RIM && to_joint < 0.004;
     let mottled = 0.75 + 0.3 * smooth_noise(24.0 * place) + 0.2 * smooth_noise(110.0 * place);
+    // No medallion reaches as far as these panes.
     let mut panes = DVec3::ZERO;
     for turned in [-0.06, 0.0, 0.06] {
         let beside = DVec2::from_angle(turned).rotate(place / radius);
-        panes += piece((ROSE - 0.06) * beside).colour / 3.0;
+        let (local, number) = in_part((ROSE - 0.06) * beside);
+        panes += nearest_seed(local).0.colour(number) / 3.0;
     }
     let light = DVec3::splat(1.5 * lit * lit) + 5.0 * libm::exp(-(radius - ROSE) / 0.045) * panes;
     let colour = DVec3::new(0.8, 0.74, 0.66) * mottled * light;
@@ -272,10 +270,7 @@ fn piece(place: DVec2) -> Piece {
     if radius < MIDDLE {
         return medallion(place, MIDDLE, 8.0, [0, 0], [GOLD, RUBY]).with(rim);
     }
-    let width = std::f64::consts::TAU / PARTS;
-    let part = (place.to_angle() / width).round();
-    let local = DVec2::from_angle(-part * width).rotate(place);
-    let number = (part as i64).rem_euclid(PARTS as i64);
+    let (local, number) = in_part(place);
     let colours = [[EMERALD, GOLD], [RUBY, PEARL]];
     let mut outside = [radius - MIDDLE, THICK_LEAD];
     for (i, [far, size]) in MEDALLIONS.into_iter().enumerate() {
@@ -287,6 +282,14 @@ fn piece(place: DVec2) -> Piece {
         outside[0] = f64::min(outside[0], from.length() - size);
     }
     mosaic(local, number).with(outside).with(rim)
+}
+
+/// A place turned into the first part, and the number of its own part.
+fn in_part(place: DVec2) -> (DVec2, i64) {
+    let width = std::f64::consts::TAU / PARTS;
+    let part = (place.to_angle() / width).round();
+    let local = DVec2::from_angle(-part * width).rotate(place);
+    (local, (part as i64).rem_euclid(PARTS as i64))
 }
 
 impl Piece {
@@ -327,27 +330,44 @@ fn medallion(from: DVec2, size: f64, petals: f64, id: [i64; 2], colours: [DVec3;
 
 /// The mosaic's piece with the nearest seed. Its lead runs where two seeds are equally near.
 fn mosaic(local: DVec2, part: i64) -> Piece {
-    let seeds = &*ALL_SEEDS;
-    let square = |seed: &Seed| local.distance_squared(seed.place);
-    let (mut seed, mut least) = (&seeds[0], f64::INFINITY);
-    for other in seeds {
-        let square = square(other);
-        if square < least {
-            (seed, least) = (other, square);
-        }
-    }
+    let (seed, least) = nearest_seed(local);
     let mut to_lead = f64::INFINITY;
-    for (other, apart) in seeds.iter().zip(&seed.apart) {
+    for (other, apart) in ALL_SEEDS.iter().zip(&seed.apart) {
         if *apart > 2e-9 {
-            to_lead = to_lead.min((square(other) - least) / apart);
+            let square = local.distance_squared(other.place);
+            to_lead = to_lead.min((square - least) / apart);
         }
     }
-    let part = (part + seed.shift).rem_euclid(PARTS as i64);
     Piece {
-        colour: SEEDS[seed.kind].1[(part % 2) as usize],
-        number: [seed.kind as i64, part],
+        colour: seed.colour(part),
+        number: [seed.kind as i64, seed.part(part)],
         to_lead,
         half_lead: LEAD,
+    }
+}
+
+/// The seed nearest to a place of the first part, and the square of its distance.
+fn nearest_seed(local: DVec2) -> (&'static Seed, f64) {
+    let seeds = &*ALL_SEEDS;
+    let (mut nearest, mut least) = (&seeds[0], f64::INFINITY);
+    for seed in seeds {
+        let square = local.distance_squared(seed.place);
+        if square < least {
+            (nearest, least) = (seed, square);
+        }
+    }
+    (nearest, least)
+}
+
+impl Seed {
+    /// The number of its part, seen from this one.
+    fn part(&self, part: i64) -> i64 {
+        (part + self.shift).rem_euclid(PARTS as i64)
+    }
+
+    /// Its colour, seen from this part.
+    fn colour(&self, part: i64) -> DVec3 {
+        SEEDS[self.kind].1[(self.part(part) % 2) as usize]
     }
 }
 

@@ -210,9 +210,9 @@ fn on_post([x, z, top]: [f64; 3], origin: DVec3, direction: DVec3) -> Option<(f6
     let under = b * b - a * (from.length_squared() - POST_RADIUS * POST_RADIUS);
     let distance = (-b - under.max(0.0).sqrt()) / a;
     let y = origin.y + distance * direction.y;
-    let at = DVec2::new(around(from + distance * along), painted(y));
+    let at = || DVec2::new(around(from + distance * along), painted(y));
     let is_post = under > 0.0 && distance > 0.0 && (BASIN_MIN.y..top).contains(&y);
-    is_post.then_some((distance, (Part::Post, at)))
+    is_post.then(|| (distance, (Part::Post, at())))
 }
 
 fn on_ball(origin: DVec3, direction: DVec3) -> Option<(f64, PlaceOn)> {
@@ -220,10 +220,13 @@ fn on_ball(origin: DVec3, direction: DVec3) -> Option<(f64, PlaceOn)> {
     let b = from.dot(direction);
     let under = b * b - from.length_squared() + BALL_RADIUS * BALL_RADIUS;
     let distance = -b - under.max(0.0).sqrt();
+    if under <= 0.0 || distance <= 0.0 {
+        return None;
+    }
     let normal = (from + distance * direction) / BALL_RADIUS;
     let latitude = libm::acos(normal.y.clamp(-1.0, 1.0)) / std::f64::consts::PI;
     let at = DVec2::new(around(DVec2::new(normal.x, normal.z)), latitude);
-    (under > 0.0 && distance > 0.0).then_some((distance, (Part::Ball, at)))
+    Some((distance, (Part::Ball, at)))
 }
 
 /// The share of a turn from -z through +x.
