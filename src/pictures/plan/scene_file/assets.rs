@@ -1,5 +1,7 @@
 //! A scene file together with the files that it names: triangles in their places, and light.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use toml::Spanned;
 
@@ -22,7 +24,7 @@ impl SceneFile {
     pub fn read(&self, read: ReadFile) -> Result<DrawnScene, FileFault> {
         let light = self.light(read)?;
         let mut scene = DrawnScene::new(self.materials.len(), light);
-        let mut planes = Vec::new();
+        let (mut planes, mut meshes) = (Vec::new(), BTreeMap::new());
         for object in &self.objects {
             let mesh = match object.shape.get_ref() {
                 Shape::Plane => {
@@ -33,7 +35,12 @@ impl SceneFile {
                     let mesh = body.mesh().with_extent(object.extent.unwrap_or(1.0));
                     moved(mesh, object.at.unwrap_or(DVec3::ZERO))
                 }
-                Shape::Mesh(path) => self.mesh(object, path, read)?,
+                Shape::Mesh(path) => {
+                    if !meshes.contains_key(path) {
+                        meshes.insert(path, self.mesh(object, path, read)?);
+                    }
+                    self.own_place(meshes[path].clone(), object)?
+                }
             };
             let triangles = scene.triangles() + mesh.triangles.len();
             if triangles + 2 * self.objects.len() > MOST_TRIANGLES {
@@ -70,20 +77,19 @@ impl SceneFile {
         read(path).map_err(|why| self.fault(at.span().start, format!("{path}: {why}")))
     }
 
-    /// A user's mesh in its place.
+    /// A user's mesh.
     fn mesh(&self, object: &Object, path: &str, read: ReadFile) -> Result<Mesh, FileFault> {
         let bytes = self.bytes(&object.shape, path, read)?;
         let text = mesh_text(bytes).map_err(|fault| {
             let what = format!("{path}: {}", fault.what);
             self.fault(object.shape.span().start, what)
         })?;
-        let mesh = mesh_of_obj(&text).map_err(|fault| FileFault {
+        mesh_of_obj(&text).map_err(|fault| FileFault {
             file: path.to_owned(),
             line: fault.line,
             column: 1,
             what: fault.what,
-        })?;
-        self.own_place(mesh, object)
+        })
     }
 
     /// A user's mesh. It keeps its own size and place where the scene states none.
