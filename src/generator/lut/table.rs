@@ -7,7 +7,7 @@ use super::axis::TableAxis;
 use super::texel::{Depth, Error, check_size};
 use crate::generator::reference::ReferenceCurve;
 use crate::language::ir::{Weights, filtered};
-use crate::physics::num::Num;
+use crate::physics::num::{Num, each_channel};
 
 /// Reflectance along an axis, cos θ = 0 first.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,8 +98,8 @@ impl Stored {
 
     /// The filtered lookup at a cosine, scale included. A NaN is looked up at 0.
     pub fn lookup(&self, weights: Weights, cos_theta: f32) -> [f32; 3] {
-        self.sample(weights, self.coordinate(cos_theta))
-            .map(|value| value * self.scale)
+        let sampled = self.sample(weights, self.coordinate(cos_theta));
+        each_channel(|i| sampled[i] * self.scale)
     }
 
     /// u of a cosine: clamped, warped, and inset by half a texel at each end.
@@ -110,7 +110,8 @@ impl Stored {
 
     /// The sampler's result at u, before the scale.
     pub fn sample(&self, weights: Weights, u: f32) -> [f32; 3] {
-        filtered(&self.texels, weights, f64::from(u)).map(|channel| channel as f32)
+        let mixed = filtered(&self.texels, weights, f64::from(u));
+        each_channel(|i| mixed[i] as f32)
     }
 }
 

@@ -8,10 +8,11 @@
 use std::ops::Range;
 
 use crate::generator::lut::Stored;
-use crate::generator::reference::{ReferenceCurve, cosine_of_part, reference_reflectance};
+use crate::generator::reference::{ReferenceCurve, cosine_of_part};
 use crate::language::ir::{Checked, Value, Weights, evaluate};
-use crate::language::methods::Light;
-use crate::physics::materials::{Channels, Surface};
+use crate::physics::materials::Channels;
+use crate::physics::num::each_channel;
+use crate::physics::optics;
 
 /// How many angles are computed at once.
 const CHUNK: usize = 4096;
@@ -25,7 +26,7 @@ pub fn thesis_errors(
     angles: usize,
     progress: &mut dyn FnMut(usize),
 ) -> Vec<[f64; 3]> {
-    let surface = Surface::of_channels(channels);
+    let Channels { n, k } = channels;
     let mut sums = vec![[0.0; 3]; functions.len()];
     for start in (0..angles).step_by(CHUNK) {
         let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
@@ -33,7 +34,7 @@ pub fn thesis_errors(
             .collect();
         let want: Vec<[f64; 3]> = cosines
             .iter()
-            .map(|c| reference_reflectance(&surface, Light::Unpolarised, *c))
+            .map(|c| each_channel(|i| optics::conductor(n[i], k[i], *c).unpolarised()))
             .collect();
         let points = cosines.len();
         let arguments = [Value::each(cosines)];
