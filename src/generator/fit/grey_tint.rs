@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::best_inputs::values_at;
 use super::model_error::{difference, error_of};
-use crate::generator::reference::{ANGLES, ReferenceCurve, cosines};
+use crate::generator::reference::{COSINES, ReferenceCurve};
 use crate::language::ir::{Checked, Value, evaluate};
 use crate::language::methods::{self, Input, Method, Values, schlick_82};
 use crate::physics::optics::{self, EffectiveIndex, index_from_f0_f82};
@@ -42,7 +42,7 @@ struct Tinted<'a> {
     function: Checked,
     f0: [f64; 3],
     reference: &'a ReferenceCurve,
-    cosines: Vec<f64>,
+    cosines: &'static [f64],
     seen: Vec<[f64; 3]>,
 }
 
@@ -54,7 +54,7 @@ pub fn grey_tint(reference: &ReferenceCurve) -> GreyTint {
         function: method.function(false).expect("a test builds every method"),
         f0: reference.at(1.0),
         reference,
-        cosines: cosines(ANGLES),
+        cosines: &COSINES,
         seen: reference.table(),
     };
     let (mut low, mut high) = (0.0, 1.0);
@@ -88,7 +88,7 @@ impl Tinted<'_> {
 
     /// The largest error at the angles.
     fn largest(&self, tint: f64) -> f64 {
-        difference(&self.values(tint, &self.cosines), &self.seen, &self.cosines).max_abs
+        difference(&self.values(tint, self.cosines), &self.seen, self.cosines).max_abs
     }
 
     fn error(&self, tint: f64) -> GreyTint {

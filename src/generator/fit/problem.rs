@@ -10,15 +10,10 @@ use super::exact::{Exact, fit_meeting, rounded_coefficients};
 use super::minimax::{Limit, Points, weighted_sum};
 use super::rounded::rounded;
 use super::weight::{Weight, luminance, shares};
-use crate::generator::reference::{MaterialInMedium, ReferenceCurve};
-use crate::language::methods::{Input, Method, Shape, Values, unwarped};
+use crate::generator::reference::{FITTED_COSINES, MaterialInMedium, ReferenceCurve};
+use crate::language::methods::{Input, Method, Shape, Values};
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::{Gamut, Space};
-
-/// The number of cosines at which a curve is fitted, from 0 to 1, dense towards grazing as in `--axis steep`. Twice as many
-/// change no error by a hundredth of it.
-const POINTS: usize = 257;
-const DENSE: f64 = 8.0;
 
 /// The reflectance of a material under viewing conditions, at the cosines at which forms are fitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,10 +76,9 @@ pub struct FitProblem<'a> {
 impl FitCurve {
     /// The curve of a function that gives reflectance at a cosine.
     pub fn new(seen: impl Fn(f64) -> [f64; 3]) -> FitCurve {
-        let cosines = cosines();
         FitCurve {
-            seen: cosines.iter().map(|c| seen(*c)).collect(),
-            cosines,
+            seen: FITTED_COSINES.iter().map(|c| seen(*c)).collect(),
+            cosines: FITTED_COSINES.clone(),
         }
     }
 
@@ -103,28 +97,22 @@ impl FitCurve {
     }
 
     fn of_reference(reference: &ReferenceCurve, gamut: Gamut) -> FitCurve {
-        let cosines = cosines();
-        let seen = reference.unclipped_at_fitted(&cosines).iter();
+        let seen = reference.fitted_to().iter();
         FitCurve {
             seen: seen.map(|colour| gamut.apply(*colour).to_array()).collect(),
-            cosines,
+            cosines: FITTED_COSINES.clone(),
         }
     }
 }
 
-fn cosines() -> Vec<f64> {
-    let place = |i: usize| unwarped(DENSE, i as f64 / (POINTS - 1) as f64);
-    (0..POINTS).map(place).collect()
-}
-
 /// The factor of each coefficient of a shape, at each of a curve's cosines.
 pub fn basis(shape: &Shape) -> Vec<Vec<f64>> {
-    let row = |cos_theta: f64| {
+    let row = |cos_theta: &f64| {
         let mut row = vec![0.0; shape.terms()];
-        shape.add(cos_theta, 1.0, &mut row);
+        shape.add(*cos_theta, 1.0, &mut row);
         row
     };
-    cosines().into_iter().map(row).collect()
+    FITTED_COSINES.iter().map(row).collect()
 }
 
 impl FitProblem<'_> {

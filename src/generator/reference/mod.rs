@@ -11,5 +11,5 @@ pub use material_in_medium::{
     THESIS_MATCHING_COS, Typed,
 };
 pub use reference_curve::{
-    ANGLES, COSINES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
+    ANGLES, COSINES, FITTED_COSINES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
 };

@@ -35,12 +35,7 @@ pub fn chart_data(
     if let Some(own) = own {
         own.join(&mut errors);
     }
-    let data = ChartData {
-        costs: axes(&entries),
-        sets: sets(materials, &errors),
-        entries,
-        command,
-    };
+    let data = of_errors(entries, &errors, materials, command);
     match own {
         Some(own) => own.with_function(data),
         None => data,
@@ -56,11 +51,20 @@ pub fn intended_data(
 ) -> ChartData {
     let entries: Vec<ChartEntry> = methods.map(intended).collect();
     let errors = errors(&entries, materials, space, progress);
+    of_errors(entries, &errors, materials, String::new())
+}
+
+fn of_errors(
+    entries: Vec<ChartEntry>,
+    errors: &[Vec<MethodErrors>],
+    materials: &[MaterialInMedium],
+    command: String,
+) -> ChartData {
     ChartData {
         costs: axes(&entries),
-        sets: sets(materials, &errors),
+        sets: sets(materials, errors),
         entries,
-        command: String::new(),
+        command,
     }
 }
 
