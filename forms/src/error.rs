@@ -14,6 +14,9 @@ const COSINES: usize = 200;
 /// A text means the same if no result in f64 differs by more.
 const SAME: f64 = 1e-9;
 
+/// What f32 may err at the ends of ranges, where the usual form errs less.
+const END_SLACK: f64 = 1e-5;
+
 /// A unit in the last place of results from 1/2 to 1.
 const HALF_UNIT: f64 = 1.0 / (1u64 << 24) as f64;
 
@@ -102,8 +105,8 @@ impl Judge {
         std::iter::once(cosines).chain(rest).collect()
     }
 
-    /// Whether f32 gives a number in [0, 1] at the ends of every argument's range.
-    pub fn holds_at_ends(&self, graph: &Checked) -> bool {
+    /// Whether f32 is as good as the usual form's at the ends of every argument's range.
+    pub fn holds_at_ends(&self, graph: &Checked, usual: &Checked) -> bool {
         let ends = self.method.inputs.iter().map(|input| {
             let usual = input.tried.first().copied().unwrap_or(1.0);
             [input.range.least, usual, input.range.most].map(|value| value as f32)
@@ -114,9 +117,13 @@ impl Judge {
         });
         let cosines = [0.0, 1e-6, 0.1, 0.5, 0.9, 1.0];
         sets.iter().all(|inputs| {
-            let most = inputs.iter().map(|value| value[0]).fold(1.0, f32::max);
-            let got = evaluate(graph, &self.arguments::<f32>(inputs, &cosines));
-            (0..cosines.len()).all(|place| (0.0..=most).contains(&got.at(place)[0]))
+            let meaning = evaluate(usual, &self.arguments::<f64>(inputs, &cosines));
+            let [single, usual] =
+                [graph, usual].map(|of| evaluate(of, &self.arguments::<f32>(inputs, &cosines)));
+            (0..cosines.len()).all(|place| {
+                let off = |got: f32| (f64::from(got) - meaning.at(place)[0]).abs();
+                off(single.at(place)[0]) <= END_SLACK.max(2.0 * off(usual.at(place)[0]))
+            })
         })
     }
 

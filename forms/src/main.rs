@@ -98,7 +98,7 @@ fn search(
         let Some(ulp) = judge.ulp(&graph) else {
             continue;
         };
-        let is_kept = ulp <= judge.promised() && judge.holds_at_ends(&graph);
+        let is_kept = ulp <= judge.promised() && judge.holds_at_ends(&graph, &usual);
         if is_kept && found.len() < COMPILED {
             let id = FunctionId::library(method, form, Precision::F32);
             found.push(Found {

@@ -117,6 +117,9 @@ pub struct CoefficientsFromInputs {
     pub fitted: &'static str,
     /// The coefficients from the inputs.
     pub build: for<'b> fn(&Inputs<'b>) -> [Expr<'b>; 4],
+    /// How far the fitted method is from the law with them: median and 90th percentile of the largest errors over the pages that the
+    /// numbers were chosen on.
+    pub model: [f64; 2],
     /// The largest error of a coefficient in unfused f32, for the media of the method's code error. It is absolute, because terms
     /// that are larger than their sum cancel. Tests check that it is neither exceeded nor slack.
     pub code_abs: f64,

@@ -66,7 +66,7 @@ const SLOPE: f64 = 1.66 * 64.0 / 15.0;
 const START: f64 = -0.16;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let [a, b] = weights(x);
+    let Weights { a, b, .. } = weights(x.cosine());
     between(x, a, b)
 }
 
@@ -74,14 +74,24 @@ fn each_channel<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
         return build(x);
     }
-    let [a, b] = weights(x);
+    let Weights { a, b, .. } = weights(x.cosine());
     let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
     (f0 + a * (1.0 - f0) + b * (f82 - f0)).saturate()
 }
 
-/// A and B.
-fn weights<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
-    let c = x.cosine();
+/// Curves that all materials share.
+pub(super) struct Weights<'b> {
+    /// 0 at normal incidence, 5/8 at 81.79 degrees, 1 at grazing.
+    pub u: Expr<'b>,
+    /// u (1 - u).
+    pub s: Expr<'b>,
+    /// The weight of white, A.
+    pub a: Expr<'b>,
+    /// The weight of F82, B.
+    pub b: Expr<'b>,
+}
+
+pub(super) fn weights(c: Expr<'_>) -> Weights<'_> {
     let w = c / (1.0 / (1.0 + BEND) + BEND / (1.0 + BEND) * c);
     let w = w.named("w", "1 at normal incidence, 0 at grazing");
     // u comes from w, which is accurate where it is small. With w = 1 - u, the rounding of u would show at grazing.
@@ -89,10 +99,12 @@ fn weights<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
     let s = (u * w).named("s", "");
     let a = u - s * (11.0 / 3.0 - 8.0 / 3.0 * w);
     let b = s * (SLOPE + START - SLOPE * w);
-    [
-        a.named("a", "the weight of white"),
-        b.named("b", "the weight of f82"),
-    ]
+    Weights {
+        u,
+        s,
+        a: a.named("a", "the weight of white"),
+        b: b.named("b", "the weight of f82"),
+    }
 }
 
 /// The reflectance of F0 = 0 at 81.79 degrees that is taken out of F82: then the weight A + .4 B is hardly below 0 anywhere.
