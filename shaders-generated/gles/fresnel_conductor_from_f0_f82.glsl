@@ -80,7 +80,8 @@ highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, h
         t.b < 0.0 ? r_s_metal.b : r_s_glass.b
     );
     highp vec3 x = r * c2 + s2 * s2;
-    return clamp(r_s * (x / max(x + u * s2, 1.0e-37)), 0.0, 1.0);
+    highp vec3 us2 = u * s2;
+    return clamp(r_s * (x / max(x + us2, 1.0e-37)), 0.0, 1.0);
 }
 
 #endif

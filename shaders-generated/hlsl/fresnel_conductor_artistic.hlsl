@@ -62,7 +62,8 @@ float3 fresnel_conductor_artistic(float cos_theta, float3 reflectivity, float3 e
         t.b < 0.0 ? r_s_metal.b : r_s_glass.b
     );
     float3 x = r * c2 + s2 * s2;
-    return saturate(r_s * (x / max(x + u * s2, 1.0e-37)));
+    float3 us2 = u * s2;
+    return saturate(r_s * (x / max(x + us2, 1.0e-37)));
 }
 
 #endif

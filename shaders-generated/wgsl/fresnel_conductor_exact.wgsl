@@ -43,5 +43,6 @@ fn fresnel_conductor_exact(cos_theta: f32, n: vec3<f32>, k: vec3<f32>) -> vec3<f
         select(r_s_glass.b, r_s_metal.b, t.b < 0.0)
     );
     let x = r * c2 + s2 * s2;
-    return saturate(r_s * (x / max(x + u * s2, vec3<f32>(1.0e-37))));
+    let us2 = u * s2;
+    return saturate(r_s * (x / max(x + us2, vec3<f32>(1.0e-37))));
 }

@@ -76,5 +76,6 @@ fn fresnel_conductor_from_f0_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) 
         select(r_s_glass.b, r_s_metal.b, t.b < 0.0)
     );
     let x = r * c2 + s2 * s2;
-    return saturate(r_s * (x / max(x + u * s2, vec3<f32>(1.0e-37))));
+    let us2 = u * s2;
+    return saturate(r_s * (x / max(x + us2, vec3<f32>(1.0e-37))));
 }

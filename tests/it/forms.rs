@@ -106,7 +106,7 @@ fn every_form_is_of_use() {
 }
 
 /// Where a published function is cheaper than ours, and why.
-const CHEAPER: [(&str, &str, usize, &str); 8] = [
+const CHEAPER: [(&str, &str, usize, &str); 11] = [
     ("videocore6", "schlick", 3, UNLIMITED),
     ("videocore6", "schlick", 1, UNLIMITED),
     ("videocore6", "schlick_spherical_gaussian", 3, UNLIMITED),
@@ -115,6 +115,9 @@ const CHEAPER: [(&str, &str, usize, &str); 8] = [
     ("xe", "dielectric_exact", 1, DIGITS),
     ("videocore6", "dielectric_exact", 1, DIGITS),
     ("rdna", "dielectric_exact", 1, DIGITS),
+    ("videocore6", "dielectric_tinted", 3, UNLIMITED),
+    ("adreno630", "schlick_f82_f90", 3, POWER),
+    ("malit860", "schlick_f82_f90", 3, POWER),
 ];
 const UNLIMITED: &str = "it takes no cosine outside of 0 to 1";
 const POWER: &str = "it takes a power, which is one instruction there";

@@ -61,6 +61,7 @@ mod stability;
 mod stated;
 mod tables;
 mod tidy;
+mod tinted;
 mod tree;
 mod verify;
 mod working_spaces;

@@ -54,7 +54,7 @@ pub fn own(gpu: &str, ours: &str, channels: usize) -> f64 {
 }
 
 /// What a class of functions is called in the document: ours, and the channels.
-const COLUMNS: [(&str, usize, &str); 7] = [
+const COLUMNS: [(&str, usize, &str); 9] = [
     ("schlick", 3, "`schlick`"),
     (
         "schlick_spherical_gaussian",
@@ -66,6 +66,8 @@ const COLUMNS: [(&str, usize, &str); 7] = [
     ("dielectric_exact", 3, "`dielectric_exact`"),
     ("dielectric_exact", 1, "the same, one channel"),
     ("conductor_exact_metal", 3, "`conductor_exact_metal`"),
+    ("dielectric_tinted", 3, "`dielectric_tinted`"),
+    ("schlick_f82_f90", 3, "`schlick_f82_f90`"),
 ];
 
 /// For each family ours, and the cheapest published function that computes the same.

@@ -28,7 +28,8 @@ highp vec3 fresnel_platinum(highp float cos_theta) {
     highp vec3 sum = r + c2;
     highp vec3 r_s = (sum - u) / (sum + u);
     highp vec3 x = r * c2 + s2 * s2;
-    return clamp(r_s * (x / (x + u * s2)), 0.0, 1.0);
+    highp vec3 us2 = u * s2;
+    return clamp(r_s * (x / (x + us2)), 0.0, 1.0);
 }
 
 // fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor

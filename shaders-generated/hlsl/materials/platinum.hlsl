@@ -29,7 +29,8 @@ float3 fresnel_platinum(float cos_theta)
     float3 sum = r + c2;
     float3 r_s = (sum - u) / (sum + u);
     float3 x = r * c2 + s2 * s2;
-    return saturate(r_s * (x / (x + u * s2)));
+    float3 us2 = u * s2;
+    return saturate(r_s * (x / (x + us2)));
 }
 
 // fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor

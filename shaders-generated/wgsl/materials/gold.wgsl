@@ -25,7 +25,8 @@ fn fresnel_gold(cos_theta: f32) -> vec3<f32> {
     let sum = r + c2;
     let r_s = (sum - u) / (sum + u);
     let x = r * c2 + s2 * s2;
-    return saturate(r_s * (x / (x + u * s2)));
+    let us2 = u * s2;
+    return saturate(r_s * (x / (x + us2)));
 }
 
 // fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor

@@ -12,11 +12,13 @@ use crate::physics::num::{Legendre, each_channel};
 pub(super) fn coefficients_line(emitted: &EmittedFunction) -> Option<String> {
     emitted.form.coefficient()?;
     let method = emitted.method;
-    let fitted = method.coefficients?.fitted;
+    let coefficients = method.coefficients?;
+    let [median, tenth] = coefficients.model;
     Some(format!(
         "{m}_c0 to {m}_c3: the coefficients of {fitted}, for scenes with many lights: find them once a pixel and call {fitted} once a \
-         light. It gives the same",
-        m = method.name
+         light. Half of all metals are then off by less than {median}, nine of ten by less than {tenth}",
+        m = method.name,
+        fitted = coefficients.fitted,
     ))
 }
 

@@ -96,28 +96,33 @@ impl Heading<'_> {
                 lines.extend(functions.iter().find_map(average::coefficients_line));
                 lines.push(short_source(method));
             }
-            HeaderForm::Full => {
-                lines.extend(formula(method));
-                lines.push(source(method));
-                lines.push(format!("Domain: {}", method.domain));
-                lines.extend(half_line(target, precision));
-                lines.extend(exemption(method));
-                lines.push("Arguments:".to_owned());
-                lines.push(format!("  cos_theta: {COSINE}"));
-                for input in method.inputs {
-                    let range = method.range(input, precision).words();
-                    lines.push(format!("  {}: {}, {range}", input.name, input.meaning));
-                }
-                lines.extend(promises(precision, method));
-                let cost = |one: &EmittedFunction| format!("{}: {}", one.name, operations(one));
-                lines.extend(functions.iter().map(cost));
-                lines.extend(self.gpu_line(functions));
-                lines.extend(functions.iter().find_map(average::mean_line));
-                lines.extend(functions.iter().find_map(average::coefficients_line));
-                lines.push(licence_line());
-            }
+            HeaderForm::Full => lines.extend(self.full(target, method, functions)),
         }
         comment::lines(lines)
+    }
+
+    /// All that is known of a library's functions.
+    fn full(&self, target: &Target, method: &Method, functions: &[EmittedFunction]) -> Vec<String> {
+        let precision = functions[0].precision;
+        let mut lines: Vec<String> = formula(method).collect();
+        lines.push(source(method));
+        lines.push(format!("Domain: {}", method.domain));
+        lines.extend(half_line(target, precision));
+        lines.extend(exemption(method));
+        lines.push("Arguments:".to_owned());
+        lines.push(format!("  cos_theta: {COSINE}"));
+        for input in method.inputs {
+            let range = method.range(input, precision).words();
+            lines.push(format!("  {}: {}, {range}", input.name, input.meaning));
+        }
+        lines.extend(promises(precision, method));
+        let cost = |one: &EmittedFunction| format!("{}: {}", one.name, operations(one));
+        lines.extend(functions.iter().map(cost));
+        lines.extend(self.gpu_line(functions));
+        lines.extend(functions.iter().find_map(average::mean_line));
+        lines.extend(functions.iter().find_map(average::coefficients_line));
+        lines.push(licence_line());
+        lines
     }
 
     /// The head of a material's file.
@@ -203,17 +208,18 @@ impl Heading<'_> {
                 lines.extend(short_mean_line(std::slice::from_ref(emitted)));
                 lines.push(short_source(method));
             }
-            (HeaderForm::Full, _) => {
+            (HeaderForm::Full, None) => {
+                lines.extend(self.full(target, method, std::slice::from_ref(emitted)));
+            }
+            (HeaderForm::Full, Some(subject)) => {
                 lines.extend(formula(method));
                 lines.push(source(method));
                 lines.extend(half_line(target, precision));
                 lines.extend(exemption(method));
-                lines.extend(average::mean_line(emitted).map(|line| line + "."));
-                lines.extend(average::coefficients_line(emitted).map(|line| line + "."));
                 lines.push(format!("Cost: {}.", operations(emitted)));
                 lines.extend(form_lines(emitted));
                 lines.extend(Average::of(emitted).map(|average| average.line()));
-                lines.extend(subject.into_iter().flat_map(viewing_conditions));
+                lines.extend(viewing_conditions(subject));
                 lines.extend(table_line(emitted));
                 lines.extend(emitted.model_error.iter().map(model_line));
                 lines.extend(thickness_line(emitted));

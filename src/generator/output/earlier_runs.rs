@@ -1,7 +1,7 @@
 //! What a run does to the work of earlier runs in the same folder, by the manifest.
 //!
-//! [`remarks`] names functions that leave a file, viewing conditions that change, and rows of an atlas that get other materials: a
-//! function that reads a row by its number shows another material then.
+//! [`remarks`] names functions that leave a file, viewing conditions and GPUs that change, and rows of an atlas that get other
+//! materials: a function that reads a row by its number shows another material then.
 //!
 //! [`refuse_meeting_names`] refuses a function that another file defines. [`refuse_namesakes`] refuses two files whose materials get
 //! the same name, such as `Gläser.csv` and `Glaser.csv`: the second run would silently replace the functions of the first.
@@ -11,8 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::contents::{Planned, State};
 use crate::generator::emit::{Artifact, Detail, FunctionDetail};
 use crate::generator::error::{Error, RequestFault};
-use crate::generator::output::manifest::{Entry, Manifest, Provenance};
+use crate::generator::output::manifest::{Entry, Manifest, Provenance, gpu_in};
 use crate::generator::output::ownership::could_be_written;
+use crate::language::targets;
 use crate::physics::foreign::{Foreign, one_line};
 
 /// A line for each change of what the manifest lists, for the user.
@@ -28,7 +29,38 @@ pub fn remarks(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<S
     let seen = pairs
         .iter()
         .filter_map(|(artifact, entry)| seen_otherwise(artifact, entry));
-    dropped.chain(seen).chain(changed_rows(&pairs)).collect()
+    let others = dropped.chain(seen).chain(changed_rows(&pairs));
+    others.chain(other_gpus(&pairs)).collect()
+}
+
+/// The files that were written for another GPU, counted by both.
+fn other_gpus(pairs: &[(&Artifact, &Entry)]) -> Vec<String> {
+    let mut changed: BTreeMap<[&str; 2], (usize, &str)> = BTreeMap::new();
+    for (artifact, entry) in pairs {
+        let Detail::Functions(detail) = &artifact.detail else {
+            continue;
+        };
+        let (Some(old), Some(target)) = (entry.gpu(), targets::find(&artifact.target)) else {
+            continue;
+        };
+        let usual = target.gpu.name();
+        let both = [old, gpu_in(&detail.command)].map(|gpu| gpu.unwrap_or(usual));
+        if both[0] != both[1] {
+            let (count, _) = changed.entry(both).or_insert((0, &artifact.path));
+            *count += 1;
+        }
+    }
+    let words = |([old, new], (count, first)): ([&str; 2], (usize, &str))| {
+        let files = match count {
+            1 => Foreign(first).to_string(),
+            _ => format!("{count} files, {} among them", Foreign(first)),
+        };
+        format!(
+            "{files}: written for {new}, and by an earlier run for {}; --gpu says for which GPU",
+            Foreign(old)
+        )
+    };
+    changed.into_iter().map(words).collect()
 }
 
 /// Functions that the manifest lists for a file and the artifact lacks.

@@ -132,6 +132,14 @@ impl Manifest {
     }
 }
 
+/// The value of `--gpu` in a command.
+pub fn gpu_in(command: &str) -> Option<&str> {
+    command
+        .split(' ')
+        .skip_while(|word| *word != "--gpu")
+        .nth(1)
+}
+
 impl Entry {
     /// The precision of its functions. Only half precision is recorded.
     pub fn precision(&self) -> &str {
@@ -167,6 +175,11 @@ impl Entry {
     /// The viewing conditions of its material, in words.
     pub fn reference(&self) -> Option<&str> {
         self.detail.get("seen")?["truth"].as_str()
+    }
+
+    /// What `--gpu` was given to the command that wrote it. None where no command is listed, and `Some(None)` where it named no GPU.
+    pub fn gpu(&self) -> Option<Option<&str>> {
+        Some(gpu_in(self.detail.get("command")?.as_str()?))
     }
 
     /// The entry of an artifact.

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::generator::emit::{EmittedFunction, HeaderForm};
+use crate::generator::emit::{Artifact, EmittedFunction, HeaderForm};
 use crate::generator::error::{Error, RequestFault};
 use crate::generator::generate::{
     ExistingContents, GeneratedFile, GeneratedWithGraphs, KeptMethods, generate_with_graphs,
@@ -32,7 +32,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
     let held = ExistingContents {
         methods: held_methods(request, &meant, &shipped, &kept)?,
         full_headers: full_headers(&meant, &shipped)?,
-        gpus: gpus(&meant, &shipped),
+        gpus: gpus(request, &meant, &shipped),
     };
     let exact = if is_as_meant(&meant, &held) {
         meant.files.clone()
@@ -131,14 +131,17 @@ fn full_headers(meant: &GeneratedWithGraphs, shipped: &Folder) -> Result<BTreeSe
     Ok(full)
 }
 
-/// The GPUs that files of the folder were written for, by the manifest. They are compared with files for these.
-fn gpus(meant: &GeneratedWithGraphs, shipped: &Folder) -> BTreeMap<String, Gpu> {
-    let path = |made: &GeneratedFile| made.artifact.path.clone();
-    let gpu = |path: String| {
-        let gpu = shipped.gpu(&path)?;
-        Some((path.split('.').next()?.to_owned(), gpu))
+/// The GPUs that files of the folder were written for, by the manifest, where this run would write them for another. They are compared
+/// with files for these.
+fn gpus(request: &Request, meant: &GeneratedWithGraphs, shipped: &Folder) -> BTreeMap<String, Gpu> {
+    let gpu = |made: &GeneratedFile| {
+        let Artifact { path, target, .. } = &made.artifact;
+        let usual = targets::find(target)?.gpu;
+        let gpu = shipped.gpu(path, usual)?;
+        let is_other = gpu != request.gpu.unwrap_or(usual);
+        is_other.then_some((path.split('.').next()?.to_owned(), gpu))
     };
-    meant.files.iter().map(path).filter_map(gpu).collect()
+    meant.files.iter().filter_map(gpu).collect()
 }
 
 /// The key of a material's file, which is its target and material, and the material itself.

@@ -136,13 +136,17 @@ impl Folder<'_> {
         Ok(HeaderForm::in_text(&String::from_utf8_lossy(&text)))
     }
 
-    /// The GPU that a file of the folder was written for, where its command names one.
-    pub fn gpu(&self, path: &str) -> Option<Gpu> {
+    /// The GPU that a file of the folder was written for: the one that its command names, else the target's usual one.
+    pub fn gpu(&self, path: &str, usual: Gpu) -> Option<Gpu> {
         let (manifest, _) = self.manifest.as_ref()?;
         let entry = manifest.files.iter().find(|entry| entry.file == path)?;
-        let command = entry.detail.get("command")?.as_str()?;
-        let mut words = command.split(' ').skip_while(|word| *word != "--gpu");
-        words.nth(1)?.parse().ok()
+        if !self.path.join(path).exists() {
+            return None;
+        }
+        match entry.gpu()? {
+            Some(name) => name.parse().ok(),
+            None => Some(usual),
+        }
     }
 
     /// The page of a file. `asked` says which of its functions are to be run.

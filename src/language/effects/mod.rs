@@ -33,6 +33,7 @@ mod interface;
 mod interior;
 mod normal_mapping;
 mod parallax;
+mod polarisation;
 mod water;
 
 /// Every effect, by name.
@@ -48,6 +49,7 @@ pub static ALL: &[&Effect] = &[
     &interior::EFFECT,
     &normal_mapping::EFFECT,
     &parallax::EFFECT,
+    &polarisation::EFFECT,
     &water::EFFECT,
 ];
 
@@ -65,6 +67,7 @@ impl Effect {
     pub const INTERIOR: &'static Effect = &interior::EFFECT;
     pub const NORMAL_MAPPING: &'static Effect = &normal_mapping::EFFECT;
     pub const PARALLAX: &'static Effect = &parallax::EFFECT;
+    pub const POLARISATION: &'static Effect = &polarisation::EFFECT;
     pub const WATER: &'static Effect = &water::EFFECT;
 }
 // END list

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::affine::{Affine, Basis};
 use super::claims::{Claims, InHalf};
+use super::formulas::ALL;
 use super::input::{Input, Inputs, Range};
 use super::media::{Class, MediaSet};
 use super::shape::Shape;
@@ -48,8 +49,8 @@ pub struct Method {
     pub build: Build,
     /// The name of this way to write it; empty for the usual one.
     pub variant: &'static str,
-    /// Other ways to write it, which mean the same and are cheaper on some GPUs: this method with another `build`. They promise what it
-    /// promises. See [`Gpu`](super::Gpu).
+    /// Other ways to write it in single precision, which mean the same and are cheaper on some GPUs: this method with another `build`. They
+    /// promise what it promises. See [`Gpu`](super::Gpu).
     pub variants: &'static [&'static Method],
     /// A form that is cheaper once constants are folded in. With F0 known, F0 + (1 - F0) w is one multiplication and addition a
     /// channel. At run time F0 (1 - w) + w is, since 1 - w is one number for three channels.
@@ -210,7 +211,7 @@ impl Method {
         precision: Precision,
         scalar_form: bool,
     ) -> Result<Checked, BrokenRule> {
-        self.built(self.build, precision, scalar_form)
+        self.built(self.written(precision), precision, scalar_form)
     }
 
     fn built(
@@ -225,6 +226,15 @@ impl Method {
         let shaped = if scalar_form { result } else { result.rgb() };
         let whole = builder.finish(self.name, shaped);
         check_in(precision, fold_in(precision, &whole))
+    }
+
+    /// How it is built: variants are of single precision, and in half precision the usual form is written.
+    fn written(&self, precision: Precision) -> Build {
+        let usual = || ALL.iter().find(|method| method.name == self.name);
+        match precision {
+            Precision::F16 if !self.variant.is_empty() => usual().expect("it has one").build,
+            _ => self.build,
+        }
     }
 
     /// A function of the inputs alone, without a cosine.
@@ -347,13 +357,13 @@ impl Method {
     }
 
     /// A coefficient of a fitted method from this method's inputs as run-time arguments, three channels. None for methods that
-    /// compute none.
+    /// compute none, and in half precision, where the sum of coefficients that cancel has no digits.
     pub fn coefficient_in(
         &self,
         precision: Precision,
         place: usize,
     ) -> Option<Result<Checked, BrokenRule>> {
-        let coefficients = self.coefficients?;
+        let coefficients = self.coefficients.filter(|_| !precision.is_half())?;
         Some(self.built_without_cosine(|x| (coefficients.build)(x)[place], precision, false))
     }
 

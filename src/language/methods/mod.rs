@@ -25,6 +25,7 @@ pub use claims::{ByClass, ColourClaim, HALF_AIM, InHalf, Spread};
 pub use formulas::{
     ALL, ONLY_ROW, TEXELS, WARP, fetch, lambda, schlick_82, unwarped, warped, warped_step,
 };
+pub(in crate::language) use formulas::{Polarised, polarised};
 pub use gpu::{Gpu, MIXES, Mix};
 pub use input::{BareBase, FilmSample, Input, InputSource, Inputs, KnownFilm, KnownSurface, Range};
 pub use media::{Class, MediaSet};

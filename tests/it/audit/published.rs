@@ -8,7 +8,7 @@ use super::rows;
 use crate::cli::Place;
 
 /// The formulas, by file.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 11] = [
     ("schlick.glsl", include_str!("functions/schlick.glsl")),
     ("schlick.hlsl", include_str!("functions/schlick.hlsl")),
     (
@@ -25,6 +25,7 @@ const FILES: [(&str, &str); 10] = [
     ),
     ("conductor.glsl", include_str!("functions/conductor.glsl")),
     ("conductor.hlsl", include_str!("functions/conductor.hlsl")),
+    ("tinted.glsl", include_str!("functions/tinted.glsl")),
 ];
 
 const ALL: &str = "gold,silver,copper,aluminium,platinum,silicon,water,bk7,diamond";

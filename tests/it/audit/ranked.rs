@@ -9,7 +9,7 @@ use crate::published_costs::{families, own, path, recorded};
 use fresnel_gen::physics::optics;
 
 /// A published function, a material, how many channels it has, and ours with no more error.
-const PAIRS: [(&str, &str, &str, usize, &str); 16] = [
+const PAIRS: [(&str, &str, &str, usize, &str); 18] = [
     ("schlick.glsl", "schlick", METAL, 3, "schlick"),
     ("schlick.glsl", "schlick_power", METAL, 3, "schlick"),
     ("schlick.glsl", "schlick_f90", METAL, 3, "schlick"),
@@ -62,6 +62,20 @@ const PAIRS: [(&str, &str, &str, usize, &str); 16] = [
         3,
         "conductor_exact_metal",
     ),
+    (
+        "tinted.glsl",
+        "dielectric_rescaled",
+        GLASS,
+        3,
+        "dielectric_tinted",
+    ),
+    (
+        "tinted.glsl",
+        "hoffman_schlick",
+        METAL,
+        3,
+        "schlick_f82_f90",
+    ),
 ];
 
 const METAL: &str = "platinum";
@@ -85,8 +99,14 @@ fn ours_cost_no_more_at_the_same_error() {
     let mut found = Vec::new();
     for (file, function, material, channels, ours) in PAIRS {
         let gpus = gpus.join(",");
-        let line =
-            format!("{file} --function {function} --material {material} --gpu {gpus} --json -");
+        let one_index = if ours == "dielectric_tinted" {
+            "--arg ior=ior "
+        } else {
+            ""
+        };
+        let line = format!(
+            "{file} --function {function} --material {material} {one_index}--gpu {gpus} --json -"
+        );
         let Some(ran) = audit(&place, &line) else {
             continue;
         };

@@ -13,7 +13,12 @@ use fresnel_gen::physics::records;
 const SPECIALISED: f64 = 10.0;
 
 /// Methods with a real power, which is as good as a stack's `log2` and `exp2`, and the most of theirs.
-const POWERS: [&str; 3] = ["empirical", "schlick_corrected", "schlick_generalised"];
+const POWERS: [&str; 4] = [
+    "empirical",
+    "schlick_corrected",
+    "schlick_f82_f90",
+    "schlick_generalised",
+];
 const POWER: f64 = 17.0;
 
 /// The most that a fitted one may be off: where nearly nothing is reflected, its fit is off by a thousand times that, and

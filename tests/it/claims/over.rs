@@ -3,15 +3,15 @@
 use fresnel_gen::generator::fit::{ModelError, difference, texels, values};
 use fresnel_gen::generator::reference::{ANGLES, Derivation, cosines, reference_reflectance};
 use fresnel_gen::language::ir::{Value, evaluate};
-use fresnel_gen::language::methods::{MediaSet, Method};
+use fresnel_gen::language::methods::{Input, MediaSet, Method};
 use fresnel_gen::physics::materials::{Channels, Surface};
 use fresnel_gen::physics::num::each_channel;
 
 /// Steps of eta, of n and of k when model errors are taken over a set.
 const STEPS: usize = 24;
 
-/// The media of a set, three to a `Channels`.
-fn media(over: MediaSet) -> Vec<Channels> {
+/// The media of a set, three to a `Channels`; one for a method that takes one index for all channels.
+fn media(over: MediaSet, method: &Method) -> Vec<Channels> {
     let share = |step: usize, steps: usize| step as f64 / steps as f64;
     let points: Vec<(f64, f64)> = match over {
         MediaSet::Dielectrics => (0..=2 * STEPS)
@@ -21,7 +21,12 @@ fn media(over: MediaSet) -> Vec<Channels> {
             .flat_map(|i| (0..=STEPS).map(move |j| over.medium(share(i, STEPS), share(j, STEPS))))
             .collect(),
     };
-    points.chunks(3).map(channels).collect()
+    let is_one = method
+        .inputs
+        .iter()
+        .any(|input| input.name == Input::IOR.name);
+    let together = if is_one { 1 } else { 3 };
+    points.chunks(together).map(channels).collect()
 }
 
 /// Three media, with the last one repeated where there are fewer.
@@ -39,7 +44,7 @@ pub fn model_error_over(method: &Method, over: MediaSet) -> ModelError {
         .function(false)
         .expect("every method's function is well formed; a test builds all");
     let cosines = cosines(ANGLES / 4);
-    let media = media(over);
+    let media = media(over, method);
     let errors = media.iter().map(|channels| {
         let constants = values(method, channels, &Derivation::default());
         let mut arguments = vec![Value::each(cosines.clone())];

@@ -29,7 +29,7 @@ fn an_unknown_name_is_answered_with_the_nearest() {
         ),
         (
             "--method schlick --method exact_conductor",
-            "there are airy_materialx, belcour_decomposition, conductor_artistic",
+            "(did you mean conductor_exact or conductor_artistic?); there are",
         ),
         (
             "--material gold_thesi",

@@ -39,7 +39,10 @@ const COSINES: [f32; 16] = [
 
 /// What inputs are tried with that are tried with more, or less, than they say: with what lies outside their domain too.
 const INPUTS: &[(&[&str], &[f32])] = &[
-    (&["eta", "n"], &[1.0, 1.5, 0.5, 0.0, 2.4, 1e-3, 1.0001]),
+    (
+        &["eta", "n", "ior"],
+        &[1.0, 1.5, 0.5, 0.0, 2.4, 1e-3, 1.0001],
+    ),
     (&["k"], &[0.0, 3.0, 1e-3, 20.0]),
     (&["f0", "reflectivity", "f82"], &[0.04, 1.06, 0.0, 1.0, 0.9]),
     (&["tint"], &[1.0, 0.0, 0.4, 1.5]),
@@ -85,7 +88,9 @@ impl Seen<'_> {
 
     /// n and k, where the method takes them.
     fn index(&self) -> Option<(f32, f32)> {
-        let n = self.input("eta").or(self.input("n"))?;
+        let n = ["eta", "n", "ior"]
+            .into_iter()
+            .find_map(|name| self.input(name))?;
         Some((n, self.input("k").unwrap_or(0.0)))
     }
 

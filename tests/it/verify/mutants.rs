@@ -127,7 +127,7 @@ fn changed(original: &Function, id: NodeId, wrong: Wrong) -> Option<Function> {
         }
         (Wrong::Inverted, Op::Param, Payload::Index(index)) => {
             let name = original.params[index].name.as_str();
-            if !["eta", "n", "f0", "reflectivity", "warp"].contains(&name) {
+            if !["eta", "n", "ior", "f0", "reflectivity", "warp"].contains(&name) {
                 return None;
             }
             invert(&mut function, id);

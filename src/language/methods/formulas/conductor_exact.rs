@@ -85,10 +85,91 @@ pub(super) fn conductor<'b>(
     n: Expr<'b>,
     k: Expr<'b>,
 ) -> Expr<'b> {
+    polarised(precision, c, n, k).mean()
+}
+
+/// What is reflected of light polarised across the plane of incidence, and what the other half is made of.
+pub(in crate::language) struct Polarised<'b> {
+    /// R_s; in half precision, what it lacks of 1.
+    s: Expr<'b>,
+    /// x = r c² + s⁴, where R_p / R_s = (x - us2) / (x + us2).
+    x: Expr<'b>,
+    us2: Expr<'b>,
+    /// The dividends of the real and the imaginary part of r_p / r_s, r c² - s⁴ and 2 b c s²; their divisor is x + us2. Where phases are
+    /// computed: in single precision, in the stable form.
+    phases: Option<[Expr<'b>; 2]>,
+    /// In half precision, 0 where there is no interface.
+    apart: Option<Expr<'b>>,
+}
+
+pub(in crate::language) fn polarised<'b>(
+    precision: Precision,
+    c: Expr<'b>,
+    n: Expr<'b>,
+    k: Expr<'b>,
+) -> Polarised<'b> {
     if precision.is_half() {
         half(c, n, k)
     } else {
         single(c, n, k)
+    }
+}
+
+impl<'b> Polarised<'b> {
+    /// Unpolarised light, `R_s x / (x + u s²)`. Fused multiply-adds and division by reciprocals could bring it above 1 by two ulp.
+    /// The clamp is free on GPUs.
+    pub fn mean(&self) -> Expr<'b> {
+        match self.apart {
+            None => (self.s * (self.x / self.sum())).saturate(),
+            Some(_) => self.in_half((1.0 - self.s) * (1.0 - self.lost())),
+        }
+    }
+
+    /// Light polarised across the plane of incidence.
+    pub fn s(&self) -> Expr<'b> {
+        match self.apart {
+            None => self.s.saturate(),
+            Some(_) => self.in_half(1.0 - self.s),
+        }
+    }
+
+    /// Light polarised in the plane of incidence, `R_s (x - u s²) / (x + u s²)`.
+    pub fn p(&self) -> Expr<'b> {
+        match self.apart {
+            None => (self.s * ((self.x - self.us2) / self.sum())).saturate(),
+            Some(_) => self.in_half((1.0 - self.s) * (1.0 - 2.0 * self.lost())),
+        }
+    }
+
+    /// (R_s - R_p) / 2, in single precision.
+    pub fn half_difference(&self) -> Expr<'b> {
+        self.s * (self.us2 / self.sum())
+    }
+
+    /// The real and the imaginary part of r_p r_s*, in single precision.
+    pub fn phases(&self) -> [Expr<'b>; 2] {
+        let dividends = self.phases.expect("it is built in single precision");
+        dividends.map(|dividend| self.s * (dividend / self.sum()))
+    }
+
+    fn sum(&self) -> Expr<'b> {
+        (self.x + self.us2).at_least(1e-37)
+    }
+
+    /// 1 - F / R_s of unpolarised light, in half precision.
+    fn lost(&self) -> Expr<'b> {
+        let lost = self.us2 / (self.x + self.us2).at_least(Precision::F16.smallest());
+        lost.named("lost", "1 - F / R_s of unpolarised light")
+    }
+
+    fn in_half(&self, reflectance: Expr<'b>) -> Expr<'b> {
+        let apart = self.apart.expect("it is built in half precision");
+        let number = |value: f64| apart.builder().number(value);
+        let f = reflectance.saturate().named(
+            "f",
+            "where next to nothing is reflected, rounding must not make it negative",
+        );
+        apart.choose_below(number(Precision::F16.smallest()), number(0.0), f)
     }
 }
 
@@ -111,11 +192,15 @@ fn steps<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Steps<'b> {
     Steps { c2, s2, tau, nk, t }
 }
 
-/// `R_s x / (x + u s²)`, in single precision. Fused multiply-adds and division by reciprocals could bring it above 1 by two ulp.
-/// The clamp is free on GPUs.
-fn merged<'b>(r_s: Expr<'b>, r: Expr<'b>, u: Expr<'b>, c2: Expr<'b>, s2: Expr<'b>) -> Expr<'b> {
-    let x = (r * c2 + s2.squared()).named("x", "");
-    (r_s * (x / (x + u * s2).at_least(1e-37))).saturate()
+/// In single precision, from the steps.
+fn merged<'b>(s: Expr<'b>, r: Expr<'b>, u: Expr<'b>, c2: Expr<'b>, s2: Expr<'b>) -> Polarised<'b> {
+    Polarised {
+        s,
+        x: (r * c2 + s2.squared()).named("x", ""),
+        us2: (u * s2).named("us2", ""),
+        phases: None,
+        apart: None,
+    }
 }
 
 /// The smallest radicand in code of this precision.
@@ -131,7 +216,7 @@ pub(super) fn root_or_zero(precision: Precision, x: Expr<'_>) -> Expr<'_> {
     x * x.at_least(least_squared(precision)).inverse_sqrt()
 }
 
-fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Polarised<'b> {
     let zero = c.builder().number(0.0);
     let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
     // Where t rounds to 0 and the square of n k underflows (k below 1e-19), `r` and `larger` would be 0. Roots that compilers
@@ -147,6 +232,7 @@ fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let a = t
         .choose_below(zero, smaller, larger)
         .named("a", "no cancellation on either side of t = 0");
+    let b = t.choose_below(zero, larger, smaller).named("b", "");
     let u = (2.0 * a * c).named("u", "");
 
     let sum = (r + c2).named("sum", "");
@@ -159,10 +245,13 @@ fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let glass = glass.named("r_s_glass", "R_s where t >= 0");
     let r_s = t.choose_below(zero, metal, glass).named("r_s", "");
 
-    merged(r_s, r, u, c2, s2)
+    Polarised {
+        phases: Some([r * c2 - s2.squared(), 2.0 * b * c * s2]),
+        ..merged(r_s, r, u, c2, s2)
+    }
 }
 
-fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Polarised<'b> {
     let tiny = Precision::F16.smallest();
     let number = |value: f64| c.builder().number(value);
     let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
@@ -180,16 +269,13 @@ fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
 
     let lost_s = 2.0 * u / (r + c2 + u).at_least(tiny);
     let lost_s = lost_s.named("lost_s", "1 - R_s");
-    let us2 = (u * s2).named("us2", "");
-    let lost = us2 / (r * c2 + s2.squared() + us2).at_least(tiny);
-    let lost = lost.named("lost", "1 - F / R_s");
-    let f = ((1.0 - lost_s) * (1.0 - lost)).saturate();
-    let f = f.named(
-        "f",
-        "where next to nothing is reflected, rounding must not make it negative",
-    );
-    let apart = (tau.abs() + nk).named("apart", "0 where there is no interface");
-    apart.choose_below(number(tiny), number(0.0), f)
+    Polarised {
+        s: lost_s,
+        x: (r * c2 + s2.squared()).named("x", ""),
+        us2: (u * s2).named("us2", ""),
+        phases: None,
+        apart: Some((tau.abs() + nk).named("apart", "0 where there is no interface")),
+    }
 }
 
 /// For materials where neither t < 0 nor a small reflectance causes cancellation: a as textbooks print it.
@@ -202,7 +288,7 @@ fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let u = (2.0 * a * c).named("u", "");
     let sum = (r + c2).named("sum", "");
     let r_s = ((sum - u) / (sum + u)).named("r_s", "R_s");
-    merged(r_s, r, u, c2, s2)
+    merged(r_s, r, u, c2, s2).mean()
 }
 
 #[cfg(test)]

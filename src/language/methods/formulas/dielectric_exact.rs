@@ -79,7 +79,7 @@ static MULTIPLIED_OUT: Method = Method {
 
 /// The smallest radicand, so that the quotient stays finite past the critical angle, and at 90 degrees where η = 1.
 /// Its root is small beside the smallest η², 1e-6. The square of the quotient that results is below the largest f32.
-const SMALLEST_SQUARE: f64 = 1e-18;
+pub(super) const SMALLEST_SQUARE: f64 = 1e-18;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
@@ -93,9 +93,6 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn two_squares<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let roots = roots(x);
     let q = quotient(x.cosine(), roots);
     let h = (x.cosine() * roots.g).named("h", "");
@@ -103,9 +100,6 @@ fn two_squares<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn multiplied_out<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let Roots { tau, c2, s4, g2, g } = roots(x);
     let h = (x.cosine() * g).named("h", "");
     let v = (c2 + h).named("v", "");

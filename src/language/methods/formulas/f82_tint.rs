@@ -97,9 +97,6 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 /// `F0 + (1 - c)^5 (1 - F0 + (tint b - b) c (1 - c))`. With a tint of 1 the difference is 0, since both products round alike.
 fn dip_first<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let (f0, tint) = (x.get(Input::F0), x.get(Input::TINT));
     let b =
         (SCALE * 9031.0 * f0 + SCALE * 7776.0).named("b", "the depth of the dip without a tint");

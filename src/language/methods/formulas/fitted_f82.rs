@@ -71,9 +71,6 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn each_channel<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let Weights { a, b, .. } = weights(x.cosine());
     let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
     (f0 + a * (1.0 - f0) + b * (f82 - f0)).saturate()

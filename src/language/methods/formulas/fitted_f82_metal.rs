@@ -31,37 +31,38 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     domain: "the result is limited to [0, 1]; for metals and semiconductors: of water it errs by 0.04",
     claims: Claims {
-        model: &[Claim::metals(0.0452, 87.5)],
-        code_ulp: 16.0,
+        model: &[Claim::metals(0.0271, 87.3)],
+        code_ulp: 9.0,
         code_over: MediaSet::Metals,
-        colours: ColourClaim::within(8.5e-6),
+        colours: ColourClaim::within(6e-7),
         by_class: &[
-            ByClass::of_class("metal", [0.0042, 0.0100], [0.0047, 0.0430], 0.0141),
-            ByClass::of_class("semiconductor", [0.0066, 0.0074], [0.0065, 0.0096], 0.0094),
+            ByClass::of_class("metal", [0.0037, 0.0089], [0.0030, 0.0336], 0.0090),
+            ByClass::of_class("semiconductor", [0.0027, 0.0036], [0.0038, 0.0070], 0.0067),
         ],
         ..Claims::NONE
     },
-    half: InHalf::Specialised("its coefficients cancel"),
+    half: InHalf::within(0.0045),
     build,
+    for_constants: Some(by_channel),
     coefficients: Some(CoefficientsFromInputs {
         fitted: "fitted",
         build: coefficients,
-        model: [0.0036, 0.0094],
-        code_abs: 7e-7,
+        model: [0.0034, 0.0088],
+        code_abs: 4.3e-6,
     }),
     ..Method::BASE
 };
 
 /// The numbers of g1 and g2: of X, Y, XY, Y² and H. Rounding them to four digits changes no page's error by more than 5e-5.
 const OF_LIBRARY: [[f64; 5]; 2] = [
-    [1.0921, -5.6991, -5.6928, 7.4093, 5.8618],
-    [-18.78, -19.4064, 19.1402, -39.4893, 70.6793],
+    [0.7933, -5.7916, -5.0517, 6.2321, 6.7222],
+    [-18.5664, -19.0808, 18.7348, -38.4907, 69.6092],
 ];
 /// The numbers of c1, c2 and c3: of X, Y, XY, Y², H and X².
 const OF_FITTED: [[f64; 6]; 3] = [
-    [5.2828, 4.708, -2.5954, 5.6722, -18.4048, 0.738],
-    [-9.0355, -21.2973, 8.0814, -17.3041, 53.8094, -2.0694],
-    [4.7497, 16.8131, -5.164, 11.3039, -35.7053, 1.2726],
+    [4.9009, 3.3056, -5.4495, 7.5257, -15.8129, 1.8363],
+    [-8.2937, -18.3943, 14.9038, -21.7169, 48.5374, -4.6799],
+    [4.3822, 15.2962, -9.2012, 13.9162, -33.0, 2.8133],
 ];
 
 /// What two colours lack of white.
@@ -77,8 +78,15 @@ struct Lacks<'b> {
 fn lacks<'b>(inputs: &Inputs<'b>) -> Lacks<'b> {
     let [x, y] = [Input::F0, Input::F82].map(|input| (1.0 - inputs.get(input)).saturate());
     let (x, y) = (x.named("x", ""), y.named("y", ""));
-    let ratio = y / (x + 0.5 * y).at_least(1e-6);
-    let ratio = ratio.named("ratio", "times x it is half of the harmonic mean of 2 x and y");
+    let least = match inputs.is_half() {
+        false => 1e-6,
+        true => inputs.precision().smallest(),
+    };
+    let ratio = y / (x + 0.5 * y).at_least(least);
+    let ratio = ratio.named(
+        "ratio",
+        "times x it is half of the harmonic mean of 2 x and y",
+    );
     Lacks { x, y, ratio }
 }
 
@@ -92,6 +100,18 @@ fn build<'b>(inputs: &Inputs<'b>) -> Expr<'b> {
     let of_y = (of_y - b).named("of_y", "");
     let sum = x * (of_x + of_xy * y + of_h * ratio) + y * (of_y + of_yy * y);
     (1.0 + sum).saturate()
+}
+
+/// `p (g1 + u g2)` with g1 and g2 of each channel, which are constants of a material.
+fn by_channel<'b>(inputs: &Inputs<'b>) -> Expr<'b> {
+    let Lacks { x, y, ratio } = lacks(inputs);
+    let Weights { u, s, a, b } = weights(inputs.cosine());
+    let [g1, g2] = OF_LIBRARY.map(|[of_x, of_y, of_xy, of_yy, of_h]| {
+        x * (of_x + of_xy * y + of_h * ratio) + y * (of_y + of_yy * y)
+    });
+    let p = (s * (u - 0.625)).named("p", "0 at 0, 81.79 and 90 degrees");
+    let dark = x * (a + b - 1.0) - y * b;
+    (1.0 + dark + p * (g1 + u * g2)).saturate()
 }
 
 fn coefficients<'b>(inputs: &Inputs<'b>) -> [Expr<'b>; 4] {

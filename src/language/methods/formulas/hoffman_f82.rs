@@ -81,9 +81,6 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 /// `F0 + (1 - c)^5 (1 - F0 + b c (1 - c))`, `b = (823543 / 46656) (F82 - F_S(1/7))`.
 fn dip_first<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
     let c = x.cosine();
     let b = PEAK * f82 - PEAK * WEIGHT_82 - PEAK * (1.0 - WEIGHT_82) * f0;
@@ -95,9 +92,6 @@ fn dip_first<'b>(x: &Inputs<'b>) -> Expr<'b> {
 
 /// `F0 + (1 - c)^5 (F82 d + (1 - w d) - F0 (1 + (1 - w) d))`, `d = (823543 / 46656) c (1 - c)`, `w = 7776 / 16807`.
 fn rise<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
     let c = x.cosine();
     let d = (PEAK * (c * (1.0 - c))).named("d", "");

@@ -26,6 +26,8 @@ mod belcour_decomposition;
 mod conductor_artistic;
 mod conductor_exact;
 mod conductor_exact_metal;
+mod conductor_exact_p;
+mod conductor_exact_s;
 mod conductor_from_f0_f82;
 mod conductor_textbook;
 mod constant_f0;
@@ -33,6 +35,7 @@ mod dielectric_exact;
 mod dielectric_exact_p;
 mod dielectric_exact_s;
 mod dielectric_textbook;
+mod dielectric_tinted;
 mod empirical;
 mod f82_tint;
 mod film_spectral_six;
@@ -40,6 +43,7 @@ mod film_spectral_three;
 mod fitted;
 mod fitted_dielectric;
 mod fitted_dielectric_rational;
+mod fitted_dielectric_tinted;
 mod fitted_f82;
 mod fitted_f82_metal;
 mod fitted_film;
@@ -50,6 +54,7 @@ mod hoffman_f82;
 mod iridescence_khr;
 mod schlick;
 mod schlick_corrected;
+mod schlick_f82_f90;
 mod schlick_f90;
 mod schlick_generalised;
 mod schlick_ior;
@@ -65,6 +70,8 @@ pub static ALL: &[&Method] = &[
     &conductor_artistic::METHOD,
     &conductor_exact::METHOD,
     &conductor_exact_metal::METHOD,
+    &conductor_exact_p::METHOD,
+    &conductor_exact_s::METHOD,
     &conductor_from_f0_f82::METHOD,
     &conductor_textbook::METHOD,
     &constant_f0::METHOD,
@@ -72,6 +79,7 @@ pub static ALL: &[&Method] = &[
     &dielectric_exact_p::METHOD,
     &dielectric_exact_s::METHOD,
     &dielectric_textbook::METHOD,
+    &dielectric_tinted::METHOD,
     &empirical::METHOD,
     &f82_tint::METHOD,
     &film_spectral_six::METHOD,
@@ -79,6 +87,7 @@ pub static ALL: &[&Method] = &[
     &fitted::METHOD,
     &fitted_dielectric::METHOD,
     &fitted_dielectric_rational::METHOD,
+    &fitted_dielectric_tinted::METHOD,
     &fitted_f82::METHOD,
     &fitted_f82_metal::METHOD,
     &fitted_film::METHOD,
@@ -89,6 +98,7 @@ pub static ALL: &[&Method] = &[
     &iridescence_khr::METHOD,
     &schlick::METHOD,
     &schlick_corrected::METHOD,
+    &schlick_f82_f90::METHOD,
     &schlick_f90::METHOD,
     &schlick_generalised::METHOD,
     &schlick_ior::METHOD,
@@ -106,6 +116,8 @@ impl Method {
     pub const CONDUCTOR_ARTISTIC: &'static Method = &conductor_artistic::METHOD;
     pub const CONDUCTOR_EXACT: &'static Method = &conductor_exact::METHOD;
     pub const CONDUCTOR_EXACT_METAL: &'static Method = &conductor_exact_metal::METHOD;
+    pub const CONDUCTOR_EXACT_P: &'static Method = &conductor_exact_p::METHOD;
+    pub const CONDUCTOR_EXACT_S: &'static Method = &conductor_exact_s::METHOD;
     pub const CONDUCTOR_FROM_F0_F82: &'static Method = &conductor_from_f0_f82::METHOD;
     pub const CONDUCTOR_TEXTBOOK: &'static Method = &conductor_textbook::METHOD;
     pub const CONSTANT_F0: &'static Method = &constant_f0::METHOD;
@@ -113,6 +125,7 @@ impl Method {
     pub const DIELECTRIC_EXACT_P: &'static Method = &dielectric_exact_p::METHOD;
     pub const DIELECTRIC_EXACT_S: &'static Method = &dielectric_exact_s::METHOD;
     pub const DIELECTRIC_TEXTBOOK: &'static Method = &dielectric_textbook::METHOD;
+    pub const DIELECTRIC_TINTED: &'static Method = &dielectric_tinted::METHOD;
     pub const EMPIRICAL: &'static Method = &empirical::METHOD;
     pub const F82_TINT: &'static Method = &f82_tint::METHOD;
     pub const FILM_SPECTRAL_SIX: &'static Method = &film_spectral_six::METHOD;
@@ -120,6 +133,7 @@ impl Method {
     pub const FITTED: &'static Method = &fitted::METHOD;
     pub const FITTED_DIELECTRIC: &'static Method = &fitted_dielectric::METHOD;
     pub const FITTED_DIELECTRIC_RATIONAL: &'static Method = &fitted_dielectric_rational::METHOD;
+    pub const FITTED_DIELECTRIC_TINTED: &'static Method = &fitted_dielectric_tinted::METHOD;
     pub const FITTED_F82: &'static Method = &fitted_f82::METHOD;
     pub const FITTED_F82_METAL: &'static Method = &fitted_f82_metal::METHOD;
     pub const FITTED_FILM: &'static Method = &fitted_film::METHOD;
@@ -130,6 +144,7 @@ impl Method {
     pub const IRIDESCENCE_KHR: &'static Method = &iridescence_khr::METHOD;
     pub const SCHLICK: &'static Method = &schlick::METHOD;
     pub const SCHLICK_CORRECTED: &'static Method = &schlick_corrected::METHOD;
+    pub const SCHLICK_F82_F90: &'static Method = &schlick_f82_f90::METHOD;
     pub const SCHLICK_F90: &'static Method = &schlick_f90::METHOD;
     pub const SCHLICK_GENERALISED: &'static Method = &schlick_generalised::METHOD;
     pub const SCHLICK_IOR: &'static Method = &schlick_ior::METHOD;
@@ -139,6 +154,7 @@ impl Method {
 }
 // END list
 
+pub(in crate::language) use conductor_exact::{Polarised, polarised};
 pub use f82_tint::schlick_82;
 pub use schlick_corrected::lambda;
 pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};

@@ -52,9 +52,6 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn parabola<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let (c, f0) = (x.cosine(), x.get(Input::F0));
     let p = (c * (2.0 - c) - 1.0).named("p", "-(1 - c)^2");
     f0 - p.squared() * ((1.0 - c) * (f0 - 1.0))

@@ -50,9 +50,6 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn each_channel<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    if x.is_half() {
-        return build(x);
-    }
     let f0 = x.get(Input::F0);
     f0 - (f0 - 1.0) * weight(x)
 }
