@@ -110,8 +110,9 @@ fn by_channel<'b>(inputs: &Inputs<'b>) -> Expr<'b> {
         x * (of_x + of_xy * y + of_h * ratio) + y * (of_y + of_yy * y)
     });
     let p = (s * (u - 0.625)).named("p", "0 at 0, 81.79 and 90 degrees");
-    let dark = x * (a + b - 1.0) - y * b;
-    (1.0 + dark + p * (g1 + u * g2)).saturate()
+    // Not from 1 downwards: a dark substance, such as water, would lose its digits.
+    let curve = (1.0 - x) + x * a + (x - y) * b;
+    (curve + p * (g1 + u * g2)).saturate()
 }
 
 fn coefficients<'b>(inputs: &Inputs<'b>) -> [Expr<'b>; 4] {
