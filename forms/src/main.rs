@@ -165,6 +165,7 @@ fn reported(
     let answers = ask_compilers(
         &families,
         &functions,
+        &|_, _| true,
         pool,
         &surroundings,
         &mut |_, _, _| {},
@@ -176,7 +177,8 @@ fn reported(
             continue;
         };
         let costs = figures.iter().zip(found);
-        let costs = costs.filter_map(|(figures, one)| Some((figures.as_ref().ok()?.cost(), one)));
+        let costs =
+            costs.filter_map(|(figures, one)| Some((figures.as_ref()?.as_ref().ok()?.cost(), one)));
         let best = costs.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.ulp.total_cmp(&b.1.ulp)));
         let record = records(family.name);
         let of = |written: &'static Method| {

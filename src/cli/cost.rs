@@ -1,6 +1,7 @@
 //! `cost`: what functions cost by the compilers of real GPUs.
 
 use core::time::Duration;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -35,7 +36,7 @@ use crate::pictures::table;
 #[derive(Args, Debug)]
 #[command(
     mut_arg("out_dir", |arg| arg.help("Write a page with all figures as cost.html into this folder")),
-    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --gpu rdna2 --effect interior --method schlick_ior\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own price. Shares are of dielectric_exact with its argument from a uniform. Where a compiler is not here, what was recorded of the same shader stands in its place. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with --require-all: something could not be measured, with --check: nothing could."
+    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --gpu rdna2 --effect interior --method schlick_ior\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own price. Shares are of dielectric_exact with its argument from a uniform. What this program has recorded of a shader is its answer; compilers are asked only about shaders without a record, and with --check about all. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with --require-all: something could not be measured, with --check: nothing could."
 )]
 pub struct CostFlags {
     /// Family of GPUs: operations (before any compiler), gcn4, rdna1, rdna2, rdna3, adreno330, malig72 ... [default: all]
@@ -53,7 +54,7 @@ pub struct CostFlags {
     /// What functions compute in: f32, f16 [default: each]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = precision())]
     pub precision: Vec<Precision>,
-    /// Compare what compilers say now with what was recorded; exit 1 where it differs
+    /// Ask compilers about every function, and compare what they say with what was recorded; exit 1 where it differs
     #[arg(long)]
     pub check: bool,
     /// Folder whose folder `mesa` holds compilers, searched before the folder `tools` beside this program
@@ -89,6 +90,7 @@ impl CostFlags {
                 "precision",
                 self.precision.iter().map(|precision| precision.name()),
             )
+            .switch("check", self.check)
     }
 }
 
@@ -116,20 +118,31 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         workers: machine::cores(),
     };
     let surroundings = Surroundings::new(flags.tools.as_deref())?;
-    let answers = ask_compilers(&families, &functions, pool, &surroundings, progress)?;
-    let table: Vec<Vec<CostRow>> = families
+    let records = families
         .iter()
-        .zip(&answers)
-        .map(|(family, answers)| {
-            cost_rows(family, answers.as_ref(), &records(family.name), &functions)
-        })
-        .collect();
+        .map(|family| (family.name, records(family.name)));
+    let records: BTreeMap<&str, CostRecord> = records.collect();
+    let is_asked = |family: &Family, function: &CostedFunction| {
+        flags.check || !records[family.name].answers(family, function)
+    };
+    let answers = ask_compilers(
+        &families,
+        &functions,
+        &is_asked,
+        pool,
+        &surroundings,
+        progress,
+    )?;
+    let table = families.iter().zip(&answers).map(|(family, answers)| {
+        cost_rows(family, answers.as_ref(), &records[family.name], &functions)
+    });
+    let table: Vec<Vec<CostRow>> = table.collect();
     let json = Report::new(
         flags.command_line(),
         table.iter().flatten().collect::<Vec<&CostRow>>(),
     );
     let (text, checked) = if flags.check {
-        let mut checked = RecordCheck::new(&table);
+        let mut checked = RecordCheck::new(&table, &records);
         (std::mem::take(&mut checked.text), checked)
     } else {
         (cost_text(&table), RecordCheck::NONE)
@@ -241,26 +254,26 @@ impl RecordCheck {
         text: String::new(),
     };
 
-    fn new(table: &[Vec<CostRow>]) -> RecordCheck {
+    fn new(table: &[Vec<CostRow>], records: &BTreeMap<&str, CostRecord>) -> RecordCheck {
         let mut all = RecordCheck::NONE;
         for rows in table {
             if let Some(first) = rows.first() {
-                all.add_family(first.family, rows);
+                all.add_family(first.family, rows, &records[first.family.name]);
             }
         }
         all
     }
 
-    fn add_family(&mut self, family: &Family, rows: &[CostRow]) {
-        let (name, record) = (family.name, records(family.name));
-        if let Some(why) = not_comparable(rows, &record) {
+    fn add_family(&mut self, family: &Family, rows: &[CostRow], record: &CostRecord) {
+        let name = family.name;
+        if let Some(why) = not_comparable(rows, record) {
             self.is_whole &= family.compiler.dialect().is_none();
             self.text += &format!("{name}: not checked: {why}\n");
             return;
         }
         let (mut agree, mut differ, mut unknown) = (0, 0, 0);
         for row in rows {
-            match difference(row, &record) {
+            match difference(row, record) {
                 None => unknown += 1,
                 Some(Ok(())) => agree += 1,
                 Some(Err(why)) => {
@@ -393,24 +406,29 @@ fn cost_and_share(row: &CostRow) -> String {
     }
 }
 
-/// The compiler of a family's figures, and the family's description.
+/// The family's description, and the compilers of its figures: the recorded one, and the one that was asked.
 fn about(rows: &[CostRow]) -> String {
     let Some(first) = rows.first() else {
         return String::new();
     };
     let family = first.family;
     let unknown = rows.iter().filter(|row| row.figures.is_err()).count();
-    let known = rows.iter().find(|row| row.figures.is_ok());
+    let compiler = |source| {
+        let mut of_source = rows.iter().filter(|row| row.source == Some(source));
+        of_source
+            .find(|row| row.figures.is_ok())?
+            .compiler
+            .as_deref()
+    };
     let mut about = format!(
         "{}: {}, {}",
         family.name, family.gpu, family.columns.measure
     );
-    match known.map(|row| (row.source, row.compiler.as_deref())) {
-        Some((Some(CostSource::Record), Some(compiler))) => {
-            about += &format!("; recorded with {compiler}")
-        }
-        Some((_, Some(compiler))) => about += &format!("; {compiler}"),
-        _ => {}
+    if let Some(compiler) = compiler(CostSource::Record) {
+        about += &format!("; recorded with {compiler}");
+    }
+    if let Some(compiler) = compiler(CostSource::Compiler) {
+        about += &format!("; {compiler}");
     }
     if let Some(Err(why)) = rows.iter().map(|row| &row.figures).find(|one| one.is_err()) {
         let why = why.strip_prefix("not measured: ").unwrap_or(why);

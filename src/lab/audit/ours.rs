@@ -91,7 +91,7 @@ impl CostedMethods {
         all.retain(|function| {
             function.is_asked && function.id.form == form || function.is_reference()
         });
-        let answers = ask_compilers(families, &all, pool, surroundings, progress)?;
+        let answers = ask_compilers(families, &all, &|_, _| true, pool, surroundings, progress)?;
         let each = families.iter().zip(&answers);
         let costs = each
             .map(|(family, answers)| costs(family, answers.as_ref(), &all))

@@ -35,6 +35,8 @@ pub struct CostedFunction {
     probe: Probe,
     /// The hash for each language, computed when first needed.
     hashes: [OnceLock<String>; 3],
+    /// The same of its shape.
+    shapes: [OnceLock<String>; 3],
 }
 
 /// The functions of these methods, in each precision that they are written in: library and scalar forms, and specialised ones for
@@ -118,6 +120,7 @@ impl CostedFunction {
             is_asked: true,
             probe: Probe::new(&graph, id.precision),
             hashes: Default::default(),
+            shapes: Default::default(),
             id,
             graph,
         }
@@ -144,8 +147,8 @@ impl CostedFunction {
     }
 
     /// The hash of that shader's shape.
-    pub fn shape(&self, dialect: Dialect) -> String {
-        self.probe.shape(dialect)
+    pub fn shape(&self, dialect: Dialect) -> &str {
+        self.shapes[dialect as usize].get_or_init(|| self.probe.shape(dialect))
     }
 
     /// The fragment shaders of both chains.

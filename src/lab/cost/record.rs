@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
-use super::function::FunctionId;
+use super::function::{CostedFunction, FunctionId};
 use super::probe::Probe;
 use crate::generator::emit::FunctionForm;
 use crate::language::ir::Checked;
@@ -60,6 +60,13 @@ impl CostRecord {
     ) -> &'static Method {
         let of = |gpu| method.written_for(gpu, form.name(), precision);
         self.gpu.map_or(method, of)
+    }
+
+    /// Whether a family's compiler need not be asked about a function: its shader is recorded, or the family has no arithmetic for it.
+    pub fn answers(&self, family: &Family, function: &CostedFunction) -> bool {
+        let is_known = |dialect| self.figures.contains_key(function.hash(dialect));
+        let cannot = function.id.precision.is_half() && !family.half;
+        cannot || family.compiler.dialect().is_some_and(is_known)
     }
 
     /// The record of a function.

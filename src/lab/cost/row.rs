@@ -3,7 +3,7 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::compilers::FamilyAnswers;
+use super::compilers::{FamilyAnswers, NOT_ASKED};
 use super::family::{Dialect, Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
 use super::function::{CostedFunction, FunctionId};
@@ -114,13 +114,15 @@ pub fn cost_rows(
             }
             (GpuCompiler::Operations, _) => counted(function),
             (GpuCompiler::None(why), _) => (None, None, Err(why.to_owned())),
-            (_, Some(FamilyAnswers::Fresh(compiler, answers))) => {
-                let source = CostSource::Compiler;
-                let compiler = Some(compiler.clone());
-                (Some(source), compiler, answers[place].clone())
-            }
+            (_, Some(FamilyAnswers::Fresh(compiler, answers))) => match &answers[place] {
+                Some(answer) => {
+                    let source = CostSource::Compiler;
+                    (Some(source), Some(compiler.clone()), answer.clone())
+                }
+                None => recorded(function, dialect, record, NOT_ASKED),
+            },
             (_, Some(FamilyAnswers::Absent(why))) => recorded(function, dialect, record, why),
-            (_, None) => recorded(function, dialect, record, "its compiler was not asked"),
+            (_, None) => recorded(function, dialect, record, NOT_ASKED),
         };
         CostRow {
             id: function.id.clone(),
@@ -131,7 +133,7 @@ pub fn cost_rows(
             figures,
             share: None,
             shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
-            shape: dialect.map(|dialect| function.shape(dialect)),
+            shape: dialect.map(|dialect| function.shape(dialect).to_owned()),
         }
     };
     let rows: Vec<CostRow> = functions.iter().enumerate().map(row).collect();

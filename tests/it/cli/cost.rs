@@ -117,6 +117,36 @@ fn where_a_compiler_is_absent_the_record_serves_if_it_is_of_the_same_shader() {
     }
 }
 
+/// The record answers for its own shaders whether a compiler is here or not; `--check` asks about them too.
+#[test]
+fn what_is_recorded_is_not_asked_again() {
+    let place = Place::new();
+    let line =
+        "cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold --json -";
+    let ran = place.run(line).ends(0);
+    assert!(read(&ran).iter().all(|row| row["from"] == "record"));
+    assert_eq!(without_driver(&place, line).ends(0).out, ran.out);
+    let line = "cost --gpu rdna2 --method conductor_exact --material copper,gold --precision f32";
+    let from = |flags: &str| {
+        let ran = place.run(&format!("{line} {flags} --json -"));
+        let all = read(&ran).into_iter();
+        all.map(|row| row["from"].as_str().map(str::to_owned))
+            .collect::<Vec<_>>()
+    };
+    let [record, compiler] = ["record", "compiler"].map(|from| Some(from.to_owned()));
+    if from("--check").contains(&None) {
+        return not_checked("costs by the compiler of AMD's cards: it is not here");
+    }
+    assert!(from("--check").iter().all(|from| *from == compiler));
+    let usual = from("");
+    assert_eq!(usual.iter().filter(|from| **from == compiler).count(), 1);
+    assert!(
+        usual
+            .iter()
+            .all(|from| *from == record || *from == compiler)
+    );
+}
+
 #[test]
 fn what_is_counted_today_is_what_was_recorded() {
     let place = Place::new();

@@ -12,7 +12,8 @@ const INTRODUCTION: &str = "\
 Of one evaluation of the exact law for dielectrics `schlick` costs {schlick}, `fitted` {fitted} and `f82_tint` {f82_tint}, by family of GPUs.
 
 Written from the record that `tests/costs` keeps (`data/records/costs/`), and held by a test. `fresnel-gen cost` says the
-same of every function, specialised ones too, and asks the compilers that are here; `--check` compares with the record.
+same of every function, specialised ones too; of one that is not recorded it asks the compilers that are here. `--check` asks them
+of all, and compares with the record.
 
 - **One evaluation** is the cost that one more evaluation in a chain adds to a fragment shader: (cost of eight − cost of four) / 4.
   GPUs of OpenGL ES 2.0 limit program length; there it is cost of two − cost of one. The cost of the chain itself, measured with an
