@@ -13,7 +13,9 @@ use super::film::Film;
 use super::formula::Extrapolate;
 use super::material::{Index, Material};
 use crate::physics::num::each_channel;
-use crate::physics::optics::{Layer, Reflectance, dielectric, under_films};
+use crate::physics::optics::{
+    Layer, Reflectance, dielectric, under_films, unpolarised, unpolarised_under_films,
+};
 use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM, Step};
 
 /// The conditions under which reflectance becomes three channels.
@@ -214,8 +216,14 @@ impl Surface {
 
     /// The reflectance at each wavelength for unpolarised light.
     pub fn unpolarised_spectrum(&self, cos_theta: f64) -> Vec<f64> {
-        let both = self.spectrum(cos_theta);
-        both.map(Reflectance::unpolarised).collect()
+        if self.films.is_empty() {
+            let indices = self.indices.iter();
+            return indices
+                .map(|index| unpolarised(index.n, index.k, cos_theta))
+                .collect();
+        }
+        let bases = self.indices.iter().map(|index| (index.n, index.k));
+        unpolarised_under_films(&self.films, &bases.collect::<Vec<_>>(), cos_theta)
     }
 
     /// What the surface adds to a clear coat of index `coat` that lies on it, at a cosine outside, without gamut mapping. A renderer draws

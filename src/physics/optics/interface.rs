@@ -66,6 +66,45 @@ pub fn conductor<N: Num>(n: N, k: N, cos_theta: N) -> Reflectance<N> {
     }
 }
 
+/// [`conductor`] in `f64` for unpolarised light, to the bit, without a branch: in a loop over wavelengths a compiler takes several
+/// at a time.
+///
+/// ```
+/// use fresnel_gen::physics::optics::{conductor, unpolarised};
+///
+/// assert_eq!(unpolarised(0.06, 3.6, 0.3), conductor(0.06, 3.6, 0.3).unpolarised());
+/// ```
+#[inline]
+pub fn unpolarised(n: f64, k: f64, cos_theta: f64) -> f64 {
+    let squared = Complex::new((n - k) * (n + k), 2.0 * n * k);
+    let w = root(normal_component(n, k, cos_theta));
+    let s = power_ratio(Complex::real(cos_theta), w);
+    let p = power_ratio(squared.scale(cos_theta), w);
+    let is_nothing = (n - 1.0 == 0.0) & (k == 0.0);
+    0.5 * choose(is_nothing, 0.0, s + p)
+}
+
+/// [`Complex::sqrt`] to the bit, without a branch.
+#[inline]
+pub(super) fn root(z: Complex<f64>) -> Complex<f64> {
+    let (real, imaginary) = (z.re.abs(), z.im.abs());
+    let large = choose(real > imaginary, real, imaginary);
+    let ratio = choose(real > imaginary, imaginary, real) / large;
+    let modulus = choose(large == 0.0, large, large * (1.0 + ratio * ratio).sqrt());
+    let large = (0.5 * (modulus + real)).sqrt();
+    let small = choose(large == 0.0, 0.0, 0.5 * z.im / large);
+    let (is_left, is_below) = (z.re < 0.0, z.im < 0.0);
+    Complex::new(
+        choose(is_left, choose(is_below, -small, small), large),
+        choose(is_left, choose(is_below, -large, large), small),
+    )
+}
+
+#[inline]
+fn choose(condition: bool, yes: f64, no: f64) -> f64 {
+    if condition { yes } else { no }
+}
+
 /// Reflectance of the surface between two transparent media; `eta` = n_t/n_i > 0.
 ///
 /// ```
@@ -218,6 +257,21 @@ mod tests {
             let law = conductor(n, k, 1.0);
             assert!((law.s - expected).abs() < 1e-15, "{n} {k}");
             assert!((law.p - expected).abs() < 1e-15, "{n} {k}");
+        }
+    }
+
+    #[test]
+    fn the_law_without_branches_is_the_law_to_the_bit() {
+        let parts = [0.0, 1e-300, 1e-9, 0.2, 0.7, 1.0, 1.33, 1.5, 2.4, 7.9, 1e9];
+        for n in parts.into_iter().filter(|n| *n > 0.0) {
+            for k in parts {
+                for i in 0..=400 {
+                    let cos_theta = f64::from(i) / 400.0;
+                    let want = conductor(n, k, cos_theta).unpolarised();
+                    let got = unpolarised(n, k, cos_theta);
+                    assert_eq!(got.to_bits(), want.to_bits(), "{n} {k} {cos_theta}");
+                }
+            }
         }
     }
 

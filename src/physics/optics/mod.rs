@@ -14,10 +14,11 @@ mod interface;
 use crate::physics::num::Num;
 
 pub use coat::{UnderCoat, under_coat};
-pub use film::{Layer, under_films};
+pub use film::{Layer, under_films, unpolarised_under_films};
 pub use ggx::Ggx;
 pub use interface::{
     EffectiveIndex, LARGEST_F0, conductor, dielectric, index_from_f0_f82, normal_incidence,
+    unpolarised,
 };
 
 /// The angle of the second colour of a metal, about 81.79 degrees: cos θ = 1/7 is where the correction of Schlick's
