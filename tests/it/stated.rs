@@ -12,7 +12,7 @@ use super::gamut;
 use super::readme::page;
 use super::readme::replaced;
 use fresnel_gen::generator::emit::FunctionForm;
-use fresnel_gen::generator::fit::{FitCurve, InputChoice, MethodErrors, colour_errors};
+use fresnel_gen::generator::fit::{InputChoice, MaterialTruth, MethodErrors, colour_errors};
 use fresnel_gen::generator::reference::{MaterialClass, MaterialInMedium};
 use fresnel_gen::lab::cost::{FunctionId, records};
 use fresnel_gen::language::methods;
@@ -80,8 +80,8 @@ fn errors(of: MaterialClass, name: &str, inputs: InputChoice) -> Vec<f64> {
     let method = methods::find(name).expect("it is a method");
     let function = method.function(false).expect("it builds");
     let error = |subject: &&MaterialInMedium| {
-        let curve = FitCurve::new(|c| subject.reference.at(c));
-        let errors = MethodErrors::new((method, &function), inputs, subject, &curve, Space::Srgb);
+        let truth = MaterialTruth::new(subject, Space::Srgb);
+        let errors = MethodErrors::new((method, &function), inputs, &truth);
         errors.max_abs.expect("it is no texture")
     };
     class(of).iter().map(error).collect()

@@ -2,8 +2,8 @@
 
 use super::best_inputs::{best_inputs, values_at};
 use super::derive::values_for_material;
-use super::model_error::{error_of, model_error};
-use super::perceived::perceived;
+use super::model_error::{SharedReference, model_error};
+use super::perceived::SeenReference;
 use super::problem::FitCurve;
 use crate::generator::reference::MaterialInMedium;
 use crate::language::ir::{Checked, Value};
@@ -34,28 +34,47 @@ pub enum InputChoice {
 
 const BUILT: &str = "a test builds every method";
 
+/// What the methods for a material are held against, computed once for all of them.
+pub struct MaterialTruth<'a> {
+    subject: &'a MaterialInMedium,
+    curve: FitCurve,
+    shared: SharedReference<'a>,
+    seen: SeenReference,
+}
+
+impl<'a> MaterialTruth<'a> {
+    /// The truth of a material, with colours in this space.
+    pub fn new(subject: &'a MaterialInMedium, space: Space) -> MaterialTruth<'a> {
+        let shared = SharedReference::new(&subject.reference);
+        MaterialTruth {
+            subject,
+            curve: FitCurve::of(subject),
+            seen: SeenReference::new(&shared.table, space),
+            shared,
+        }
+    }
+}
+
 impl MethodErrors {
-    /// The errors of a method's library function, which is given too. Angles at which it gives no number are left out. `curve` is
-    /// the reference reflectance of the material.
+    /// The errors of a method's library function, which is given too, for a material. Angles at which it gives no number are left out.
     pub fn new(
         (method, function): (&Method, &Checked),
         inputs: InputChoice,
-        subject: &MaterialInMedium,
-        curve: &FitCurve,
-        space: Space,
+        truth: &MaterialTruth,
     ) -> MethodErrors {
+        let subject = truth.subject;
         let values = values_for_material(subject, method);
         if method.is_textured() {
             return MethodErrors::of_texture(method, &values, subject);
         }
-        let best = || best_inputs((method, function), &values, curve);
+        let best = || best_inputs((method, function), &values, &truth.curve);
         let best = (inputs == InputChoice::Best).then(best).flatten();
         let values = best.unwrap_or(values);
         let run = |cosines: &[f64]| -> Value<f64> {
             values_at(function, method.inputs, &values, cosines)
         };
-        let error = error_of(&subject.reference, &run);
-        let perceived = perceived(&subject.reference, space, &run);
+        let error = truth.shared.error_of(&run);
+        let perceived = truth.seen.perceived(&run);
         MethodErrors {
             max_abs: Some(error.max_abs),
             mean_rel: error.mean_rel,

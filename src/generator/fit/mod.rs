@@ -32,7 +32,7 @@ pub use material_params::{
     CoatedRow, ColourErrors, MaterialParams, MeasuredSpread, abbe_in, colour_errors, ior_in,
     material_params,
 };
-pub use method_errors::{InputChoice, MethodErrors};
+pub use method_errors::{InputChoice, MaterialTruth, MethodErrors};
 pub use model_error::{
     ModelError, arguments, difference, error_from, error_of, model_error, rounded_up, single_error,
     table_of, texels,

@@ -1,5 +1,8 @@
 //! Model error: a method against the exact law, over all angles. It is never to be added to code error.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::generator::reference::{ANGLES, COSINES, ReferenceCurve};
@@ -77,18 +80,54 @@ pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelErro
 
 /// The model error of three channels that `values` gives at some cosines.
 pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
-    let (at, want) = (&COSINES[..], reference.table());
-    let given = values(at);
-    let mut error = difference(&given, &want, at);
-    let first = (error.max_abs, error.worst_cos);
-    let wide = libm::acos(first.1).max(1e-3) / 8.0;
-    error.keep_larger(refined(first, wide, reference, values));
-    if is_totally_reflecting(at, &want) {
-        for start in worst_of_channels(&given, &want, at) {
-            error.keep_larger(refined(start, 2.0 * BETWEEN, reference, values));
+    SharedReference::new(reference).error_of(values)
+}
+
+/// A reference that several methods are held against. What it is at a cosine is computed once for all of them.
+pub(super) struct SharedReference<'a> {
+    reference: &'a ReferenceCurve,
+    /// Its reflectance at [`COSINES`].
+    pub(super) table: Vec<[f64; 3]>,
+    /// Whether there is total reflection before 90 degrees.
+    is_totally_reflecting: bool,
+    /// Its reflectance at other cosines, by their bits.
+    between: RefCell<HashMap<u64, [f64; 3]>>,
+}
+
+impl<'a> SharedReference<'a> {
+    /// The reference, at no cosine yet but those of its table.
+    pub fn new(reference: &'a ReferenceCurve) -> SharedReference<'a> {
+        let table = reference.table();
+        SharedReference {
+            reference,
+            is_totally_reflecting: is_totally_reflecting(&COSINES, &table),
+            table,
+            between: RefCell::default(),
         }
     }
-    error
+
+    fn at(&self, cos_theta: f64) -> [f64; 3] {
+        let mut between = self.between.borrow_mut();
+        *between
+            .entry(cos_theta.to_bits())
+            .or_insert_with(|| self.reference.at(cos_theta))
+    }
+
+    /// The model error of three channels that `values` gives at some cosines.
+    pub fn error_of(&self, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
+        let (at, want) = (&COSINES[..], &self.table);
+        let given = values(at);
+        let mut error = difference(&given, want, at);
+        let first = (error.max_abs, error.worst_cos);
+        let wide = libm::acos(first.1).max(1e-3) / 8.0;
+        error.keep_larger(refined(first, wide, self, values));
+        if self.is_totally_reflecting {
+            for start in worst_of_channels(&given, want, at) {
+                error.keep_larger(refined(start, 2.0 * BETWEEN, self, values));
+            }
+        }
+        error
+    }
 }
 
 /// Whether there is total reflection before 90 degrees. Each channel then has its own critical angle, and the error has a cusp
@@ -117,7 +156,7 @@ const BETWEEN: f64 = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
 fn refined(
     (mut most, mut worst_cos): (f64, f64),
     mut reach: f64,
-    reference: &ReferenceCurve,
+    reference: &SharedReference,
     values: &dyn Fn(&[f64]) -> Value<f64>,
 ) -> (f64, f64) {
     for _ in 0..REFINEMENTS {

@@ -1,6 +1,6 @@
 //! Perceived error: of luminance, and of colour by CIEDE2000 beside a perfect mirror under the white of the space.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use serde::Serialize;
 
 use crate::generator::reference::{ANGLES, COSINES, ReferenceCurve};
@@ -26,34 +26,73 @@ pub fn perceived(
     space: Space,
     values: &dyn Fn(&[f64]) -> Value<f64>,
 ) -> Perceived {
-    let at = COSINES[..ANGLES].iter().copied().step_by(EVERY);
-    let at: Vec<f64> = at.collect();
-    let table = reference.table();
-    let wanted = table[..ANGLES].iter().step_by(EVERY);
-    let given = values(&at);
-    let mut largest = Perceived::default();
-    for (point, wanted) in wanted.enumerate() {
-        let (given, wanted) = (DVec3::from(given.at(point)), DVec3::from(*wanted));
-        if given.is_finite() {
-            largest.include(given, wanted, space);
+    SeenReference::new(&reference.table(), space).perceived(values)
+}
+
+/// A reference as colours, against which several methods are seen.
+pub(super) struct SeenReference {
+    beside: BesideWhite,
+    wanted: Vec<(DVec3, Lab)>,
+}
+
+impl SeenReference {
+    /// The reference with this reflectance at [`COSINES`].
+    pub fn new(table: &[[f64; 3]], space: Space) -> SeenReference {
+        let beside = BesideWhite::of(space);
+        let wanted = table[..ANGLES].iter().step_by(EVERY);
+        let seen = |rgb: &[f64; 3]| (DVec3::from(*rgb), beside.lab(DVec3::from(*rgb)));
+        SeenReference {
+            wanted: wanted.map(seen).collect(),
+            beside,
         }
     }
-    largest
+
+    /// The perceived errors of three channels that are given at some cosines.
+    pub fn perceived(&self, values: &dyn Fn(&[f64]) -> Value<f64>) -> Perceived {
+        let at = COSINES[..ANGLES].iter().copied().step_by(EVERY);
+        let given = values(&at.collect::<Vec<f64>>());
+        let mut largest = Perceived::default();
+        for (point, wanted) in self.wanted.iter().enumerate() {
+            let given = DVec3::from(given.at(point));
+            if given.is_finite() {
+                largest.include(given, *wanted, &self.beside);
+            }
+        }
+        largest
+    }
 }
 
 impl Perceived {
-    fn include(&mut self, given: DVec3, wanted: DVec3, space: Space) {
-        let to_xyz = space.rgb_to_xyz();
-        let luminance = to_xyz.row(1).dot(given - wanted).abs();
+    fn include(&mut self, given: DVec3, (wanted, lab): (DVec3, Lab), beside: &BesideWhite) {
+        let luminance = beside.to_xyz.row(1).dot(given - wanted).abs();
         self.luminance = self.luminance.max(luminance);
-        let seen = ciede2000(lab(given, space), lab(wanted, space));
+        let seen = ciede2000(beside.lab(given), lab);
         self.de2000 = self.de2000.max(seen);
+    }
+}
+
+/// What makes three channels a colour beside the white of their space.
+struct BesideWhite {
+    to_xyz: DMat3,
+    white: DVec3,
+}
+
+impl BesideWhite {
+    fn of(space: Space) -> BesideWhite {
+        BesideWhite {
+            to_xyz: space.rgb_to_xyz(),
+            white: space.white(),
+        }
+    }
+
+    fn lab(&self, rgb: DVec3) -> Lab {
+        xyz_to_lab(self.to_xyz * rgb, self.white)
     }
 }
 
 /// Three channels as a colour beside the white of their space.
 pub(super) fn lab(rgb: DVec3, space: Space) -> Lab {
-    xyz_to_lab(space.rgb_to_xyz() * rgb, space.white())
+    BesideWhite::of(space).lab(rgb)
 }
 
 #[cfg(test)]
@@ -95,8 +134,8 @@ mod tests {
         let shares = Space::Srgb.rgb_to_xyz().row(1);
         let wanted = DVec3::new(0.9, 0.7, 0.4);
         let given = wanted + DVec3::new(0.1, -0.1 * shares.x / shares.y, 0.0);
-        let mut found = Perceived::default();
-        found.include(given, wanted, Space::Srgb);
+        let (mut found, beside) = (Perceived::default(), BesideWhite::of(Space::Srgb));
+        found.include(given, (wanted, beside.lab(wanted)), &beside);
         assert!(found.luminance < 1e-12 && found.de2000 > 1.0, "{found:?}");
     }
 }

@@ -5,6 +5,8 @@
 //! the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves
 //! it.
 
+use core::cell::LazyCell;
+
 use super::reference_curve::{ReferenceCurve, reference_reflectance};
 use crate::language::methods::Light;
 use crate::physics::materials::{Channels, Index, MaterialKind};
@@ -72,7 +74,7 @@ pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
         };
     }
     let transparent = kind == MaterialKind::Dielectric && reference.surface.most_k() < FAINT_K;
-    let curve = curve(reference, if transparent { FINE } else { ANGLES });
+    let curve = LazyCell::new(|| curve(reference, if transparent { FINE } else { ANGLES }));
     let at = |c: f64| reference_reflectance(&reference.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
     let each = each_channel(|i| {

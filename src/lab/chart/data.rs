@@ -4,10 +4,12 @@
 //! The axes of cost are compilers' counts of library functions, the graph's own operations, and times. A logarithmic axis has no
 //! 0, so a function that costs nothing has no point there.
 
+use std::sync::LazyLock;
+
 use super::audited::ChartedFunction;
 use super::sets::sets;
 use super::view::{ChartData, ChartEntry, CostAxis, FunctionOrigin};
-use crate::generator::fit::{FitCurve, InputChoice, MethodErrors};
+use crate::generator::fit::{InputChoice, MaterialTruth, MethodErrors};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::lab::overdraw::library_times;
@@ -16,10 +18,12 @@ use crate::language::methods::{ALL, Light, Method};
 use crate::physics::num::in_parallel;
 use crate::physics::spectra::Space;
 
+/// The axes of cost of all entries.
+static AXES: LazyLock<Vec<CostAxis>> = LazyLock::new(|| axes(&entries()));
+
 /// The names of all axes of cost.
 pub fn cost_names() -> Vec<&'static str> {
-    let axes = axes(&entries());
-    axes.iter().map(|axis| axis.name).collect()
+    AXES.iter().map(|axis| axis.name).collect()
 }
 
 /// The data of charts of these materials, with a user's function as one more entry. `progress` is told how many are done.
@@ -35,7 +39,12 @@ pub fn chart_data(
     if let Some(own) = own {
         own.join(&mut errors);
     }
-    let data = of_errors(entries, &errors, materials, command);
+    let data = ChartData {
+        costs: AXES.clone(),
+        sets: sets(materials, &errors),
+        entries,
+        command,
+    };
     match own {
         Some(own) => own.with_function(data),
         None => data,
@@ -51,20 +60,11 @@ pub fn intended_data(
 ) -> ChartData {
     let entries: Vec<ChartEntry> = methods.map(intended).collect();
     let errors = errors(&entries, materials, space, progress);
-    of_errors(entries, &errors, materials, String::new())
-}
-
-fn of_errors(
-    entries: Vec<ChartEntry>,
-    errors: &[Vec<MethodErrors>],
-    materials: &[MaterialInMedium],
-    command: String,
-) -> ChartData {
     ChartData {
         costs: axes(&entries),
-        sets: sets(materials, errors),
+        sets: sets(materials, &errors),
         entries,
-        command,
+        command: String::new(),
     }
 }
 
@@ -120,7 +120,7 @@ fn entry_errors(
     material: &MaterialInMedium,
     space: Space,
 ) -> Vec<MethodErrors> {
-    let curve = FitCurve::of(material);
+    let truth = MaterialTruth::new(material, space);
     let one = |(entry, function): (&ChartEntry, &Option<Checked>)| match (entry.method(), function)
     {
         (Some(method), Some(function)) if material.is_described_by(method) => {
@@ -129,7 +129,7 @@ fn entry_errors(
             } else {
                 InputChoice::Intended
             };
-            MethodErrors::new((method, function), inputs, material, &curve, space)
+            MethodErrors::new((method, function), inputs, &truth)
         }
         _ => MethodErrors::default(),
     };

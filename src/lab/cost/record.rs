@@ -244,18 +244,20 @@ pub fn known_library_cost(
     if is_scalar && !method.has_scalar_form() {
         return None;
     }
+    let recorded = record.of_library(method, form, precision);
+    let recorded = recorded.map(|figures| KnownCost {
+        cost: figures.cost(),
+        basis: CostBasis::Function,
+    });
+    // What computes nothing is recorded as 0, so that what costs something need not be built.
+    if recorded.is_some_and(|known| known.cost > 0.0) && family.compiler.dialect().is_some() {
+        return recorded;
+    }
     let function = record
         .written(method, form, precision)
         .function_in(precision, is_scalar)
         .ok()?;
-    let recorded = || {
-        let figures = record.of_library(method, form, precision)?;
-        Some(KnownCost {
-            cost: figures.cost(),
-            basis: CostBasis::Function,
-        })
-    };
-    uncompiled_cost(&function, family).or_else(recorded)
+    uncompiled_cost(&function, family).or(recorded)
 }
 
 #[cfg(test)]
