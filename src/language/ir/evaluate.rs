@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::check::Checked;
-use super::graph::{Function, Node};
+use super::graph::{Function, Node, NodeId};
 use super::op::{Op, Payload};
 use super::texture::{CubeTexels, Texels, Weights};
 use crate::physics::num::{Num, Truth, each_channel};
@@ -306,6 +306,52 @@ pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> 
     });
     let joined = chunks.reduce(Value::joined);
     joined.expect("there are more points than a chunk has")
+}
+
+/// A function that is evaluated again and again with the same first arguments. What depends on nothing else is computed once.
+pub struct Repeated<'a, N> {
+    function: &'a Checked,
+    /// The values of all nodes, the last ones of those that vary.
+    values: Vec<Value<N>>,
+    /// The nodes that depend on other arguments, in order.
+    varying: Vec<NodeId>,
+}
+
+impl<'a, N: Num> Repeated<'a, N> {
+    /// The function with these arguments first. What varies is computed by [`Repeated::result`].
+    pub fn new(function: &'a Checked, first: &[Value<N>]) -> Repeated<'a, N> {
+        let mut values: Vec<Value<N>> = Vec::with_capacity(function.nodes.len());
+        let mut varying: Vec<NodeId> = Vec::new();
+        for (id, node) in function.nodes.iter().enumerate() {
+            let is_later = matches!((node.op, node.payload), (Op::Param, Payload::Index(index)) if index >= first.len());
+            if is_later
+                || node
+                    .args
+                    .iter()
+                    .any(|arg| varying.binary_search(arg).is_ok())
+            {
+                varying.push(id);
+                values.push(Value::scalar(0.0));
+            } else {
+                let value = apply(node, &values, first);
+                values.push(value);
+            }
+        }
+        Repeated {
+            function,
+            values,
+            varying,
+        }
+    }
+
+    /// The result for these arguments, the first ones included.
+    pub fn result(&mut self, arguments: &[Value<N>]) -> &Value<N> {
+        for id in &self.varying {
+            let value = apply(&self.function.nodes[*id], &self.values, arguments);
+            self.values[*id] = value;
+        }
+        &self.values[self.function.result]
+    }
 }
 
 /// The values of all nodes, not only of the result.

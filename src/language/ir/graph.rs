@@ -120,6 +120,39 @@ impl Function {
         self.work() == 0 && self.fetches() == 0
     }
 
+    /// Whether each channel of the result depends on that channel of its arguments alone.
+    pub fn keeps_channels_apart(&self) -> bool {
+        const ALL: u8 = 0b111;
+        // For each component of each node, a bit for each channel that it depends on.
+        let mut read: Vec<[u8; 3]> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let arg = |i: usize| read[node.args[i]];
+            let union = |i: usize| node.args.iter().fold(0, |all, arg| all | read[*arg][i]);
+            read.push(match (node.op.info().signature, node.payload) {
+                (Signature::Number, _) => [0; 3],
+                (Signature::Param, _) => match node.ty {
+                    Ty::Scalar => [0; 3],
+                    Ty::Vec3 => [1, 2, 4],
+                    _ => [ALL; 3],
+                },
+                (Signature::Channel, Payload::Index(index @ 0..3)) => [arg(0)[index]; 3],
+                (Signature::Compose, _) => [arg(0)[0], arg(1)[0], arg(2)[0]],
+                (
+                    Signature::Splat
+                    | Signature::Unary
+                    | Signature::Alike
+                    | Signature::Mixed
+                    | Signature::Compare
+                    | Signature::Choose,
+                    _,
+                ) => [union(0), union(1), union(2)],
+                _ => [ALL; 3],
+            });
+        }
+        let result = read[self.result];
+        (0..3).all(|i| result[i] & !(1 << i) == 0)
+    }
+
     /// How many scalar operations of one kind an evaluation takes.
     pub fn count(&self, op: Op) -> usize {
         self.nodes

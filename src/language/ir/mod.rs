@@ -28,7 +28,7 @@ mod texture;
 
 pub use build::{Builder, Expr};
 pub use check::{BrokenRule, Checked, RULES, check, check_in};
-pub use evaluate::{Column, Value, evaluate};
+pub use evaluate::{Column, Repeated, Value, evaluate};
 pub use fold::{USED_TWICE, fold, fold_in, specialise, specialise_in};
 pub use graph::{COSINE, Function, Label, Node, NodeId, Param, print};
 pub use op::{Letters, OPS, Op, Payload, Signature, Ty};
