@@ -7,7 +7,6 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{GlobalVariable, Handle, Module};
 use serde::Serialize;
 
-use crate::generator::emit::validate_wgsl;
 use crate::pictures::scene::GLES_CALLS;
 
 /// The translation failed: a bug.
@@ -72,14 +71,14 @@ const CALLS: [&str; 4] = [
 /// picture are counted from the top, as in WebGPU.
 ///
 /// # Errors
-/// naga refuses the text, or writes it in an unexpected form.
+/// naga refuses the module, or writes it in an unexpected form.
 pub fn lowered(
-    wgsl: &str,
+    module: &Module,
     entry: &str,
     functions: &[String],
     is_off_screen: bool,
 ) -> Result<GlesProgram, LoweringFault> {
-    let (mut module, _) = validate_wgsl(wgsl).map_err(LoweringFault)?;
+    let mut module = module.clone();
     // naga also writes functions that are not called.
     module.entry_points.retain(|point| point.name == entry);
     compact(&mut module, KeepUnused::No);

@@ -98,9 +98,11 @@ pub fn gallery(
     let mut meshes = BTreeMap::new();
     for row in row::rows() {
         let mut images = BTreeMap::from([(SKY.to_owned(), SKY.to_owned())]);
-        for (slot, texture) in textures_of(row) {
-            images.insert(format!("{slot:?}"), texture.name.clone());
-            textures.entry(texture.name.clone()).or_insert(texture);
+        for (slot, source) in textures_of(row) {
+            images.insert(format!("{slot:?}"), source.name());
+            textures
+                .entry(source.name())
+                .or_insert_with(|| source.packed());
         }
         meshes
             .entry((row.body.name(), false))

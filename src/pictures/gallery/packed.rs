@@ -59,36 +59,65 @@ pub fn sky_texture() -> PackedTexture {
     texture(SKY.to_owned(), &sky().table)
 }
 
+/// A texture that rows read, before it is packed. Several rows read the same one.
+pub enum TextureSource {
+    /// The room around a body.
+    Room,
+    /// Dents of this slope.
+    Dents(f64),
+    /// A table of a body.
+    Table(Body, Slot, &'static Texels),
+}
+
 /// The textures that a row reads besides what it draws, by slot.
-pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
+pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, TextureSource> {
     let mut all = BTreeMap::new();
     if row.in_room {
-        let room = halves("Room".to_owned(), [CUBE, CUBE, 6], &room_cube(CUBE));
-        all.insert(Slot::Room, room);
+        all.insert(Slot::Room, TextureSource::Room);
     }
     if let Some(slope) = row.dents {
-        let dents = texture(
-            format!("dents of {slope}"),
-            &Relief::hammered(slope).normals,
-        );
-        all.insert(Slot::Relief, dents);
+        all.insert(Slot::Relief, TextureSource::Dents(slope));
     }
-    for (slot, table) in reduced_tables(row.body) {
-        let name = format!("{} {slot:?}", row.body.name());
-        all.insert(slot, texture(name, &table));
+    for (slot, table) in row.body.tables() {
+        all.insert(slot, TextureSource::Table(row.body, slot, table));
     }
     all
 }
 
+impl TextureSource {
+    /// Its name, which no other texture has.
+    pub fn name(&self) -> String {
+        match self {
+            TextureSource::Room => "Room".to_owned(),
+            TextureSource::Dents(slope) => format!("dents of {slope}"),
+            TextureSource::Table(body, slot, _) => format!("{} {slot:?}", body.name()),
+        }
+    }
+
+    /// The texture.
+    pub fn packed(&self) -> PackedTexture {
+        let name = self.name();
+        match self {
+            TextureSource::Room => halves(name, [CUBE, CUBE, 6], &room_cube(CUBE)),
+            TextureSource::Dents(slope) => texture(name, &Relief::hammered(*slope).normals),
+            TextureSource::Table(_, _, table) => texture(name, &reduced(table)),
+        }
+    }
+}
+
 /// The tables of a body as the page holds them.
 pub fn reduced_tables(body: Body) -> Vec<(Slot, Cow<'static, Texels>)> {
-    let reduced = |(slot, table): (Slot, &Texels)| {
-        let [colours, others] = WIDEST;
-        let widest = if is_opaque(table) { colours } else { others };
-        let table = table.reduced(table.size()[0].div_ceil(widest));
-        (slot, Cow::Owned(as_stored(&table)))
-    };
-    body.tables().into_iter().map(reduced).collect()
+    let tables = body.tables().into_iter();
+    tables
+        .map(|(slot, table)| (slot, Cow::Owned(reduced(table))))
+        .collect()
+}
+
+/// A table as the page holds it.
+fn reduced(table: &Texels) -> Texels {
+    let [colours, others] = WIDEST;
+    let widest = if is_opaque(table) { colours } else { others };
+    as_stored(&table.reduced(table.size()[0].div_ceil(widest)))
 }
 
 /// A table with the precision of the page: colours with a shared exponent, others with few bits.

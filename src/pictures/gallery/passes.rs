@@ -10,6 +10,7 @@ use super::orbit::Orbit;
 use super::packed::SKY;
 use crate::generator::emit::{
     self, EffectRequest, EmittedFunction, Naming, effect_function_text, library_functions,
+    validate_wgsl,
 };
 use crate::lab::gpu::Depth;
 use crate::language::methods::Method;
@@ -169,6 +170,9 @@ pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error
                 method,
                 subject: None,
             };
+            if !is_wanted(&request, names) {
+                continue;
+            }
             for emitted in request.functions(&Naming::default())? {
                 if names.contains(&emitted.name) {
                     all.insert(emitted.name.clone(), emitted);
@@ -191,6 +195,17 @@ pub fn texts(names: &BTreeSet<String>) -> Result<Vec<FunctionTexts>, emit::Error
     all.into_iter().map(written).collect()
 }
 
+/// Whether a function of these names may be one of an effect by a method.
+fn is_wanted(request: &EffectRequest, names: &BTreeSet<String>) -> bool {
+    let prefix = &Naming::default().prefix;
+    let method = request.unusual_method().map(|name| format!("_{name}"));
+    let suffix = method.unwrap_or_default();
+    request.effect.functions.iter().any(|function| {
+        let name = format!("{prefix}{}{suffix}", function.name);
+        names.iter().any(|wanted| wanted.starts_with(&name))
+    })
+}
+
 /// The text of the pass that shows the panels.
 const SHOW: &str = include_str!("show.wgsl");
 
@@ -210,9 +225,10 @@ pub struct ShowPrograms {
 /// # Errors
 /// naga refuses it: a bug.
 pub fn programs() -> Result<ShowPrograms, LoweringFault> {
+    let (module, _) = validate_wgsl(SHOW).map_err(LoweringFault)?;
     Ok(ShowPrograms {
         wgsl: SHOW,
-        vertex: lowered(SHOW, "vs_cover", &[], false)?,
-        fragment: lowered(SHOW, "fs_show", &[], false)?,
+        vertex: lowered(&module, "vs_cover", &[], false)?,
+        fragment: lowered(&module, "fs_show", &[], false)?,
     })
 }

@@ -9,7 +9,7 @@ use super::lower::{GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::materials::shown_methods;
 use super::orbit::Orbit;
 use super::passes::{GalleryPass, passes_of};
-use crate::generator::emit::effect_function_text;
+use crate::generator::emit::{effect_function_text, validate_wgsl};
 use crate::generator::reference::MaterialInMedium;
 use crate::generator::request::{Materials, Request, Source};
 use crate::language::effects::Reflectance;
@@ -124,7 +124,8 @@ impl GalleryRow {
             names.push(function.name);
         }
         text = text + FRAME + STAND_IN + row.text;
-        let program = |entry: &str| lowered(&text, entry, &names, true);
+        let (module, _) = validate_wgsl(&text).map_err(LoweringFault)?;
+        let program = |entry: &str| lowered(&module, entry, &names, true);
         let pair = |pass: &GalleryPass| {
             Ok(ProgramPair {
                 vertex: program(pass.vertex)?,
@@ -231,9 +232,9 @@ fn method_calls(
     let exit = text.exit_method().name;
     Ok(MethodCalls {
         method: method.name,
+        wgsl: text.calls(&WGSL_CALLS, &functions),
+        gles: text.calls(&GLES_CALLS, &functions),
         functions: functions.into_iter().map(|one| one.name).collect(),
-        wgsl: text.calls(&WGSL_CALLS)?,
-        gles: text.calls(&GLES_CALLS)?,
         exit: (asks_for_exit && exit != method.name).then_some(exit),
     })
 }

@@ -147,25 +147,33 @@ impl RowText {
         function("interior", self.exit_method(), within, true)
     }
 
-    /// The text of `reflectance` and `transmittance_out` in a language.
-    ///
-    /// # Errors
-    /// A graph breaks a rule: a bug.
-    pub fn calls(&self, syntax: &CallSyntax) -> Result<String, emit::Error> {
+    /// The text of `reflectance` and `transmittance_out` in a language, which call these functions: [`RowText::called_functions`].
+    pub fn calls(&self, syntax: &CallSyntax, called: &[EmittedFunction]) -> String {
         let CallSyntax { scalar, vector, .. } = *syntax;
         if self.row.film.is_some() {
-            return self.film_call(syntax);
+            return self.film_call(syntax, &called[0]);
         }
+        let of = |effect: &str, asked: Reflectance| {
+            let is_it = |one: &&EmittedFunction| {
+                let part = one
+                    .effect
+                    .map(|part| (part.effect.name, part.function.reflectance));
+                part == Some((effect, asked))
+            };
+            called.iter().find(is_it).expect("it is one that is called")
+        };
+        let each = Reflectance::EachChannel;
         let rays = [("incident", vector), ("normal", vector)];
         let head = syntax.head("reflectance", &rays, vector);
-        let call = self.call(syntax, "interface", &rays)?;
+        let call = self.call(syntax, of("interface", each), &rays);
         let method = self.method.name;
         let mut text = format!("\n// R by {method}\n{head} {{\n    return {call};\n}}\n");
         if self.leaves_a_body() {
             let rays = [("direction", vector), ("normal_out", vector)];
             let takes = [rays.as_slice(), &[("eta", scalar)]].concat();
             let head = syntax.head("transmittance_out", &takes, scalar);
-            let (name, method) = (self.exit_function()?.name, self.exit_method().name);
+            let name = &of("interior", Reflectance::FromWithin).name;
+            let method = self.exit_method().name;
             text += &format!(
                 "\n// T where light leaves, by {method}\n{head} {{\n    return {name}(direction, normal_out, eta);\n}}\n"
             );
@@ -174,14 +182,14 @@ impl RowText {
             let takes = ["n_dot_v", "n_dot_l", "n_dot_h", "v_dot_h", "alpha"];
             let takes = takes.map(|name| (name, scalar));
             let head = syntax.head("specular", &takes, vector);
-            let call = self.call(syntax, "ggx_specular", &takes)?;
+            let call = self.call(syntax, of("ggx_specular", each), &takes);
             text += &format!("\n{head} {{\n    return {call};\n}}\n");
         }
-        Ok(text)
+        text
     }
 
     /// The text of `film_reflectance`: the method's library function with the pixel's cosine and thickness.
-    fn film_call(&self, syntax: &CallSyntax) -> Result<String, emit::Error> {
+    fn film_call(&self, syntax: &CallSyntax, function: &EmittedFunction) -> String {
         let scalar = syntax.scalar;
         let takes = [("cos_theta", scalar), ("thickness_nm", scalar)];
         let head = syntax.head("film_reflectance", &takes, syntax.vector);
@@ -191,12 +199,12 @@ impl RowText {
         };
         let inputs = self.method.inputs.iter().enumerate().map(input);
         let arguments: Vec<String> = ["cos_theta".to_owned()].into_iter().chain(inputs).collect();
-        let function = &self.called_functions()?[0].name;
-        Ok(format!(
-            "\n// R by {}\n{head} {{\n    return {function}({});\n}}\n",
+        format!(
+            "\n// R by {}\n{head} {{\n    return {}({});\n}}\n",
             self.method.name,
+            function.name,
             arguments.join(", ")
-        ))
+        )
     }
 
     /// The call of an effect's function that needs R: its own arguments, then the method's inputs. Where it returns one value, that
@@ -204,19 +212,18 @@ impl RowText {
     fn call(
         &self,
         syntax: &CallSyntax,
-        effect: &str,
+        function: &EmittedFunction,
         own: &[(&str, &str)],
-    ) -> Result<String, emit::Error> {
-        let function = self.surface_function(effect)?;
+    ) -> String {
         let own = own.iter().map(|(name, _)| (*name).to_owned());
         let places = self.method.inputs.iter().enumerate();
         let inputs = places.map(|(place, input)| self.argument(syntax.frame, place, input));
         let arguments: Vec<String> = own.chain(inputs).collect();
         let call = format!("{}({})", function.name, arguments.join(", "));
-        Ok(match function.function.ty() {
+        match function.function.ty() {
             Ty::Scalar => format!("{}({call})", syntax.vector),
             _ => call,
-        })
+        }
     }
 
     /// Where a call reads an input: in the frame's block, with green's value where one R serves all channels. A row of the effect
@@ -240,9 +247,10 @@ impl RowText {
     /// A function cannot be written: a bug.
     pub fn module(&self) -> Result<String, emit::Error> {
         let mut functions = self.common_functions()?;
-        for called in self.called_functions()? {
+        let called = self.called_functions()?;
+        for called in &called {
             if functions.iter().all(|other| other.name != called.name) {
-                functions.push(called);
+                functions.push(called.clone());
             }
         }
         let wgsl = targets::find("wgsl").expect("a target");
@@ -250,7 +258,7 @@ impl RowText {
         for function in &functions {
             text += &effect_function_text(wgsl, function)?;
         }
-        Ok(text + FRAME + &self.calls(&WGSL_CALLS)? + self.row.text)
+        Ok(text + FRAME + &self.calls(&WGSL_CALLS, &called) + self.row.text)
     }
 
     /// The values of the method's inputs, in the layout of the block.
