@@ -138,7 +138,12 @@ impl ThesisMaterial<'_> {
 
     /// Rows without figures in the thesis: the best axis, and the smallest tables.
     fn searched(&self, best: TableAxis, coarse: &ThesisMeasure) -> [ComparisonRow; 4] {
-        let size = |axis: TableAxis| self.smallest(axis, coarse);
+        let sizes = TableAxis::ALL.map(|axis| (axis, self.smallest(axis, coarse)));
+        let size = |axis: TableAxis| {
+            let mut all = sizes.iter();
+            all.find(|(own, _)| *own == axis)
+                .and_then(|(_, size)| *size)
+        };
         let fewest = least(TableAxis::ALL, |axis| {
             size(*axis).unwrap_or(usize::MAX) as f64
         });

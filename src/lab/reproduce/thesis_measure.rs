@@ -32,10 +32,10 @@ pub fn thesis_errors(
         let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
             .map(|i| cosine_of_part(2 * i + 1, 2 * angles))
             .collect();
-        let want: Vec<[f64; 3]> = cosines
-            .iter()
-            .map(|c| each_channel(|i| optics::conductor(n[i], k[i], *c).unpolarised()))
-            .collect();
+        let want = each_channel(|i| {
+            let law = cosines.iter().map(|c| optics::unpolarised(n[i], k[i], *c));
+            law.collect::<Vec<f64>>()
+        });
         let points = cosines.len();
         let arguments = [Value::each(cosines)];
         for (function, sums) in functions.iter().zip(&mut sums) {
@@ -48,11 +48,11 @@ pub fn thesis_errors(
 }
 
 /// Adds the relative differences, point by point.
-fn add_differences(got: &Value<f64>, want: &[[f64; 3]], sums: &mut [f64; 3]) {
+fn add_differences(got: &Value<f64>, want: &[Vec<f64>; 3], sums: &mut [f64; 3]) {
     for (i, sum) in sums.iter_mut().enumerate() {
         let got = got.channel(i);
-        for (point, want) in want.iter().enumerate() {
-            *sum += (got.at(point) - want[i]).abs() / want[i];
+        for (point, want) in want[i].iter().enumerate() {
+            *sum += (got.at(point) - want).abs() / want;
         }
     }
 }
