@@ -80,7 +80,7 @@ function program_text(row, calls, part) {
 const row = () => named(data.rows, $("effect").value);
 const is_transparent = one => one.transparent;
 const own_index = one => data.own.findIndex(own => own.transparent === is_transparent(one));
-const calls_of = (one, method) => one.calls.find(calls => calls.method === method);
+const calls_of = (one, method) => one.calls.map(index => data.calls[index]).find(calls => calls.method === method);
 const grid_value = ([first, step], place) => first + step * place;
 
 function material() {
@@ -278,7 +278,7 @@ function fill_row() {
 function fill_methods(wish) {
   const one = row(), has = method => !!inputs_of(one, method);
   const chosen = has(wish) ? wish : one.exact;
-  fill($("method"), one.calls.map(({ method }) => ({ value: method, text: method + (has(method) ? "" : " (not for this body)"), disabled: !has(method) })), chosen);
+  fill($("method"), one.calls.map(index => data.calls[index].method).map(method => ({ value: method, text: method + (has(method) ? "" : " (not for this body)"), disabled: !has(method) })), chosen);
 }
 
 // The sliders of the index go to where the material has it.

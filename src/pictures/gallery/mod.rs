@@ -34,13 +34,15 @@ use passes::ShowPrograms;
 pub use listed::ListedMaterials;
 pub use packed::{CUBE, as_stored, reduced_tables};
 pub use passes::FunctionTexts;
-pub use row::{GalleryRow, films, is_shown, methods_of, own_subject, rows};
+pub use row::{GalleryRow, MethodCalls, films, is_shown, methods_of, own_subject, rows};
 
 /// The data of the page.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
     /// The rows.
     pub rows: Vec<GalleryRow>,
+    /// The calls of methods, which many rows share.
+    pub calls: Vec<MethodCalls>,
     /// Methods with their costs.
     pub methods: Vec<MethodNumbers>,
     /// Materials, with the values of each method's inputs and its errors.
@@ -93,7 +95,7 @@ pub fn gallery(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Gallery, LoweringFault> {
     let data = intended_data(materials::shown_methods(), subjects, space, progress);
-    let (mut orbits, mut played) = (Vec::new(), Vec::new());
+    let (mut orbits, mut calls, mut played) = (Vec::new(), Vec::new(), Vec::new());
     let mut textures = BTreeMap::from([(SKY.to_owned(), packed::sky_texture())]);
     let mut meshes = BTreeMap::new();
     for row in row::rows() {
@@ -111,9 +113,13 @@ pub fn gallery(
             let water = || PackedMesh::water(row.body);
             meshes.entry((row.body.name(), true)).or_insert_with(water);
         }
-        played.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
+        let shared = (&mut orbits, &mut calls);
+        played.push(GalleryRow::new(row, subjects, images, shared)?);
     }
-    let all = played.iter().flat_map(GalleryRow::function_names);
+    let called = calls.iter().flat_map(|calls| &calls.functions);
+    let all = called
+        .chain(played.iter().flat_map(|row| &row.functions))
+        .cloned();
     let copied = passes::COPIED.map(|name| format!("{}{name}", emit::Naming::default().prefix));
     let functions = passes::texts(&all.chain(copied).collect())?;
     let costs = data.costs.iter();
@@ -143,6 +149,7 @@ pub fn gallery(
         samples: scene::SAMPLES,
         margin: MARGIN,
         rows: played,
+        calls,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The rows of the gallery: their passes, their texts, and the calls of each method. They are the rows of pictures and a rough
 //! ball, whose truth no tracer here computes.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use serde::Serialize;
 
@@ -49,8 +49,8 @@ pub struct GalleryRow {
     pub functions: Vec<String>,
     /// The row's own text in WGSL.
     pub text: &'static str,
-    /// Each method's calls.
-    pub calls: Vec<MethodCalls>,
+    /// The indices of each method's calls.
+    pub calls: Vec<usize>,
     /// Programs for WebGL 2, by pass.
     pub programs: Vec<ProgramPair>,
     /// The index of its orbit.
@@ -66,7 +66,7 @@ pub struct GalleryRow {
 }
 
 /// What a method adds to a row.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodCalls {
     /// The method.
     pub method: &'static str,
@@ -100,14 +100,15 @@ pub fn methods_of(row: &'static RenderRow) -> Vec<&'static Method> {
 }
 
 impl GalleryRow {
-    /// A row with its texts. A new orbit is appended to `orbits`.
+    /// A row with its texts. A new orbit is appended to `orbits`, new calls to `calls`.
     ///
     /// # Errors
     /// A text cannot be written or translated: a bug.
     pub fn new(
         row: &'static RenderRow,
         subjects: &[MaterialInMedium],
-        (orbits, images): (&mut Vec<Orbit>, BTreeMap<String, String>),
+        images: BTreeMap<String, String>,
+        (orbits, calls): (&mut Vec<Orbit>, &mut Vec<MethodCalls>),
     ) -> Result<GalleryRow, LoweringFault> {
         let orbit = Orbit::of(row, orbits);
         let passes = passes_of(row, &orbits[orbit]);
@@ -133,8 +134,15 @@ impl GalleryRow {
             })
         };
         let programs: Result<Vec<ProgramPair>, LoweringFault> = passes.iter().map(pair).collect();
-        let methods = methods_of(row).into_iter();
-        let calls = methods.map(|method| method_calls(row, method));
+        let mut own_calls = Vec::new();
+        for method in methods_of(row) {
+            let new = method_calls(row, method)?;
+            let found = calls.iter().position(|known| *known == new);
+            own_calls.push(found.unwrap_or(calls.len()));
+            if found.is_none() {
+                calls.push(new);
+            }
+        }
         Ok(GalleryRow {
             name: row.name,
             summary: row.summary,
@@ -165,16 +173,10 @@ impl GalleryRow {
             exposure: if row.receiver.is_some() { -2.0 } else { 0.0 },
             functions,
             text: row.text,
-            calls: calls.collect::<Result<_, _>>()?,
+            calls: own_calls,
             orbit,
             images,
         })
-    }
-
-    /// The names of all functions that it may call.
-    pub fn function_names(&self) -> BTreeSet<String> {
-        let called = self.calls.iter().flat_map(|calls| &calls.functions);
-        called.chain(&self.functions).cloned().collect()
     }
 }
 

@@ -7,7 +7,7 @@ use super::subjects;
 use fresnel_gen::generator::emit::validate_wgsl;
 use fresnel_gen::physics::spectra::Space;
 use fresnel_gen::pictures::gallery::{
-    FunctionTexts, Gallery, GalleryRow, gallery, methods_of, rows,
+    FunctionTexts, Gallery, GalleryRow, MethodCalls, gallery, methods_of, rows,
 };
 use fresnel_gen::pictures::scene::{FRAME, RowText, WGSL_CALLS};
 
@@ -16,11 +16,7 @@ fn made() -> Gallery {
 }
 
 /// The WGSL module of a row with a method, as the page puts it together.
-fn module(row: &GalleryRow, method: &str, texts: &BTreeMap<String, String>) -> String {
-    let mut calls = row.calls.iter();
-    let calls = calls
-        .find(|calls| calls.method == method)
-        .expect("a method of the row");
+fn module(row: &GalleryRow, calls: &MethodCalls, texts: &BTreeMap<String, String>) -> String {
     let called = calls
         .functions
         .iter()
@@ -34,13 +30,9 @@ fn module(row: &GalleryRow, method: &str, texts: &BTreeMap<String, String>) -> S
 fn fragment(
     row: &GalleryRow,
     pass: usize,
-    method: &str,
+    calls: &MethodCalls,
     texts: &BTreeMap<String, String>,
 ) -> String {
-    let mut calls = row.calls.iter();
-    let calls = calls
-        .find(|calls| calls.method == method)
-        .expect("a method of the row");
     let part = &row.programs[pass].fragment;
     let mut names: Vec<&String> = part.functions.iter().collect();
     if part.calls {
@@ -74,14 +66,16 @@ fn functions_stand_in_programs_byte_for_byte() {
     let (mut programs, mut found) = (0, 0);
     for (row, drawn) in gallery.rows.iter().zip(rows()) {
         assert_eq!(row.name, drawn.name);
-        for method in methods_of(drawn) {
+        for (calls, method) in row.calls.iter().zip(methods_of(drawn)) {
+            let calls = &gallery.calls[*calls];
+            assert_eq!(calls.method, method.name);
             let text = RowText { row: drawn, method };
-            let module = module(row, method.name, &wgsl);
+            let module = module(row, calls, &wgsl);
             let faults = validate_wgsl(&module).err();
             assert_eq!(faults, None, "{} by {}", row.name, method.name);
             assert!(module.contains(&text.calls(&WGSL_CALLS, &text.called_functions().unwrap())));
             for pass in 0..row.passes.len() {
-                let fragment = fragment(row, pass, method.name, &gles);
+                let fragment = fragment(row, pass, calls, &gles);
                 for (name, text) in &gles {
                     let head = format!(" {name}(");
                     let is_defined = fragment
