@@ -215,10 +215,10 @@ fn code_errors_of_films_are_what_methods_promise() {
     let all = [films("sample"), films("outside")].concat();
     let mut faults = Vec::new();
     for method in methods::ALL {
-        if !method.class.is_of_films() {
+        let promised = method.claims.code_abs;
+        if !method.class.is_of_films() || promised == 0.0 {
             continue;
         }
-        let promised = method.claims.code_abs;
         let function = method.function(false).unwrap();
         let mut most = 0.0_f64;
         for subject in all.iter().filter(|subject| subject.is_described_by(method)) {
