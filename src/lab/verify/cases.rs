@@ -79,7 +79,7 @@ pub fn material_trial(subject: &MaterialInMedium, emitted: &EmittedFunction) -> 
 
 pub fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &EmittedFunction) -> TrialCase<'a> {
     let bound = match &emitted.code {
-        _ if emitted.method.claims.code_abs > 0.0 => Measured::No(NARROW.to_owned()),
+        _ if is_narrow(emitted.method, subject) => Measured::No(NARROW.to_owned()),
         Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
         Measured::No(why) => Measured::No(why.clone()),
     };
@@ -114,7 +114,7 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &EmittedFunction) -> Tria
             emitted,
             single.collect(),
             table,
-            if emitted.method.claims.code_abs > 0.0 && subject.has_films() {
+            if is_narrow(emitted.method, subject) {
                 Measured::No(NARROW.to_owned())
             } else {
                 promised_for(emitted, &subject.effective.channels)
@@ -123,6 +123,11 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &EmittedFunction) -> Tria
         limits: limits_of(&subject.effective.channels),
         reference: (emitted.form == FunctionForm::Library).then_some(reference),
     }
+}
+
+/// Whether the fringes of a film are narrower than a cosine's rounding near grazing.
+fn is_narrow(method: &Method, subject: &MaterialInMedium) -> bool {
+    method.claims.code_abs > 0.0 && subject.has_films()
 }
 
 /// Why no bound is held at every cosine.
@@ -184,9 +189,10 @@ fn trial(
     bound: Measured<f64>,
 ) -> Trial {
     // A function that reads a texture is as exact as its sampler, which the trial allows for. What coefficients promise is
-    // absolute.
-    let is_absolute = emitted.form.coefficient().is_some() || emitted.method.claims.code_abs > 0.0;
-    let has_no_ulp = emitted.method.is_textured() || is_absolute;
+    // absolute, and so are some methods' promises in single precision: `floor` has them.
+    let is_absolute = emitted.method.claims.code_abs > 0.0 && !emitted.precision.is_half();
+    let is_coefficient = emitted.form.coefficient().is_some();
+    let has_no_ulp = emitted.method.is_textured() || is_coefficient || is_absolute;
     let bound = match bound {
         Measured::Yes(_) if has_no_ulp => Measured::Yes(0.0),
         Measured::No(_) if emitted.method.is_textured() => Measured::Yes(0.0),
