@@ -46,6 +46,7 @@ mod plan;
 mod published_costs;
 mod raster;
 mod readme;
+mod recorded_errors;
 mod records;
 mod release;
 mod reproduce;

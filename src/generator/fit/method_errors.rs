@@ -94,6 +94,17 @@ impl MethodErrors {
         }
     }
 
+    /// The same in six digits, as they are recorded.
+    pub fn in_six_digits(self) -> MethodErrors {
+        let digits = |error: f64| format!("{error:.5e}").parse().expect("it is a number");
+        MethodErrors {
+            max_abs: self.max_abs.map(digits),
+            mean_rel: self.mean_rel.map(digits),
+            luminance: self.luminance.map(digits),
+            de2000: self.de2000.map(digits),
+        }
+    }
+
     /// The errors of many materials combined, each measure by the same statistic. A measure is none where it is unknown for one
     /// of them.
     pub fn together(all: &[MethodErrors], statistic: &dyn Fn(&[f64]) -> f64) -> MethodErrors {

@@ -4,11 +4,15 @@
 //! The axes of cost are compilers' counts of library functions, the graph's own operations, and times. A logarithmic axis has no
 //! 0, so a function that costs nothing has no point there.
 
+use std::cell::LazyCell;
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::audited::ChartedFunction;
+use super::recorded::{RecordedErrors, fingerprint, mark, recorded};
 use super::sets::sets;
 use super::view::{ChartData, ChartEntry, CostAxis, FunctionOrigin};
+use crate::generator::emit;
 use crate::generator::fit::{InputChoice, MaterialTruth, MethodErrors};
 use crate::generator::reference::MaterialInMedium;
 use crate::lab::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
@@ -105,35 +109,102 @@ fn errors(
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Vec<Vec<MethodErrors>> {
-    let function = |entry: &ChartEntry| entry.method().map(library);
-    let functions: Vec<Option<Checked>> = entries.iter().map(function).collect();
-    let one = |i: usize| entry_errors(entries, &functions, &materials[i], space);
+    let (measured, known) = (measured(entries), recorded());
+    let one = |i: usize| {
+        let rows = errors_of(&measured, &materials[i], space, &known);
+        let mut errors = vec![MethodErrors::default(); entries.len()];
+        for (at, _, own) in rows {
+            errors[at] = own;
+        }
+        errors
+    };
     in_parallel(materials.len(), &one, &mut |done, whole| {
         progress(done, whole, "materials");
     })
 }
 
-/// The errors of all entries for a material. Unknown for methods that do not describe it.
-fn entry_errors(
-    entries: &[ChartEntry],
-    functions: &[Option<Checked>],
+/// The rows of `data/records/errors.csv`, without a look into it.
+pub fn error_rows(materials: &[MaterialInMedium], space: Space) -> Vec<RecordedErrors> {
+    let (entries, nothing) = (entries(), HashMap::new());
+    let measured = measured(&entries);
+    let one = |i: usize| {
+        let rows = errors_of(&measured, &materials[i], space, &nothing).into_iter();
+        let row = |(at, fingerprint, errors): (usize, String, MethodErrors)| RecordedErrors {
+            material: materials[i].label().to_owned(),
+            method: entries[at].name().to_owned(),
+            inputs: choice(&entries[at]).to_owned(),
+            fingerprint,
+            max_abs: errors.max_abs,
+            mean_rel: errors.mean_rel,
+            luminance: errors.luminance,
+            de2000: errors.de2000,
+        };
+        rows.map(row).collect::<Vec<_>>()
+    };
+    let all = in_parallel(materials.len(), &one, &mut |_, _| {});
+    all.into_iter().flatten().collect()
+}
+
+/// An entry whose errors are measured here.
+struct MeasuredEntry<'a> {
+    /// Its place among the entries.
+    at: usize,
+    entry: &'a ChartEntry,
+    method: &'static Method,
+    function: Checked,
+    /// The function's fingerprint.
+    mark: String,
+}
+
+fn measured(entries: &[ChartEntry]) -> Vec<MeasuredEntry<'_>> {
+    let mut all = Vec::new();
+    for (at, entry) in entries.iter().enumerate() {
+        let Some(method) = entry.method() else {
+            continue;
+        };
+        let function = library(method);
+        all.push(MeasuredEntry {
+            at,
+            entry,
+            method,
+            mark: emit::fingerprint(&function),
+            function,
+        });
+    }
+    all
+}
+
+/// With which inputs an entry is measured.
+fn choice(entry: &ChartEntry) -> &'static str {
+    if entry.is_best { "best" } else { "intended" }
+}
+
+/// The errors of each entry that describes a material, with its place and its fingerprint: as recorded, or found now.
+fn errors_of(
+    entries: &[MeasuredEntry],
     material: &MaterialInMedium,
     space: Space,
-) -> Vec<MethodErrors> {
-    let truth = MaterialTruth::new(material, space);
-    let one = |(entry, function): (&ChartEntry, &Option<Checked>)| match (entry.method(), function)
-    {
-        (Some(method), Some(function)) if material.is_described_by(method) => {
-            let inputs = if entry.is_best {
+    known: &HashMap<String, MethodErrors>,
+) -> Vec<(usize, String, MethodErrors)> {
+    let truth = LazyCell::new(|| MaterialTruth::new(material, space));
+    let of_material = mark(material, space);
+    let mut rows = Vec::new();
+    for one in entries {
+        if !material.is_described_by(one.method) {
+            continue;
+        }
+        let fingerprint = fingerprint(&one.mark, choice(one.entry), &of_material);
+        let errors = known.get(&fingerprint).copied().unwrap_or_else(|| {
+            let inputs = if one.entry.is_best {
                 InputChoice::Best
             } else {
                 InputChoice::Intended
             };
-            MethodErrors::new((method, function), inputs, &truth)
-        }
-        _ => MethodErrors::default(),
-    };
-    entries.iter().zip(functions).map(one).collect()
+            MethodErrors::new((one.method, &one.function), inputs, &truth).in_six_digits()
+        });
+        rows.push((one.at, fingerprint, errors));
+    }
+    rows
 }
 
 /// An axis for each family with recorded costs, and one of times.

@@ -3,11 +3,13 @@
 
 mod audited;
 mod data;
+mod recorded;
 mod sets;
 mod view;
 
 pub use audited::charted_function;
-pub use data::{chart_data, cost_names, intended_data};
+pub use data::{chart_data, cost_names, error_rows, intended_data};
+pub use recorded::RecordedErrors;
 pub use sets::{STATISTICS, set_name};
 pub use view::{
     ChartData, ChartEntry, ChartPoint, ChartView, CostAxis, ERRORS, ErrorAxis, FunctionOrigin,
