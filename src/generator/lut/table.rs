@@ -98,7 +98,12 @@ impl Stored {
 
     /// The filtered lookup at a cosine, scale included. A NaN is looked up at 0.
     pub fn lookup(&self, weights: Weights, cos_theta: f32) -> [f32; 3] {
-        let sampled = self.sample(weights, self.coordinate(cos_theta));
+        self.scaled_sample(weights, self.coordinate(cos_theta))
+    }
+
+    /// The filtered lookup at u, scale included.
+    pub fn scaled_sample(&self, weights: Weights, u: f32) -> [f32; 3] {
+        let sampled = self.sample(weights, u);
         each_channel(|i| sampled[i] * self.scale)
     }
 

@@ -14,6 +14,8 @@
 //! A surface has two sides: a normal that points away from the visible side is flipped. An interpolated normal may still point
 //! away from the camera at the silhouette. Its cosine is 0 there, as shaders clamp it.
 
+use std::cell::Cell;
+
 use glam::DVec3;
 
 use super::camera::Camera;
@@ -112,6 +114,12 @@ struct Seen {
     weights: [f64; 3],
     normal: DVec3,
     cos_theta: f64,
+}
+
+impl Drop for Drawn<'_> {
+    fn drop(&mut self) {
+        SPARE.set(std::mem::take(&mut self.depth));
+    }
 }
 
 impl Drawn<'_> {
@@ -241,7 +249,13 @@ fn range([a, b, c]: [&Corner; 3], axis: usize) -> std::ops::Range<usize> {
     from as usize..to as usize
 }
 
+thread_local! {
+    /// The buffer of a thread's last frame: fresh memory costs more than clearing what is there.
+    static SPARE: Cell<DepthBuffer> = Cell::default();
+}
+
 /// The nearest triangle so far at every pixel, and 1/z there.
+#[derive(Default)]
 struct DepthBuffer {
     nearest: Vec<f64>,
     names: Vec<u32>,
@@ -250,10 +264,15 @@ struct DepthBuffer {
 impl DepthBuffer {
     fn new([width, height]: [u32; 2]) -> DepthBuffer {
         let pixels = width as usize * height as usize;
-        DepthBuffer {
-            nearest: vec![0.0; pixels],
-            names: vec![NONE; pixels],
-        }
+        let DepthBuffer {
+            mut nearest,
+            mut names,
+        } = SPARE.take();
+        nearest.clear();
+        nearest.resize(pixels, 0.0);
+        names.clear();
+        names.resize(pixels, NONE);
+        DepthBuffer { nearest, names }
     }
 
     fn enter(

@@ -96,10 +96,18 @@ impl ThesisMeasure {
         ThesisMeasure(some.map(at).collect())
     }
 
-    /// The sum of relative differences over angles and channels.
-    fn sum(&self, stored: &Stored) -> f64 {
-        let differences = self.0.iter().map(|(cos_theta, want)| {
-            let got = stored.lookup(Weights::Steps256, *cos_theta as f32);
+    /// The coordinates of the angles in a table.
+    fn coordinates(&self, stored: &Stored) -> Vec<f32> {
+        let angles = self.0.iter();
+        angles
+            .map(|(cos_theta, _)| stored.coordinate(*cos_theta as f32))
+            .collect()
+    }
+
+    /// The sum of relative differences over angles and channels, with the angles' coordinates in the table.
+    fn sum(&self, stored: &Stored, coordinates: &[f32]) -> f64 {
+        let differences = self.0.iter().zip(coordinates).map(|((_, want), u)| {
+            let got = stored.scaled_sample(Weights::Steps256, *u);
             let relative = |i: usize| (f64::from(got[i]) - want[i]).abs() / want[i];
             (0..3).map(relative).sum::<f64>()
         });
@@ -108,7 +116,7 @@ impl ThesisMeasure {
 
     /// The mean relative difference of a lookup, in per cent.
     pub fn error(&self, stored: &Stored) -> f64 {
-        percent(self.sum(stored), self.0.len())
+        percent(self.sum(stored, &self.coordinates(stored)), self.0.len())
     }
 }
 
@@ -116,7 +124,7 @@ fn percent(sum: f64, angles: usize) -> f64 {
     100.0 * sum / (3 * angles) as f64
 }
 
-/// The thesis's measure of several tables of one reference, in per cent: mean relative difference of the lookup at `angles`
+/// The thesis's measure of several tables of one reference and one size, in per cent: mean relative difference of the lookup at `angles`
 /// angles, uniform in angle, over three channels. `progress` receives how many angles are done.
 pub fn thesis_table_errors(
     reference: &ReferenceCurve,
@@ -127,8 +135,15 @@ pub fn thesis_table_errors(
     let mut sums = vec![0.0; tables.len()];
     for start in (0..angles).step_by(CHUNK) {
         let part = ThesisMeasure::part(reference, start..(start + CHUNK).min(angles), angles);
+        // Tables of one axis stand beside each other, and share coordinates.
+        let mut axis = None;
+        let mut coordinates = Vec::new();
         for (sum, stored) in sums.iter_mut().zip(tables) {
-            *sum += part.sum(stored);
+            if axis != Some(stored.axis) {
+                axis = Some(stored.axis);
+                coordinates = part.coordinates(stored);
+            }
+            *sum += part.sum(stored, &coordinates);
         }
         progress(part.0.len());
     }
