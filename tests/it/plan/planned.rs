@@ -56,12 +56,12 @@ const CASES: [Case; 8] = [
     },
     Case {
         scene: "bk7",
-        chosen: "fitted",
+        chosen: "fitted_dielectric_tinted",
         errors: [(37.0, 0.5), (1.59, 0.005), (1.78, 0.005), (0.39, 0.005)],
     },
     Case {
         scene: "water_grazing",
-        chosen: "fitted",
+        chosen: "fitted_dielectric_tinted",
         errors: [(55.0, 0.5), (2.54, 0.005), (2.60, 0.005), (0.24, 0.005)],
     },
     Case {

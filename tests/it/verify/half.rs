@@ -9,6 +9,8 @@ use fresnel_gen::lab::verify::{halves, halves_beyond};
 /// How far a device may be from the emulation: it may fuse, divide in two steps, and take numbers below the smallest
 /// normal one for 0.
 const NEAR: f64 = 0.002;
+/// A method whose numbers of up to 70 cancel, and how far a device may be there. It promises .0045.
+const CANCELS: (&str, f64) = ("fitted_f82_metal", 0.0035);
 
 #[test]
 fn it_passes_on_every_target_and_comes_near_the_emulation() {
@@ -29,7 +31,12 @@ fn it_passes_on_every_target_and_comes_near_the_emulation() {
             assert_eq!(row["points"], points, "{row}");
             let is_single = row["emulation"]["device_computes_in"] == "f32";
             let apart = row["emulation"]["max_abs"].as_f64().unwrap();
-            assert!(is_single || apart < NEAR, "{row}");
+            let near = if row["method"] == CANCELS.0 {
+                CANCELS.1
+            } else {
+                NEAR
+            };
+            assert!(is_single || apart < near, "{row}");
         }
     }
 }
