@@ -21,7 +21,7 @@ fn cost(record: &CostRecord, written: &'static Method, form: FunctionForm) -> f6
     let id = FunctionId::library(written, form, Precision::F32);
     record
         .of(&id)
-        .expect("tests/costs measures every form")
+        .expect("no cost is recorded of a form: run tests/costs")
         .cost()
 }
 
@@ -97,7 +97,7 @@ fn every_form_is_of_use() {
         for variant in method.variants {
             assert!(
                 used.contains(variant.variant),
-                "{} as {}",
+                "{} as {}: no GPU of data/records/variants.csv gets it; run tests/costs, or remove the form",
                 method.name,
                 variant.variant
             );

@@ -12,6 +12,7 @@
 //! 9. a step that is used twice has a name, unless it is a comparison, or only names a constant or an argument.
 
 use std::collections::BTreeSet;
+use std::fmt;
 use std::ops::Deref;
 
 use super::graph::{Function, Node, NodeId};
@@ -29,11 +30,11 @@ pub const RULES: [&str; 9] = [
     "names are unique",
     "no argument is a comparison's answer, the result is one number or three",
     "every node is needed",
-    "a shared step has a name",
+    "a shared step has a name, which `.named(...)` gives it (`squared` uses its step twice)",
 ];
 
 /// A broken rule.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[error("function `{function}`, {place}: rule {rule} ({}) is broken: {what}", RULES[*rule - 1])]
 pub struct BrokenRule {
     /// The function.
@@ -44,6 +45,13 @@ pub struct BrokenRule {
     pub rule: usize,
     /// What was found.
     pub what: String,
+}
+
+/// As people read it: tests unwrap it.
+impl fmt::Debug for BrokenRule {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{self}")
+    }
 }
 
 /// A function that passed [`check`].
