@@ -165,12 +165,16 @@ fn least(steps: usize, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     }
 }
 
-/// The largest difference between an index's curve and this one, or the first above the limit.
+/// The largest difference between an index's curve and this one, or one above the limit. Eight points at a time have no branch
+/// between them, so that a compiler takes several at once.
 fn distance(index: Index, curve: &[(f64, f64)], limit: f64) -> f64 {
     let mut largest: f64 = 0.0;
-    for (cos_theta, reflectance) in curve {
-        let law = optics::conductor(index.n, index.k, *cos_theta).unpolarised();
-        largest = largest.max((law - reflectance).abs());
+    for points in curve.chunks(8) {
+        let mut differences = [0.0; 8];
+        for (difference, (cos_theta, reflectance)) in differences.iter_mut().zip(points) {
+            *difference = (optics::unpolarised(index.n, index.k, *cos_theta) - reflectance).abs();
+        }
+        largest = differences.into_iter().fold(largest, f64::max);
         if largest > limit {
             break;
         }
