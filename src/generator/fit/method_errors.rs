@@ -32,6 +32,16 @@ pub enum InputChoice {
     Best,
 }
 
+impl InputChoice {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            InputChoice::Intended => "intended",
+            InputChoice::Best => "best",
+        }
+    }
+}
+
 const BUILT: &str = "a test builds every method";
 
 /// What the methods for a material are held against, computed once for all of them.

@@ -38,7 +38,7 @@ pub(super) struct SeenReference {
 impl SeenReference {
     /// The reference with this reflectance at [`COSINES`].
     pub fn new(table: &[[f64; 3]], space: Space) -> SeenReference {
-        let beside = BesideWhite::of(space);
+        let beside = BesideWhite::of_space(space);
         let wanted = table[..ANGLES].iter().step_by(EVERY);
         let seen = |rgb: &[f64; 3]| (DVec3::from(*rgb), beside.lab(DVec3::from(*rgb)));
         SeenReference {
@@ -78,7 +78,7 @@ struct BesideWhite {
 }
 
 impl BesideWhite {
-    fn of(space: Space) -> BesideWhite {
+    fn of_space(space: Space) -> BesideWhite {
         BesideWhite {
             to_xyz: space.rgb_to_xyz(),
             white: space.white(),
@@ -92,7 +92,7 @@ impl BesideWhite {
 
 /// Three channels as a colour beside the white of their space.
 pub(super) fn lab(rgb: DVec3, space: Space) -> Lab {
-    BesideWhite::of(space).lab(rgb)
+    BesideWhite::of_space(space).lab(rgb)
 }
 
 #[cfg(test)]
@@ -134,7 +134,7 @@ mod tests {
         let shares = Space::Srgb.rgb_to_xyz().row(1);
         let wanted = DVec3::new(0.9, 0.7, 0.4);
         let given = wanted + DVec3::new(0.1, -0.1 * shares.x / shares.y, 0.0);
-        let (mut found, beside) = (Perceived::default(), BesideWhite::of(Space::Srgb));
+        let (mut found, beside) = (Perceived::default(), BesideWhite::of_space(Space::Srgb));
         found.include(given, (wanted, beside.lab(wanted)), &beside);
         assert!(found.luminance < 1e-12 && found.de2000 > 1.0, "{found:?}");
     }

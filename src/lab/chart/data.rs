@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::audited::ChartedFunction;
-use super::recorded::{RecordedErrors, fingerprint, mark, recorded};
+use super::recorded::{RECORDED, RecordedErrors, fingerprint, mark};
 use super::sets::sets;
 use super::view::{ChartData, ChartEntry, CostAxis, FunctionOrigin};
 use crate::generator::emit;
@@ -109,12 +109,12 @@ fn errors(
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Vec<Vec<MethodErrors>> {
-    let (measured, known) = (measured(entries), recorded());
+    let measured = measured(entries);
     let one = |i: usize| {
-        let rows = errors_of(&measured, &materials[i], space, &known);
+        let rows = errors_of(&measured, &materials[i], space, &RECORDED);
         let mut errors = vec![MethodErrors::default(); entries.len()];
-        for (at, _, own) in rows {
-            errors[at] = own;
+        for (one, _, own) in rows {
+            errors[one.at] = own;
         }
         errors
     };
@@ -129,10 +129,10 @@ pub fn error_rows(materials: &[MaterialInMedium], space: Space) -> Vec<RecordedE
     let measured = measured(&entries);
     let one = |i: usize| {
         let rows = errors_of(&measured, &materials[i], space, &nothing).into_iter();
-        let row = |(at, fingerprint, errors): (usize, String, MethodErrors)| RecordedErrors {
+        let row = |(one, fingerprint, errors): EntryErrors| RecordedErrors {
             material: materials[i].label().to_owned(),
-            method: entries[at].name().to_owned(),
-            inputs: choice(&entries[at]).to_owned(),
+            method: one.method.name.to_owned(),
+            inputs: one.inputs.name().to_owned(),
             fingerprint,
             max_abs: errors.max_abs,
             mean_rel: errors.mean_rel,
@@ -146,17 +146,20 @@ pub fn error_rows(materials: &[MaterialInMedium], space: Space) -> Vec<RecordedE
 }
 
 /// An entry whose errors are measured here.
-struct MeasuredEntry<'a> {
+struct MeasuredEntry {
     /// Its place among the entries.
     at: usize,
-    entry: &'a ChartEntry,
+    inputs: InputChoice,
     method: &'static Method,
     function: Checked,
     /// The function's fingerprint.
     mark: String,
 }
 
-fn measured(entries: &[ChartEntry]) -> Vec<MeasuredEntry<'_>> {
+/// An entry's errors, and their fingerprint.
+type EntryErrors<'a> = (&'a MeasuredEntry, String, MethodErrors);
+
+fn measured(entries: &[ChartEntry]) -> Vec<MeasuredEntry> {
     let mut all = Vec::new();
     for (at, entry) in entries.iter().enumerate() {
         let Some(method) = entry.method() else {
@@ -165,7 +168,10 @@ fn measured(entries: &[ChartEntry]) -> Vec<MeasuredEntry<'_>> {
         let function = library(method);
         all.push(MeasuredEntry {
             at,
-            entry,
+            inputs: match entry.is_best {
+                true => InputChoice::Best,
+                false => InputChoice::Intended,
+            },
             method,
             mark: emit::fingerprint(&function),
             function,
@@ -174,18 +180,13 @@ fn measured(entries: &[ChartEntry]) -> Vec<MeasuredEntry<'_>> {
     all
 }
 
-/// With which inputs an entry is measured.
-fn choice(entry: &ChartEntry) -> &'static str {
-    if entry.is_best { "best" } else { "intended" }
-}
-
-/// The errors of each entry that describes a material, with its place and its fingerprint: as recorded, or found now.
-fn errors_of(
-    entries: &[MeasuredEntry],
+/// The errors of each entry that describes a material: as recorded, or found now.
+fn errors_of<'a>(
+    entries: &'a [MeasuredEntry],
     material: &MaterialInMedium,
     space: Space,
     known: &HashMap<String, MethodErrors>,
-) -> Vec<(usize, String, MethodErrors)> {
+) -> Vec<EntryErrors<'a>> {
     let truth = LazyCell::new(|| MaterialTruth::new(material, space));
     let of_material = mark(material, space);
     let mut rows = Vec::new();
@@ -193,16 +194,11 @@ fn errors_of(
         if !material.is_described_by(one.method) {
             continue;
         }
-        let fingerprint = fingerprint(&one.mark, choice(one.entry), &of_material);
+        let fingerprint = fingerprint(&one.mark, one.inputs, &of_material);
         let errors = known.get(&fingerprint).copied().unwrap_or_else(|| {
-            let inputs = if one.entry.is_best {
-                InputChoice::Best
-            } else {
-                InputChoice::Intended
-            };
-            MethodErrors::new((one.method, &one.function), inputs, &truth).in_six_digits()
+            MethodErrors::new((one.method, &one.function), one.inputs, &truth).in_six_digits()
         });
-        rows.push((one.at, fingerprint, errors));
+        rows.push((one, fingerprint, errors));
     }
     rows
 }

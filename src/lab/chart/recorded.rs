@@ -3,10 +3,11 @@
 //! light and its space of colours. Errors without a row are found anew. A test finds all of them anew.
 
 use std::collections::HashMap;
+use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::generator::fit::MethodErrors;
+use crate::generator::fit::{InputChoice, MethodErrors};
 use crate::generator::reference::MaterialInMedium;
 use crate::physics::digest::sha256;
 use crate::physics::materials::Material;
@@ -37,11 +38,11 @@ pub struct RecordedErrors {
 }
 
 /// All that is recorded, by fingerprint.
-pub fn recorded() -> HashMap<String, MethodErrors> {
+pub static RECORDED: LazyLock<HashMap<String, MethodErrors>> = LazyLock::new(|| {
     let all = rows::<RecordedErrors>(RECORD).into_iter();
     all.map(|row| (row.fingerprint.clone(), row.errors()))
         .collect()
-}
+});
 
 impl RecordedErrors {
     fn errors(&self) -> MethodErrors {
@@ -55,7 +56,8 @@ impl RecordedErrors {
 }
 
 /// The fingerprint of errors: of a function, given by its own fingerprint, with these inputs, for a material, given by its mark.
-pub fn fingerprint(function: &str, inputs: &str, material: &str) -> String {
+pub fn fingerprint(function: &str, inputs: InputChoice, material: &str) -> String {
+    let inputs = inputs.name();
     sha256(format!("{function} {inputs} {material}").as_bytes())[..16].to_owned()
 }
 
